@@ -1,0 +1,1 @@
+//! The query database: inputs, queries, and the system they read from.

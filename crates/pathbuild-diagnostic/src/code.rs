@@ -1,0 +1,136 @@
+use std::fmt;
+use std::str::FromStr;
+
+/// How bad a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Severity {
+    /// Nothing is written of the path it is in; the run exits with 1.
+    Error,
+    /// Worth a look; hides and stops nothing.
+    Warning,
+}
+
+macro_rules! codes {
+    ($($number:literal $variant:ident $name:literal $severity:ident $when:literal;)*) => {
+        /// The code of a diagnostic. Codes are stable: a number is never used again for something else. (spec/80-diagnostics.md)
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Code {
+            $(#[doc = $when] $variant,)*
+        }
+
+        impl Code {
+            /// Every code, in order of number.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// The number in `PB203`.
+            pub fn number(self) -> u16 {
+                match self { $(Self::$variant => $number,)* }
+            }
+
+            /// The readable name, such as `parameter-out-of-range`.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// The severity when the configuration says nothing.
+            pub fn severity(self) -> Severity {
+                match self { $(Self::$variant => Severity::$severity,)* }
+            }
+        }
+    };
+}
+
+codes! {
+    1 UnreadableFile "unreadable-file" Error "PB001: cannot be opened or read";
+    2 InvalidDxf "invalid-dxf" Error "PB002: not a DXF file, or broken (with the line)";
+    3 InvalidConfiguration "invalid-configuration" Error "PB003: pathbuild.toml or an option's value is wrong, a regular expression in it included";
+    4 CannotWrite "cannot-write" Error "PB004: with the reason; nothing half written";
+    5 LimitReached "limit-reached" Error "PB005: names the limit's key";
+    6 InternalError "internal-error" Error "PB006: a bug: for that drawing only; says how to report it";
+    7 NoEndOfFile "no-end-of-file" Warning "PB007: no end of file";
+    8 DoubtfulEncoding "doubtful-encoding" Warning "PB008: bytes that the declared code page does not know";
+    101 MissingStart "missing-start" Error "PB101: path without start marker";
+    102 MissingEnd "missing-end" Error "PB102: path without end marker";
+    103 TwoStarts "two-starts" Error "PB103: two starts";
+    104 TwoEnds "two-ends" Error "PB104: two ends";
+    105 UnknownSpecialCircle "unknown-special-circle" Error "PB105: PHANTOM, DOT or DASHDOT circle of another diameter";
+    106 UnknownLineType "unknown-line-type" Error "PB106: unknown line type";
+    107 TextWithoutElement "text-without-element" Error "PB107: text without element";
+    109 CircleTooSmall "circle-too-small" Error "PB109: smaller than the cutter";
+    110 OffPlane "off-plane" Error "PB110: Z not 0";
+    111 UnsupportedCurve "unsupported-curve" Warning "PB111: a curve on a path layer that is left out";
+    112 LayerNotVisible "layer-not-visible" Warning "PB112: path layer frozen or off";
+    113 WrongUnits "wrong-units" Error "PB113: units other than millimetres";
+    114 TurnMarkerWithoutEffect "turn-marker-without-effect" Warning "PB114: turn marker without effect";
+    115 JoinedEnds "joined-ends" Warning "PB115: ends joined within join-tolerance";
+    201 MissingParameter "missing-parameter" Error "PB201: needed, neither given nor inherited";
+    202 UnknownParameter "unknown-parameter" Error "PB202: letter not known for this element";
+    203 ParameterOutOfRange "parameter-out-of-range" Error "PB203: a value against its limits";
+    204 DuplicateParameter "duplicate-parameter" Error "PB204: duplicate parameter";
+    205 NotANumber "not-a-number" Error "PB205: not a number";
+    206 VariableNotAllowed "variable-not-allowed" Error "PB206: a variable in N, O or @";
+    207 MissingPathParameters "missing-path-parameters" Error "PB207: start marker without a text";
+    208 InvalidAtReference "invalid-at-reference" Error "PB208: @ with other letters, to no path, or to a path that uses @";
+    209 InvalidRegex "invalid-regex" Error "PB209: E is no regular expression";
+    210 ParameterWithoutEffect "parameter-without-effect" Warning "PB210: parameter without effect";
+    301 InvalidVariableDefinition "invalid-variable-definition" Error "PB301: invalid variable definition";
+    302 MissingVariableValue "missing-variable-value" Error "PB302: missing variable value";
+    303 UnknownVariable "unknown-variable" Error "PB303: value without definition, or reference to none";
+    304 VariableValueNotAllowed "variable-value-not-allowed" Error "PB304: variable value not allowed";
+    305 EndlessVariable "endless-variable" Error "PB305: endless variable";
+    401 NothingContinues "nothing-continues" Error "PB401: nothing continues";
+    402 UnreachedSegments "unreached-segments" Error "PB402: unreached segments";
+    403 EndNotReached "end-not-reached" Error "PB403: end not reached";
+    404 EmptyPath "empty-path" Error "PB404: empty path";
+    405 HelixTooLarge "helix-too-large" Error "PB405: a helical circle larger than A";
+    406 NoRoomBetweenBars "no-room-between-bars" Error "PB406: the cutter does not fit between two support bars";
+    501 MissingSubpathName "missing-subpath-name" Error "PB501: missing subpath name";
+    502 InvalidPathName "invalid-path-name" Error "PB502: invalid path name";
+    503 PathNotFound "path-not-found" Error "PB503: path not found";
+    504 PathDefinedTwice "path-defined-twice" Error "PB504: path defined twice";
+    505 SubpathSizeDiffers "subpath-size-differs" Error "PB505: subpath size differs";
+    506 SubpathParameterDiffers "subpath-parameter-differs" Error "PB506: T, O or M of segment and path differ";
+    507 SubpathForbidden "subpath-forbidden" Error "PB507: forbidden by E or --restrict";
+    508 NestingTooDeep "nesting-too-deep" Error "PB508: nesting too deep";
+    509 SubpathCycle "subpath-cycle" Error "PB509: subpath cycle";
+    510 PathTBelowSubpathT "path-t-below-subpath-t" Error "PB510: path t below subpath t";
+    511 SubpathHasErrors "subpath-has-errors" Error "PB511: an embedded path has errors of its own";
+    512 SeveralPaths "several-paths" Error "PB512: a file is emitted that holds more than one path and none is named";
+    513 NoPath "no-path" Error "PB513: a file is emitted that holds no path (checking one is no error)";
+    514 SameOutput "same-output" Error "PB514: two outputs would get one name";
+    515 QProjectLacksPath "q-project-lacks-path" Warning "PB515: a Q-project lacks a path of its drawing";
+    516 QProjectDiffers "q-project-differs" Warning "PB516: a subpath text of a Q-project differs from the proxy line";
+    517 ProxyDiffers "proxy-differs" Error "PB517: a proxy line disagrees with its own path";
+    520 StaleOutput "stale-output" Warning "PB520: stale output";
+    601 InvalidProbeLine "invalid-probe-line" Error "PB601: invalid probe line";
+    602 CorrectionTooLarge "correction-too-large" Error "PB602: correction too large";
+    603 UnknownProbe "unknown-probe" Error "PB603: unknown probe";
+    604 InvalidFormula "invalid-formula" Error "PB604: invalid formula";
+    605 ProbeValuesPresent "probe-values-present" Error "PB605: _Z.txt with values would be overwritten";
+    606 OutsideProbes "outside-probes" Warning "PB606: milling outside the hull of the probes";
+    607 OddProbe "odd-probe" Warning "PB607: a probe that does not fit its neighbours";
+}
+
+impl Code {
+    /// Whether the configuration may lower it: errors that stop a program from being right cannot be. (spec/06-configuration.md)
+    pub fn can_be_lowered(self) -> bool {
+        self.severity() == Severity::Warning || self.number() >= 600
+    }
+}
+
+/// Shown as `PB203`.
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PB{:03}", self.number())
+    }
+}
+
+/// Reads `PB203` (any case) or the readable name.
+impl FromStr for Code {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let is_it = |code: &&Self| code.to_string().eq_ignore_ascii_case(text) || code.name() == text;
+        Self::ALL.iter().find(is_it).copied().ok_or(())
+    }
+}

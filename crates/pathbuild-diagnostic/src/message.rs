@@ -1,0 +1,178 @@
+use std::fmt::Write;
+use std::hash::{Hash, Hasher};
+
+use crate::{Code, Number, Point};
+
+/// The languages that pathbuild speaks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Lang {
+    /// English.
+    #[default]
+    En,
+    /// German.
+    De,
+}
+
+/// One sentence in every language, with `{name}` where an argument goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// English.
+    pub en: &'static str,
+    /// German.
+    pub de: &'static str,
+}
+
+impl Text {
+    /// The sentence in one language, its arguments not yet put in.
+    pub fn template(&self, lang: Lang) -> &'static str {
+        match lang {
+            Lang::En => self.en,
+            Lang::De => self.de,
+        }
+    }
+}
+
+/// What can be said under a code. A code has one message for each way in which it happens.
+///
+/// Messages are statics made by the `messages!` macro in [`crate::messages`]; two are equal when they are the same static.
+#[derive(Debug)]
+pub struct Message {
+    /// The code that it is said under. A note's is that of the diagnostics it usually goes with.
+    pub code: Code,
+    /// Unique name, the static's own: stable within a version, for caches and tests.
+    pub key: &'static str,
+    /// What is wrong.
+    pub text: Text,
+    /// What to do about it in the CAD (or in the file). Empty when the message says it.
+    pub help: Text,
+}
+
+impl PartialEq for Message {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl Eq for Message {}
+
+impl Hash for Message {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key.hash(state);
+    }
+}
+
+/// A value in a message.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Value {
+    /// A name or a piece of source text.
+    Text(Box<str>),
+    /// Millimetres, or mm/min.
+    Number(Number),
+    /// A count.
+    Count(u64),
+    /// A place in the drawing.
+    Point(Point),
+    /// Names, shown with commas between.
+    List(Box<[Box<str>]>),
+    /// A word that itself has a translation.
+    Word(&'static Word),
+}
+
+
+/// A word or short phrase in every language.
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub struct Word {
+    /// English.
+    pub en: &'static str,
+    /// German.
+    pub de: &'static str,
+}
+
+impl Value {
+    /// The value as it is put into a message.
+    pub fn render(&self, lang: Lang) -> String {
+        match self {
+            Self::Text(text) => text.to_string(),
+            Self::Number(number) => number.to_string(),
+            Self::Count(count) => count.to_string(),
+            Self::Point(point) => format!("({}, {})", point.x, point.y),
+            Self::List(items) => items.join(", "),
+            Self::Word(word) => match lang {
+                Lang::En => word.en.to_owned(),
+                Lang::De => word.de.to_owned(),
+            },
+        }
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl From<char> for Value {
+    fn from(letter: char) -> Self {
+        Self::Text(letter.to_string().into())
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(Number(number))
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<Point> for Value {
+    fn from(point: Point) -> Self {
+        Self::Point(point)
+    }
+}
+
+impl From<&'static Word> for Value {
+    fn from(word: &'static Word) -> Self {
+        Self::Word(word)
+    }
+}
+
+impl<S: AsRef<str>> FromIterator<S> for Value {
+    fn from_iter<I: IntoIterator<Item = S>>(items: I) -> Self {
+        Self::List(items.into_iter().map(|item| item.as_ref().into()).collect())
+    }
+}
+
+/// Puts arguments into a template. A `{name}` without an argument stays as it is, which tests look for.
+pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: Lang) -> String {
+    let mut filled = String::with_capacity(template.len() + 32);
+    let mut rest = template;
+    while let Some(open) = rest.find('{') {
+        let Some(length) = rest[open..].find('}') else { break };
+        let name = &rest[open + 1..open + length];
+        filled.push_str(&rest[..open]);
+        match arguments.iter().find(|(argument, _)| *argument == name) {
+            Some((_, value)) => filled.push_str(&value.render(lang)),
+            None => _ = write!(filled, "{{{name}}}"),
+        }
+        rest = &rest[open + length + 1..];
+    }
+    filled.push_str(rest);
+    filled
+}

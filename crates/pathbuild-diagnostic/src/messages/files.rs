@@ -1,0 +1,60 @@
+//! Files as such: reading, writing, limits. (PB001 to PB008, PB113)
+
+messages! {
+    /// The system refused to read it.
+    UNREADABLE: UnreadableFile {
+        en: "cannot read the file: {reason}",
+        de: "die Datei ist nicht lesbar: {reason}",
+        help_en: "check the name, and that the CAD has not locked the file",
+        help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
+    }
+    /// A directory where a drawing was expected.
+    IS_DIRECTORY: UnreadableFile {
+        en: "this is a directory, not a drawing",
+        de: "das ist ein Verzeichnis, keine Zeichnung",
+        help_en: "name a drawing in it, or use `pathbuild check` for the whole directory",
+        help_de: "eine Zeichnung darin nennen, oder `pathbuild check` für das ganze Verzeichnis",
+    }
+    /// Nothing in it.
+    EMPTY_FILE: InvalidDxf {
+        en: "the file is empty",
+        de: "die Datei ist leer",
+        help_en: "save the drawing again as DXF",
+        help_de: "die Zeichnung noch einmal als DXF speichern",
+    }
+    /// No DXF structure at all.
+    NOT_DXF: InvalidDxf {
+        en: "this is not a DXF file: {found}",
+        de: "das ist keine DXF-Datei: {found}",
+        help_en: "save the drawing as DXF (ASCII or binary, R10 or later); a DWG file renamed to .dxf is none",
+        help_de: "die Zeichnung als DXF speichern (ASCII oder binär, ab R10); eine in .dxf umbenannte DWG-Datei ist keine",
+    }
+    /// The configured units are not understood.
+    WRONG_UNITS: WrongUnits {
+        en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
+        de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
+        help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" does not believe the header",
+        help_de: "die Einheit in der Zeichnung auf Millimeter stellen, oder `units` in pathbuild.toml: \"drawing\" rechnet um, \"mm\" glaubt dem Kopf nicht",
+    }
+    /// A bug.
+    INTERNAL: InternalError {
+        en: "internal error: {reason}",
+        de: "interner Fehler: {reason}",
+        help_en: "this is a bug in pathbuild; please report it with this drawing and the version that `pathbuild --version` prints",
+        help_de: "das ist ein Fehler in pathbuild; bitte mit dieser Zeichnung und der Ausgabe von `pathbuild --version` melden",
+    }
+    /// A limit of the configuration.
+    LIMIT: LimitReached {
+        en: "{what} exceeds the limit of {limit}",
+        de: "{what} überschreitet die Grenze von {limit}",
+        help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
+    /// Writing failed.
+    CANNOT_WRITE: CannotWrite {
+        en: "cannot write {name}: {reason}",
+        de: "{name} kann nicht geschrieben werden: {reason}",
+        help_en: "nothing was written under that name; check the directory's permissions and free space, and whether another program has the file open",
+        help_de: "unter diesem Namen wurde nichts geschrieben; Rechte und freien Platz des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
+    }
+}

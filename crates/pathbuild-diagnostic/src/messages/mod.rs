@@ -1,0 +1,47 @@
+//! Everything that pathbuild says about a drawing, by subject. A message's two languages and its help stand together, so that one
+//! is not changed without the others.
+
+/// Declares messages: one static each, and the list of a subject's.
+macro_rules! messages {
+    ($($(#[$doc:meta])* $key:ident: $code:ident {
+        en: $en:literal, de: $de:literal $(, help_en: $help_en:literal, help_de: $help_de:literal)? $(,)?
+    })*) => {
+        $($(#[$doc])* pub static $key: crate::Message = crate::Message {
+            code: crate::Code::$code,
+            key: stringify!($key),
+            text: crate::Text { en: $en, de: $de },
+            help: crate::Text { en: concat!($($help_en)?), de: concat!($($help_de)?) },
+        };)*
+
+        /// The messages of this subject.
+        pub(crate) static ALL: &[&crate::Message] = &[$(&$key),*];
+    };
+}
+
+pub mod drawing;
+pub mod files;
+pub mod gcode;
+pub mod outputs;
+pub mod parameters;
+pub mod probes;
+pub mod subpaths;
+pub mod variables;
+pub mod walk;
+
+/// Every message, for tests and for results that come back from a cache.
+pub fn all() -> impl Iterator<Item = &'static crate::Message> {
+    [
+        files::ALL,
+        drawing::ALL,
+        parameters::ALL,
+        variables::ALL,
+        walk::ALL,
+        subpaths::ALL,
+        outputs::ALL,
+        probes::ALL,
+        gcode::ALL,
+    ]
+    .into_iter()
+    .flatten()
+    .copied()
+}

@@ -1,0 +1,61 @@
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+/// A finite or non-finite `f64` that can be compared exactly and hashed, so that values holding it are `Eq`.
+///
+/// Equality is that of the bits, except that -0 equals 0. It is exact on purpose: whether two coordinates of a drawing coincide is
+/// decided by the approximate comparisons of spec/00-overview.md, never by this type.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Number(pub f64);
+
+impl Number {
+    fn bits(self) -> u64 {
+        if self.0 == 0.0 { 0 } else { self.0.to_bits() }
+    }
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        Self(value)
+    }
+}
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.bits() == other.bits()
+    }
+}
+
+impl Eq for Number {}
+
+impl Hash for Number {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.bits().hash(state);
+    }
+}
+
+impl PartialOrd for Number {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Number {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        f64::from_bits(self.bits()).total_cmp(&f64::from_bits(other.bits()))
+    }
+}
+
+/// Shows at most three decimals and no trailing zeros: what a person reads off a drawing. Very small values, which three decimals
+/// would show as 0 (a gap of half a micrometre), are shown with two significant digits instead.
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.0;
+        if value != 0.0 && value.abs() < 0.0005 {
+            return write!(f, "{value:.1e}");
+        }
+        let text = format!("{value:.3}");
+        let text = text.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if text == "-0" { "0" } else { text })
+    }
+}

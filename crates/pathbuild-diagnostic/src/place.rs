@@ -1,0 +1,121 @@
+use std::fmt;
+use std::ops::Range;
+
+use crate::Number;
+
+/// A place in a drawing's plane, in millimetres of the drawing's own coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Point {
+    /// To the right.
+    pub x: Number,
+    /// Upwards.
+    pub y: Number,
+}
+
+impl Point {
+    /// The point (x, y), in millimetres.
+    pub fn new(x: f64, y: f64) -> Self {
+        Self { x: Number(x), y: Number(y) }
+    }
+}
+
+/// A DXF handle: the number that the CAD shows as an entity's identity, written in hexadecimal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Handle(pub u64);
+
+impl fmt::Display for Handle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:X}", self.0)
+    }
+}
+
+/// The index of an element in its file's source map, which knows the element's line and handle.
+///
+/// Elements are counted within one path, so that an edit elsewhere in the drawing, which shifts lines and handles, leaves every
+/// value of later stages as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ElementId(pub u32);
+
+/// The type of a DXF entity, as far as pathbuild names one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the DXF names say it")]
+pub enum EntityKind {
+    Line,
+    Arc,
+    Circle,
+    Text,
+    MText,
+    LwPolyline,
+    Polyline,
+    Ellipse,
+    Spline,
+    Insert,
+    Other,
+}
+
+impl EntityKind {
+    /// The name in DXF files, as a CAD's user knows it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Line => "LINE",
+            Self::Arc => "ARC",
+            Self::Circle => "CIRCLE",
+            Self::Text => "TEXT",
+            Self::MText => "MTEXT",
+            Self::LwPolyline => "LWPOLYLINE",
+            Self::Polyline => "POLYLINE",
+            Self::Ellipse => "ELLIPSE",
+            Self::Spline => "SPLINE",
+            Self::Insert => "INSERT",
+            Self::Other => "entity",
+        }
+    }
+}
+
+/// Where in a file something is. Every part may be unknown.
+///
+/// The stages behind the reader know elements only by number; `line` and `handle` are filled in when a diagnostic is reported
+/// ([`Diagnostic::locate`](crate::Diagnostic::locate)).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Place {
+    /// 1-based line in the file. For ASCII DXF the line of the entity's `0` group code.
+    pub line: Option<u32>,
+    /// 1-based column (in characters) in that line, for text files such as the configuration and G-code.
+    pub column: Option<u32>,
+    /// The element, to be looked up in the source map of its file.
+    pub element: Option<ElementId>,
+    /// The DXF handle.
+    pub handle: Option<Handle>,
+    /// The type of the DXF entity.
+    pub entity: Option<EntityKind>,
+    /// The layer, as the drawing spells it.
+    pub layer: Option<Box<str>>,
+    /// The place in the drawing.
+    pub point: Option<Point>,
+}
+
+/// A piece of source text with the faulty part of it: a parameter text of a drawing, a line of the configuration or of G-code.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TextFault {
+    /// The whole text.
+    pub text: Box<str>,
+    /// First byte of the fault in `text`.
+    pub start: u32,
+    /// The byte after the fault's last.
+    pub end: u32,
+}
+
+impl TextFault {
+    /// The text with the faulty byte range; a range outside the text, or off its character borders, is cut to what there is.
+    pub fn new(text: &str, span: Range<usize>) -> Self {
+        let start = text.floor_char_boundary(span.start.min(text.len()));
+        let end = text.ceil_char_boundary(span.end.clamp(start, text.len()));
+        let index = |byte: usize| u32::try_from(byte).unwrap_or(u32::MAX);
+        Self { text: text.into(), start: index(start), end: index(end) }
+    }
+
+    /// The faulty byte range.
+    pub fn span(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}

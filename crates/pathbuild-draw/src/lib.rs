@@ -1,0 +1,1 @@
+//! Drawings as lines of text, turned into DXF.

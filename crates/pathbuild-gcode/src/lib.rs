@@ -1,0 +1,1 @@
+//! G-code text: writing, reading, checking and post-processing programs.

@@ -1,0 +1,1 @@
+//! The drawing language: path names, parameters, variables, the walk, chains.

@@ -1,0 +1,2 @@
+//! Compiles drawings of milling paths to G-code.
+fn main() {}
