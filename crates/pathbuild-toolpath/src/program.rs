@@ -1,0 +1,153 @@
+/// A point in the plane of the program: the emitted path's start marker is (0, 0). Millimetres.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[expect(missing_docs, reason = "coordinates")]
+pub struct Xy {
+    pub x: f64,
+    pub y: f64,
+}
+
+/// A finished program: what the machine does, step by step, before any dialect writes it down.
+///
+/// It begins at (0, 0, `start_height`); the frame around it (spec/60-gcode.md, "The program") is the writer's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The emitted path's name, as the drawing spells its layer, with points.
+    pub path: Box<str>,
+    /// The drawing's file name, without directory.
+    pub drawing: Box<str>,
+    /// Cutter diameter O in mm.
+    pub tool: f64,
+    /// Sweep height S in mm.
+    pub sweep_height: f64,
+    /// Upper face T of the material in mm.
+    pub thickness: f64,
+    /// Texts that steps refer to.
+    pub names: Names,
+    /// The moves and comments in order. Sweeps are merged; nothing follows the last.
+    pub steps: Vec<Step>,
+}
+
+impl Program {
+    /// S0, a little more than S, so that the first sweep always writes its Z.
+    pub fn start_height(&self) -> f64 {
+        self.sweep_height * (1.0 + 0.000_002)
+    }
+}
+
+/// One move or comment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the type says it")]
+pub enum Step {
+    Move { to: Move, count: Count },
+    Comment(Comment),
+}
+
+/// A move from wherever the tool is. Coordinates are absolute, in mm; feeds in mm/min.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Move {
+    /// `G00 X Y`: rapid in the plane, at the present height.
+    Sweep { to: Xy },
+    /// `G00 Z`: rapid up or down.
+    Lift { z: Height },
+    /// `G01 Z` without F: down at the feed last set.
+    Drill { z: Height },
+    /// `G01 F X Y Z`.
+    Line { feed: f64, to: Xy, z: Height },
+    /// `G02`/`G03 F I J X Y Z`; `centre` is relative to where the arc begins, as I and J are.
+    Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height },
+}
+
+/// A height, and the point whose measured material height corrects it in programs with probes. (spec/60-gcode.md, `Z<expr(z, xy)>`)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Height {
+    /// Z in mm.
+    pub z: f64,
+    /// The point named, which is where a move begins, or a helical circle's centre, not where the move ends.
+    pub at: Xy,
+}
+
+/// What a move adds to the statistics. (spec/60-gcode.md, "Statistics")
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Count {
+    /// Under which label.
+    pub class: Class,
+    /// Length in mm, as the specification counts it (a sweep's includes its difference in height).
+    pub length: f64,
+    /// The feed in mm/min that its time is reckoned with; `None` is the rapid feed.
+    pub feed: Option<f64>,
+}
+
+/// The labels of the statistics.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Class {
+    Milling,
+    Drilling,
+    Sweep,
+}
+
+/// A remark between moves. Texts are in [`Program::names`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Comment {
+    /// `(Q:...)`, the drawing's own comment for the machine.
+    Question(NameId),
+    /// An embedded path begins.
+    StartSubpath(NameId),
+    /// It ends.
+    EndSubpath(NameId),
+    /// A drawn element begins.
+    Element {
+        /// What it is.
+        kind: ElementKind,
+        /// Where it begins in its drawing (not in the program), in mm.
+        at: Xy,
+        /// Cutter feed-independent facts a cycle needs: bottom of the hole or chain in program heights, mm.
+        bottom: f64,
+        /// Upper face of the material there, mm.
+        surface: f64,
+        /// The depth C from which a hole is pecked.
+        peck: Option<f64>,
+    },
+    /// A milling chain comes to this depth (program height, mm), counted from 1.
+    Pass {
+        /// Number of the pass.
+        number: u32,
+        /// Its depth.
+        z: f64,
+    },
+}
+
+/// The elements that a machinist tells apart in a program. (Glossary in spec/00-overview.md)
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum ElementKind {
+    MillingChain,
+    DrilledHole,
+    HelicalCircle,
+    Sweep,
+}
+
+/// Index of a text in [`Names`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NameId(u32);
+
+/// Texts that steps refer to by number, so that a step is small and can be copied.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Names(Vec<Box<str>>);
+
+impl Names {
+    /// The number of a text, adding it if it is new.
+    pub fn intern(&mut self, text: &str) -> NameId {
+        let index = self.0.iter().position(|known| **known == *text).unwrap_or_else(|| {
+            self.0.push(text.into());
+            self.0.len() - 1
+        });
+        NameId(u32::try_from(index).expect("a program has fewer than 2^32 names"))
+    }
+
+    /// The text of a number that [`intern`](Self::intern) of the same table gave.
+    pub fn get(&self, id: NameId) -> &str {
+        &self.0[id.0 as usize]
+    }
+}
