@@ -1,2 +1,7 @@
 //! Compiles drawings of milling paths to G-code.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    pathbuild::run(std::env::args_os()).into()
+}

@@ -1,0 +1,97 @@
+//! Options that stand before or after any command. Values that a configuration may give as well stay text here: whether they are
+//! right is decided in one place for both. (spec/05-command-line.md, spec/06-configuration.md)
+
+use camino::Utf8PathBuf;
+use clap::{Args, ValueEnum};
+use pathbuild_diagnostic::Lang;
+
+use super::Format;
+use crate::printer::{ColorChoice, Verbosity};
+
+/// The common options.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Common options")]
+pub struct CommonArgs {
+    /// Milling feed where a path gives none
+    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
+    pub feed: Option<String>,
+    /// Rapid speed, for times
+    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
+    pub rapid: Option<String>,
+    /// Sweep height of an emitted path that gives none
+    #[arg(long, global = true, value_name = "MM", allow_hyphen_values = true)]
+    pub sweep_height: Option<String>,
+    /// Probing feed where a path gives none
+    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
+    pub probe_feed: Option<String>,
+    /// Look for embedded paths in this directory too (repeatable)
+    #[arg(long, global = true, value_name = "DIR")]
+    pub search: Vec<Utf8PathBuf>,
+    /// What a path name is
+    #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
+    pub path_pattern: Option<String>,
+    /// What path names in a file name are
+    #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
+    pub file_pattern: Option<String>,
+    /// Paths that PARENT matches embed only paths that CHILD matches (repeatable)
+    #[arg(long, global = true, value_name = "PARENT:CHILD", allow_hyphen_values = true)]
+    pub restrict: Vec<String>,
+    /// Language of messages and of comments in programs
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "en|de")]
+    pub lang: Option<LangArg>,
+    /// Write into this directory, not beside the drawing
+    #[arg(long, global = true, value_name = "DIR")]
+    pub out_dir: Option<Utf8PathBuf>,
+    /// Use this configuration, not the pathbuild.toml of the drawing
+    #[arg(long, global = true, value_name = "FILE")]
+    pub config: Option<Utf8PathBuf>,
+    /// How diagnostics are shown
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = FORMATS)]
+    pub format: Option<Format>,
+    /// When to colour
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "auto|always|never")]
+    pub color: Option<ColorChoice>,
+    /// Say less: no status; twice: results only
+    #[arg(short, long, global = true, action = clap::ArgAction::Count, conflicts_with = "verbose")]
+    pub quiet: u8,
+    /// Say more
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+    /// Work with so many threads
+    #[arg(short, long, global = true, value_name = "N", value_parser = jobs)]
+    pub jobs: Option<u16>,
+    /// Neither read nor write the cache
+    #[arg(long, global = true)]
+    pub no_cache: bool,
+}
+
+const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";
+
+impl CommonArgs {
+    /// How much is said.
+    pub fn verbosity(&self) -> Verbosity {
+        Verbosity::from_counts(self.quiet, self.verbose)
+    }
+}
+
+/// A language, as it is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LangArg {
+    /// English
+    En,
+    /// German
+    De,
+}
+
+impl From<LangArg> for Lang {
+    fn from(lang: LangArg) -> Self {
+        match lang {
+            LangArg::En => Self::En,
+            LangArg::De => Self::De,
+        }
+    }
+}
+
+fn jobs(text: &str) -> Result<u16, &'static str> {
+    text.parse().ok().filter(|jobs| (1..=1024).contains(jobs)).ok_or("expected a number from 1 to 1024")
+}

@@ -1,0 +1,60 @@
+use camino::Utf8PathBuf;
+use clap::Args;
+
+use super::Inputs;
+
+/// `pathbuild emit`
+#[derive(Clone, Debug, Default, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
+pub struct EmitArgs {
+    /// What to write.
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Write nothing: is what lies on disk current?
+    #[arg(long)]
+    pub check: bool,
+    /// With --check: compare the moves only
+    #[arg(long, requires = "check")]
+    pub moves: bool,
+    /// Overwrite measured values in _Z.txt
+    #[arg(long)]
+    pub force: bool,
+    /// Write for this post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST")]
+    pub post: Option<String>,
+    /// Make one program of several paths
+    #[arg(long, value_name = "NAME")]
+    pub join: Option<String>,
+    /// Write what the files were made from, for make and ninja
+    #[arg(long, value_name = "FILE")]
+    pub deps: Option<Utf8PathBuf>,
+    /// Write to standard output: `-o -`
+    #[arg(short, long, value_name = "-", value_parser = ["-"])]
+    pub output: Option<String>,
+    /// Remove G-code that pathbuild wrote earlier and nothing would write now
+    #[arg(long, conflicts_with = "check")]
+    pub remove_stale: bool,
+    /// Dialect in which a post's output is read back
+    #[arg(long, value_name = "DIALECT")]
+    pub dialect: Option<String>,
+    /// Date that a post may write
+    #[arg(long, value_name = "DATE")]
+    pub date: Option<String>,
+    /// Run the command that a post names
+    #[arg(long)]
+    pub run_post_build: bool,
+}
+
+/// `pathbuild adjust`
+#[derive(Clone, Debug, Args)]
+pub struct AdjustArgs {
+    /// DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<Utf8PathBuf>,
+    /// Largest difference between a measured and a drawn height
+    #[arg(long, value_name = "MM", required = true, allow_hyphen_values = true)]
+    pub max_correction: String,
+    /// Print the lines of _Clean.gcode that match
+    #[arg(long, value_name = "REGEX")]
+    pub show: Option<String>,
+}

@@ -1,0 +1,64 @@
+//! The formats of diagnostics and of graphs, which share one option.
+
+use camino::Utf8PathBuf;
+use clap::ValueEnum;
+
+/// How something is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum Format {
+    /// With the faulty text underlined, help and notes
+    #[default]
+    Full,
+    /// One line each
+    Concise,
+    /// One JSON object a line
+    Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// Annotations of a GitHub workflow
+    Github,
+    /// GitLab code quality
+    Gitlab,
+    /// `JUnit` XML, a test case for each path
+    Junit,
+    /// A graph for Graphviz
+    #[value(hide = true)]
+    Dot,
+    /// A graph for Mermaid
+    #[value(hide = true)]
+    Mermaid,
+}
+
+impl Format {
+    /// Whether it shows diagnostics; the others show graphs.
+    pub fn shows_diagnostics(self) -> bool {
+        !matches!(self, Self::Dot | Self::Mermaid)
+    }
+
+    /// Whether a program reads it, so that it belongs to the results of `check`.
+    pub fn is_for_machines(self) -> bool {
+        !matches!(self, Self::Full | Self::Concise)
+    }
+}
+
+/// A report to write beside what is printed: `FORMAT=FILE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportFile {
+    /// What to write.
+    pub format: Format,
+    /// Where.
+    pub file: Utf8PathBuf,
+}
+
+impl ReportFile {
+    /// Reads `FORMAT=FILE`.
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
+        let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
+        let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());
+        let format = format.ok_or("the format is full, concise, json, sarif, github, gitlab or junit")?;
+        if file.is_empty() {
+            return Err("the name of the file is missing".to_owned());
+        }
+        Ok(Self { format, file: file.into() })
+    }
+}

@@ -1,0 +1,119 @@
+use camino::Utf8PathBuf;
+use clap::{Args, Subcommand};
+
+use super::Inputs;
+
+/// `pathbuild texts`
+#[derive(Clone, Debug, Default, Args)]
+pub struct TextsArgs {
+    /// Which drawings.
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Only texts that match
+    #[arg(long = "match", value_name = "REGEX")]
+    pub pattern: Option<String>,
+}
+
+/// `pathbuild preview`
+#[derive(Clone, Debug, Default, Args)]
+pub struct PreviewArgs {
+    /// Which path.
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// File to write, .html or .svg; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+}
+
+/// `pathbuild diff`
+#[derive(Clone, Debug, Default, Args)]
+pub struct DiffArgs {
+    /// What is compared.
+    #[command(flatten)]
+    pub inputs: Inputs,
+}
+
+/// `pathbuild q-project`
+#[derive(Clone, Debug, Args)]
+pub struct QProjectArgs {
+    /// Drawing that is to be embedded
+    #[arg(value_name = "DRAWING")]
+    pub drawing: Utf8PathBuf,
+    /// Name of the Q-project's path; else the drawing's first number with .0Q
+    #[arg(long, value_name = "NAME")]
+    pub path_name: Option<String>,
+    /// File to write; else `DRAWING_Q.dxf`
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+}
+
+/// `pathbuild cache`
+#[derive(Clone, Debug, Args)]
+pub struct CacheArgs {
+    /// What to do with it.
+    #[command(subcommand)]
+    pub command: CacheCommand,
+}
+
+/// What can be done with the cache.
+#[derive(Clone, Debug, Subcommand)]
+pub enum CacheCommand {
+    /// Print where it is
+    Dir,
+    /// Print how large it is
+    Size,
+    /// Remove what no longer serves
+    Prune,
+    /// Remove all of it
+    Clean,
+    /// Check that every result in it is whole
+    Verify,
+}
+
+/// `pathbuild explain`
+#[derive(Clone, Debug, Default, Args)]
+pub struct ExplainArgs {
+    /// Code or name of a diagnostic: PB203, parameter-out-of-range
+    #[arg(value_name = "CODE")]
+    pub codes: Vec<String>,
+}
+
+/// `pathbuild config`
+#[derive(Clone, Debug, Args)]
+pub struct ConfigArgs {
+    /// What to show.
+    #[command(subcommand)]
+    pub command: ConfigCommand,
+}
+
+/// What can be shown of the configuration.
+#[derive(Clone, Debug, Subcommand)]
+pub enum ConfigCommand {
+    /// Print what holds
+    Show {
+        /// Also say where each value comes from
+        #[arg(long)]
+        origin: bool,
+        /// For which drawings.
+        #[command(flatten)]
+        inputs: Inputs,
+    },
+    /// Print the JSON schema of pathbuild.toml
+    Schema,
+}
+
+/// `pathbuild completions`
+#[derive(Clone, Debug, Args)]
+pub struct CompletionsArgs {
+    /// bash, elvish, fish, powershell or zsh
+    #[arg(value_name = "SHELL")]
+    pub shell: String,
+}
+
+/// `pathbuild compat`
+#[derive(Clone, Debug, Default, Args)]
+pub struct CompatArgs {
+    /// What `PathDxf2GCode` or `PathGCodeAdjustZ` would be given
+    #[arg(value_name = "ARGUMENT", trailing_var_arg = true, allow_hyphen_values = true)]
+    pub arguments: Vec<String>,
+}

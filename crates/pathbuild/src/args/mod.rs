@@ -1,0 +1,146 @@
+//! Commands and options as they are written on the command line, and nothing more: no defaults that depend on the configuration,
+//! no checks that need a file. (spec/05-command-line.md)
+
+mod check;
+mod common;
+mod emit;
+mod format;
+mod gcode;
+mod graph;
+mod inputs;
+mod misc;
+mod watch;
+
+use clap::{Parser, Subcommand};
+
+pub use check::CheckArgs;
+pub use common::CommonArgs;
+pub use emit::{AdjustArgs, EmitArgs};
+pub use format::{Format, ReportFile};
+pub use gcode::{ImportArgs, PostArgs, PostCommand, VerifyArgs};
+pub use graph::GraphArgs;
+pub use inputs::{Input, Inputs};
+pub use misc::{
+    CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
+    PreviewArgs, QProjectArgs, TextsArgs,
+};
+pub use watch::WatchArgs;
+
+/// Compiles drawings of milling paths to G-code.
+#[derive(Debug, Parser)]
+#[command(name = "pathbuild", version, max_term_width = 110)]
+#[command(
+    after_help = "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration."
+)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// What holds for every command.
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// The commands. What is hidden is not built yet and is refused.
+#[derive(Debug, Subcommand)]
+#[command(disable_help_subcommand = true)]
+pub enum Command {
+    /// Check every path of the given drawings, paths or directories; without arguments the library. Writes nothing
+    Check(CheckArgs),
+    /// Write the files of one or more paths; without arguments those of `[emit] targets`
+    Emit(EmitArgs),
+    /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
+    #[command(hide = true)]
+    Adjust(AdjustArgs),
+    /// Keep checking as drawings change
+    #[command(hide = true)]
+    Watch(WatchArgs),
+    /// Show which element each parameter text belongs to
+    #[command(hide = true)]
+    Texts(TextsArgs),
+    /// Show a path as a self-contained HTML page or SVG
+    #[command(hide = true)]
+    Preview(PreviewArgs),
+    /// Show what a change of drawings does to the moves
+    #[command(hide = true)]
+    Diff(DiffArgs),
+    /// Read a G-code program and print what it is
+    #[command(hide = true)]
+    Import(ImportArgs),
+    /// Check a G-code program
+    #[command(hide = true)]
+    Verify(VerifyArgs),
+    /// Write a G-code program for another machine
+    #[command(hide = true)]
+    Post(PostArgs),
+    /// Show what embeds what, with bindings
+    #[command(hide = true)]
+    Graph(GraphArgs),
+    /// Show what a path embeds
+    #[command(hide = true)]
+    Deps(GraphArgs),
+    /// Show what embeds a path
+    #[command(hide = true)]
+    Rdeps(GraphArgs),
+    /// Show where a path is defined
+    #[command(hide = true)]
+    Where(GraphArgs),
+    /// Show why a path was compiled again
+    #[command(hide = true)]
+    Why(GraphArgs),
+    /// Write a Q-project: a drawing that embeds every path of another
+    #[command(hide = true)]
+    QProject(QProjectArgs),
+    /// Manage the results kept between runs
+    #[command(hide = true)]
+    Cache(CacheArgs),
+    /// Print the page on a diagnostic code; without a code, list them
+    #[command(hide = true)]
+    Explain(ExplainArgs),
+    /// Write a commented pathbuild.toml into the working directory
+    #[command(hide = true)]
+    Init,
+    /// Show the configuration
+    #[command(hide = true)]
+    Config(ConfigArgs),
+    /// Print a completion script for a shell
+    #[command(hide = true)]
+    Completions(CompletionsArgs),
+    /// Print the manual page
+    #[command(hide = true)]
+    Man,
+    /// Take the command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
+    #[command(hide = true)]
+    Compat(CompatArgs),
+}
+
+impl Command {
+    /// The name that it is called by.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Check(_) => "check",
+            Self::Emit(_) => "emit",
+            Self::Adjust(_) => "adjust",
+            Self::Watch(_) => "watch",
+            Self::Texts(_) => "texts",
+            Self::Preview(_) => "preview",
+            Self::Diff(_) => "diff",
+            Self::Import(_) => "import",
+            Self::Verify(_) => "verify",
+            Self::Post(_) => "post",
+            Self::Graph(_) => "graph",
+            Self::Deps(_) => "deps",
+            Self::Rdeps(_) => "rdeps",
+            Self::Where(_) => "where",
+            Self::Why(_) => "why",
+            Self::QProject(_) => "q-project",
+            Self::Cache(_) => "cache",
+            Self::Explain(_) => "explain",
+            Self::Init => "init",
+            Self::Config(_) => "config",
+            Self::Completions(_) => "completions",
+            Self::Man => "man",
+            Self::Compat(_) => "compat",
+        }
+    }
+}

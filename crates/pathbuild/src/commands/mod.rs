@@ -1,0 +1,30 @@
+//! One module for each command: `run(&Context, &Args) -> ExitStatus`.
+
+use crate::args::{Command, Format};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs a command.
+pub fn run(context: &Context, command: &Command) -> ExitStatus {
+    if let Some(refusal) = format_refusal(context.format, command) {
+        return refuse(context, &refusal);
+    }
+    refuse(context, &format!("`{}` is not built yet", command.name()))
+}
+
+/// Formats of graphs are for commands that print graphs.
+fn format_refusal(format: Format, command: &Command) -> Option<String> {
+    if matches!(format, Format::Sarif | Format::Github | Format::Gitlab | Format::Junit) {
+        return Some("this --format is not built yet".to_owned());
+    }
+    let prints_graph = matches!(command, Command::Graph(_) | Command::Deps(_) | Command::Rdeps(_));
+    let is_wrong = !format.shows_diagnostics() && !prints_graph;
+    is_wrong.then(|| {
+        format!("`{}` has no such --format: dot and mermaid are for graph, deps and rdeps", command.name())
+    })
+}
+
+fn refuse(context: &Context, reason: &str) -> ExitStatus {
+    context.printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
+    ExitStatus::Usage
+}

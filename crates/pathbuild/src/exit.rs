@@ -1,0 +1,32 @@
+//! What a run tells the shell. The numbers are part of the interface and never change. (spec/80-diagnostics.md)
+
+use std::process::ExitCode;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[must_use]
+pub enum ExitStatus {
+    /// 0: nothing is wrong; there may be warnings.
+    Success,
+    /// 1: errors were found, or something could not be written.
+    Errors,
+    /// 2: wrong usage or configuration; nothing was done.
+    Usage,
+}
+
+impl ExitStatus {
+    /// The number that the shell sees.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::Errors => 1,
+            Self::Usage => 2,
+        }
+    }
+}
+
+impl From<ExitStatus> for ExitCode {
+    fn from(status: ExitStatus) -> Self {
+        Self::from(status.code())
+    }
+}

@@ -1,0 +1,180 @@
+//! The only place of the program that prints. (spec/05-command-line.md)
+//!
+//! | what | stream | at |
+//! | --- | --- | --- |
+//! | results: what the command was asked for | stdout | always |
+//! | diagnostics of `check` in a machine's format | stdout | always |
+//! | all other diagnostics | stderr | up to `-q` |
+//! | wrong usage | stderr | always |
+//! | status: the summary, files written | stderr | without `-q` |
+//! | details: what was found, read, taken from the cache | stderr | with `-v` |
+//!
+//! A closed pipe is no error: what is left of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other
+//! failure to write is kept and makes the run end with [`ExitStatus::Errors`].
+
+use std::cell::RefCell;
+use std::fmt::Display;
+use std::io::{self, IsTerminal, Write};
+
+use crate::exit::ExitStatus;
+
+/// When to colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum ColorChoice {
+    /// On a terminal.
+    #[default]
+    Auto,
+    /// Also into a file or pipe.
+    Always,
+    /// Nowhere.
+    Never,
+}
+
+/// How much is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verbosity {
+    /// `-qq`: results only.
+    Silent,
+    /// `-q`: results and diagnostics.
+    Quiet,
+    /// Also the status of the run.
+    #[default]
+    Normal,
+    /// `-v`: also details.
+    Verbose,
+}
+
+impl Verbosity {
+    /// The level for so many `-q` and so many `-v`.
+    pub fn from_counts(quiet: u8, verbose: u8) -> Self {
+        match (quiet, verbose) {
+            (0, 0) => Self::Normal,
+            (0, _) => Self::Verbose,
+            (1, _) => Self::Quiet,
+            _ => Self::Silent,
+        }
+    }
+}
+
+/// The two streams, and what may be shown on them.
+#[derive(Debug, Default)]
+pub struct Printer {
+    verbosity: Verbosity,
+    color: ColorChoice,
+    failures: RefCell<Failures>,
+}
+
+/// Why a stream no longer takes text.
+#[derive(Debug, Default)]
+struct Failures {
+    stdout: Option<io::Error>,
+    stderr: Option<io::Error>,
+}
+
+/// One of the two streams.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// For results.
+    Stdout,
+    /// For everything said about the run.
+    Stderr,
+}
+
+impl Stream {
+    /// Whether a person looks at it.
+    pub fn is_terminal(self) -> bool {
+        match self {
+            Self::Stdout => io::stdout().is_terminal(),
+            Self::Stderr => io::stderr().is_terminal(),
+        }
+    }
+}
+
+impl Printer {
+    /// A printer that says so much, in such colours.
+    pub fn new(verbosity: Verbosity, color: ColorChoice) -> Self {
+        Self { verbosity, color, failures: RefCell::default() }
+    }
+
+    /// How much is said.
+    pub fn verbosity(&self) -> Verbosity {
+        self.verbosity
+    }
+
+    /// Whether text for that stream is coloured.
+    pub fn is_colored(&self, stream: Stream) -> bool {
+        match self.color {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            ColorChoice::Auto => stream.is_terminal(),
+        }
+    }
+
+    /// The width of that stream in columns, where a person looks at it.
+    pub fn width(&self, stream: Stream) -> Option<usize> {
+        let size = match stream {
+            Stream::Stdout => terminal_size::terminal_size_of(io::stdout()),
+            Stream::Stderr => terminal_size::terminal_size_of(io::stderr()),
+        };
+        size.map(|(width, _)| usize::from(width.0))
+    }
+
+    /// Prints a result, as it is, to stdout.
+    pub fn result(&self, text: impl Display) {
+        self.write(Stream::Stdout, text);
+    }
+
+    /// Prints rendered diagnostics, as they are.
+    pub fn diagnostics(&self, stream: Stream, text: impl Display) {
+        if stream == Stream::Stdout || self.verbosity >= Verbosity::Quiet {
+            self.write(stream, text);
+        }
+    }
+
+    /// Prints a line about the run.
+    pub fn status(&self, line: impl Display) {
+        if self.verbosity >= Verbosity::Normal {
+            self.write(Stream::Stderr, format_args!("{line}\n"));
+        }
+    }
+
+    /// Prints a line that few want to know.
+    pub fn detail(&self, line: impl Display) {
+        if self.verbosity >= Verbosity::Verbose {
+            self.write(Stream::Stderr, format_args!("{line}\n"));
+        }
+    }
+
+    /// Prints what is wrong about the way the program was called.
+    pub fn usage(&self, text: impl Display) {
+        self.write(Stream::Stderr, text);
+    }
+
+    /// Ends the output: says what could not be written, and lets that decide over the status.
+    pub fn finish(&self, status: ExitStatus) -> ExitStatus {
+        let failures = self.failures.take();
+        let is_serious = |error: &io::Error| error.kind() != io::ErrorKind::BrokenPipe;
+        if let Some(error) = failures.stdout.filter(is_serious) {
+            self.write(Stream::Stderr, format_args!("error: cannot write to standard output: {error}\n"));
+            return status.max(ExitStatus::Errors);
+        }
+        match failures.stderr.filter(is_serious) {
+            Some(_) => status.max(ExitStatus::Errors),
+            None => status,
+        }
+    }
+
+    fn write(&self, stream: Stream, text: impl Display) {
+        let mut failures = self.failures.borrow_mut();
+        match stream {
+            Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text),
+            Stream::Stderr => write_unless(&mut failures.stderr, io::stderr().lock(), text),
+        }
+    }
+}
+
+fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: impl Display) {
+    if failed.is_none() {
+        *failed = write!(stream, "{text}").and_then(|()| stream.flush()).err();
+    }
+}

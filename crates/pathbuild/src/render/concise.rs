@@ -1,0 +1,21 @@
+//! One line each, which editors and `grep` understand: `FILE:LINE: error[PB203] message (path, element, place)`.
+
+use pathbuild_diagnostic::Diagnostic;
+
+use super::view::one_line;
+use super::{View, place};
+use crate::report::Findings;
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()
+}
+
+fn line(diagnostic: &Diagnostic, view: &View) -> String {
+    let location =
+        place::location(diagnostic, view).map(|location| format!("{location}: ")).unwrap_or_default();
+    let severity = place::severity(diagnostic.severity, view);
+    let element = place::element(diagnostic, view);
+    let element = if element.is_empty() { element } else { format!(" ({element})") };
+    let line = format!("{location}{severity}[{}] {}{element}", diagnostic.code(), diagnostic.text(view.lang));
+    format!("{}\n", one_line(&line))
+}

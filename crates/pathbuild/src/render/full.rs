@@ -1,0 +1,162 @@
+//! For a person: what is wrong and where, the faulty text underlined as a compiler shows source, help and notes, and what embeds it.
+
+use std::fmt;
+
+use miette::{
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents,
+};
+use pathbuild_diagnostic::{Diagnostic, Severity};
+
+use super::view::harmless;
+use super::{View, place};
+use crate::report::Findings;
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    let theme = if view.color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(view.width.unwrap_or(usize::MAX / 2))
+        .with_wrap_lines(view.width.is_some())
+        .with_break_words(false)
+        .without_primary_span_start()
+        .with_context_lines(1)
+        .without_cause_chain()
+        .without_syntax_highlighting();
+    let mut text = String::new();
+    for diagnostic in &findings.diagnostics {
+        let page = Page::new(diagnostic, view);
+        // Writing into a String cannot fail, and a label is cut to its text when it is made.
+        _ = handler.render_report(&mut text, &page);
+        for line in &page.further {
+            text.push_str("  ");
+            text.push_str(line);
+            text.push('\n');
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A diagnostic in miette's terms. The first line says the code and the place, because most faults have no text to underline.
+#[derive(Debug)]
+struct Page {
+    header: String,
+    message: String,
+    severity: Severity,
+    help: Option<String>,
+    source: Option<Source>,
+    label: Option<LabeledSpan>,
+    further: Vec<String>,
+}
+
+impl Page {
+    fn new(diagnostic: &Diagnostic, view: &View) -> Self {
+        let text = |text: String| harmless(&text).into_owned();
+        Self {
+            header: text(header(diagnostic, view)),
+            message: text(diagnostic.text(view.lang)),
+            severity: diagnostic.severity,
+            help: diagnostic.help(view.lang).map(text),
+            source: diagnostic.text.as_ref().map(|fault| Source::new(&fault.text, diagnostic)),
+            label: diagnostic.text.as_ref().map(|fault| LabeledSpan::underline(fault.span())),
+            further: further(diagnostic, view).into_iter().map(text).collect(),
+        }
+    }
+}
+
+fn header(diagnostic: &Diagnostic, view: &View) -> String {
+    let severity = place::severity(diagnostic.severity, view);
+    let mut header = format!("{severity}[{}] {}", diagnostic.code(), diagnostic.code().name());
+    let element = place::element(diagnostic, view);
+    for part in place::location(diagnostic, view).into_iter().chain((!element.is_empty()).then_some(element))
+    {
+        header.push_str(" · ");
+        header.push_str(&part);
+    }
+    header
+}
+
+/// Notes, and the embeddings from the path outwards: nearest first, as a person goes looking.
+fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
+    let note = view.choose("note", "Hinweis");
+    let notes = diagnostic.notes.iter().map(|it| format!("{note}: {}", it.text(view.lang)));
+    let trace = diagnostic.trace.iter().rev().map(|step| place::embedding(step, view));
+    notes.chain(trace).collect()
+}
+
+impl fmt::Display for Page {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Page {}
+
+impl miette::Diagnostic for Page {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(&self.header))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.label
+            .clone()
+            .map(|label| Box::new(std::iter::once(label)) as Box<dyn Iterator<Item = LabeledSpan>>)
+    }
+}
+
+/// The faulty text. One from a text file is that file's line, so its lines are numbered as there; one from a drawing from 1.
+#[derive(Debug)]
+struct Source {
+    text: String,
+    lines_before: usize,
+}
+
+impl Source {
+    fn new(text: &str, diagnostic: &Diagnostic) -> Self {
+        let is_line_of_file = diagnostic.place.column.is_some();
+        let line = diagnostic.place.line.filter(|_| is_line_of_file).unwrap_or(1);
+        Self { text: visible(text), lines_before: line.saturating_sub(1) as usize }
+    }
+}
+
+/// The text with every harmful character replaced by one of as many bytes, so that spans stay what they are.
+fn visible(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' && c != '\t' { replacement(c) } else { c }).collect()
+}
+
+fn replacement(control: char) -> char {
+    if control.len_utf8() == 1 { '?' } else { '\u{b7}' }
+}
+
+impl SourceCode for Source {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let contents = self.text.read_span(span, lines_before, lines_after)?;
+        Ok(Box::new(MietteSpanContents::new(
+            contents.data(),
+            *contents.span(),
+            contents.line() + self.lines_before,
+            contents.column(),
+            contents.line_count(),
+        )))
+    }
+}

@@ -1,0 +1,58 @@
+use std::time::Duration;
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::Diagnostic;
+
+/// Everything that a run found, and what it looked at.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    /// Sorted, without repetition.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The drawings that were checked, in order of name; empty for commands that check none.
+    pub checked: Vec<CheckedFile>,
+}
+
+/// A drawing that was checked.
+#[derive(Clone, Debug)]
+pub struct CheckedFile {
+    /// The drawing.
+    pub file: Utf8PathBuf,
+    /// Its paths, in file order.
+    pub paths: Vec<CheckedPath>,
+}
+
+/// A path that was checked.
+#[derive(Clone, Debug)]
+pub struct CheckedPath {
+    /// The name, as the drawing spells it.
+    pub name: Box<str>,
+    /// What the check took, where it was measured.
+    pub time: Option<Duration>,
+}
+
+impl Findings {
+    /// Sorts diagnostics and drops those that say the same of the same place: many bindings or projects may have met a fault, and
+    /// the one that is kept has the first embedding in order.
+    pub fn new(mut diagnostics: Vec<Diagnostic>) -> Self {
+        diagnostics
+            .sort_by(|a, b| a.sort_key().cmp(&b.sort_key()).then_with(|| a.message.key.cmp(b.message.key)));
+        diagnostics.dedup_by(|later, earlier| is_same(earlier, later));
+        Self { diagnostics, checked: Vec::new() }
+    }
+
+    /// The number of errors.
+    pub fn errors(&self) -> usize {
+        self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
+    }
+
+    /// The number of warnings.
+    pub fn warnings(&self) -> usize {
+        self.diagnostics.len() - self.errors()
+    }
+}
+
+/// Whether two findings are one: everything is equal but the way that led there.
+fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
+    (a.message, &a.arguments, &a.file, &a.path, &a.place, &a.text)
+        == (b.message, &b.arguments, &b.file, &b.path, &b.place, &b.text)
+}
