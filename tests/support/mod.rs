@@ -1,6 +1,10 @@
 //! Runs the program as a shell would: in a directory of its own, with an environment that holds nothing.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses a part of it")]
-#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test that cannot set up its files has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
 
 use std::fmt;
 use std::fs;

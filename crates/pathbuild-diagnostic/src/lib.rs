@@ -12,10 +12,11 @@ pub mod messages;
 mod number;
 mod page;
 mod place;
+pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
-pub use message::{Lang, Message, Text, Value};
+pub use message::{Lang, Message, Text, Value, Word};
 pub use number::Number;
 pub use page::page;
 pub use place::{ElementId, EntityKind, Handle, Place, Point, TextFault};

@@ -78,7 +78,6 @@ pub enum Value {
     Word(&'static Word),
 }
 
-
 /// A word or short phrase in every language.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Word {

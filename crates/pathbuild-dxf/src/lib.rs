@@ -8,8 +8,8 @@
 mod drawing;
 
 pub use drawing::{
-    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options, Origin, Point3, Text,
-    Units, VerticalAlign,
+    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,
+    Origin, Point3, Text, Units, VerticalAlign,
 };
 
 /// Reads a drawing.

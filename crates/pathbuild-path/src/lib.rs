@@ -1,1 +1,37 @@
 //! The drawing language: path names, parameters, variables, the walk, chains.
+//!
+//! [`raw_file`] finds the paths of a drawing; [`bind`] gives a raw path the values of its variables and checks every parameter;
+//! [`walk`] orders its segments from the start to the end and groups them into milling chains. Nothing here knows salsa, files or
+//! G-code. (spec/10-drawing.md to spec/50-path-building.md)
+
+pub mod approx;
+mod assign;
+mod definition;
+mod element;
+mod files;
+mod geometry;
+mod letter;
+mod line_type;
+mod name;
+mod number;
+mod pattern;
+mod raw;
+mod read;
+mod table;
+mod text;
+mod text_circle;
+
+pub use definition::{Allowed, Definition};
+pub use element::{Cut, Element, Marker, Origin, Role, Shape};
+pub use files::{FilePattern, NameRange, PathKey};
+pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
+pub use letter::{ElementClass, Letter, Use};
+pub use line_type::{LineType, LineTypeAliases};
+pub use name::{PathLayer, PathName, PathPattern};
+pub use number::{parse_integer, parse_number};
+pub use pattern::PatternError;
+pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
+pub use read::raw_file;
+pub use table::RangeTable;
+pub use text::{ParameterText, Piece};
+pub use text_circle::TextCircle;

@@ -5,6 +5,4 @@
 
 mod program;
 
-pub use program::{
-    Class, Comment, Count, ElementKind, Height, Move, NameId, Names, Program, Step, Xy,
-};
+pub use program::{Class, Comment, Count, ElementKind, Height, Move, NameId, Names, Program, Step, Xy};

@@ -1,3 +1,105 @@
-//! TBD
+//! Entities of a path: markers, line types, texts. (PB101 to PB115)
 
-messages! {}
+messages! {
+    /// No start marker.
+    MISSING_START: MissingStart {
+        en: "path {name} has no start marker",
+        de: "Pfad {name} hat keine Startmarke",
+        help_en: "draw a PHANTOM circle of 1 mm diameter on layer {layer}, with the path's parameters as text (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
+        help_de: "auf Layer {layer} einen PHANTOM-Kreis von 1 mm Durchmesser zeichnen, mit den Parametern des Pfads als Text (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
+    }
+    /// No end marker.
+    MISSING_END: MissingEnd {
+        en: "path {name} has no end marker",
+        de: "Pfad {name} hat keine Endmarke",
+        help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends",
+        help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet",
+    }
+    /// Two start markers.
+    TWO_STARTS: TwoStarts {
+        en: "path {name} has a second start marker; the first is at {first}",
+        de: "Pfad {name} hat eine zweite Startmarke; die erste ist bei {first}",
+        help_en: "remove one, or put it on another path's layer",
+        help_de: "eine davon entfernen, oder auf den Layer eines anderen Pfads legen",
+    }
+    /// Two end markers.
+    TWO_ENDS: TwoEnds {
+        en: "path {name} has a second end marker; the first is at {first}",
+        de: "Pfad {name} hat eine zweite Endmarke; die erste ist bei {first}",
+        help_en: "remove one, or put it on another path's layer",
+        help_de: "eine davon entfernen, oder auf den Layer eines anderen Pfads legen",
+    }
+    /// PHANTOM circle of no known diameter.
+    UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
+        en: "a {line_type} circle of {diameter} mm diameter means nothing",
+        de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser bedeutet nichts",
+        help_en: "PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
+        help_de: "PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
+    }
+    /// A line type without meaning.
+    UNKNOWN_LINE_TYPE: UnknownLineType {
+        en: "line type {line_type} has no meaning on a path layer",
+        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung",
+        help_en: "known are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
+        help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
+    }
+    /// A known line type on the wrong kind of entity.
+    LINE_TYPE_ON_ENTITY: UnknownLineType {
+        en: "line type {line_type} has no meaning on {element}",
+        de: "Linientyp {line_type} hat auf {element} keine Bedeutung",
+        help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
+        help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
+    }
+    /// A text that belongs to nothing.
+    TEXT_WITHOUT_ELEMENT: TextWithoutElement {
+        en: "the text \"{text}\" belongs to no element: its circle is at {centre} with a diameter of {diameter} mm",
+        de: "der Text \"{text}\" gehört zu keinem Element: sein Kreis liegt bei {centre} mit {diameter} mm Durchmesser",
+        help_en: "move it over its element; text and element must be on exactly the same layer",
+        help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
+    }
+    /// Note: what it may have been meant for.
+    NEAREST_ELEMENT: TextWithoutElement {
+        en: "nearest is {element} at {point}, {distance} mm away from the text's circle",
+        de: "am nächsten liegt {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
+    }
+    /// Note: it would be found on another layer.
+    ELEMENT_ON_OTHER_LAYER: TextWithoutElement {
+        en: "on layer {layer} it would belong to {element} at {point}",
+        de: "auf Layer {layer} würde er zu {element} bei {point} gehören",
+    }
+    /// Smaller than the cutter.
+    CIRCLE_TOO_SMALL: CircleTooSmall {
+        en: "the circle's diameter {diameter} mm is less than the cutter's, O{tool}",
+        de: "der Kreisdurchmesser {diameter} mm ist kleiner als der des Fräsers, O{tool}",
+        help_en: "a circle of the cutter's diameter is a drilled hole, a larger one a helical circle",
+        help_de: "ein Kreis mit dem Durchmesser des Fräsers ist ein Bohrloch, ein größerer ein Helixkreis",
+    }
+    /// Not in the plane.
+    OFF_PLANE: OffPlane {
+        en: "the element is not in the plane: Z is {z} mm",
+        de: "das Element liegt nicht in der Ebene: Z ist {z} mm",
+        help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
+        help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN, oder Z und Erhebung auf 0 setzen)",
+    }
+    /// Frozen or off.
+    LAYER_NOT_VISIBLE: LayerNotVisible {
+        en: "layer {layer} is frozen or off, but its path counts all the same",
+        de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad zählt trotzdem",
+        help_en: "make it visible, or rename it if the path is not wanted any more",
+        help_de: "sichtbar machen, oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
+    }
+    /// A turn marker that never acts.
+    TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
+        en: "this turn marker never acts",
+        de: "diese Wendemarke wirkt nie",
+        help_en: "a turn marker acts only where segments are left and none begins there: at the tip of a dead end",
+        help_de: "eine Wendemarke wirkt nur, wo noch Segmente übrig sind und keines weiterführt: an der Spitze einer Sackgasse",
+    }
+    /// Ends that do not quite meet.
+    JOINED_ENDS: JoinedEnds {
+        en: "two ends {distance} mm apart were joined",
+        de: "zwei Enden im Abstand von {distance} mm wurden verbunden",
+        help_en: "snap the end to the other with the CAD's object snap; join-tolerance in pathbuild.toml allows it meanwhile",
+        help_de: "das Ende im CAD auf das andere fangen; join-tolerance in pathbuild.toml erlaubt es bis dahin",
+    }
+}

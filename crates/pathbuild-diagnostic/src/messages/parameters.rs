@@ -1,3 +1,151 @@
-//! TBD
+//! Parameter texts and their values. (PB201 to PB210)
 
-messages! {}
+messages! {
+    /// A needed value is neither given nor inherited.
+    MISSING: MissingParameter {
+        en: "{letter} missing",
+        de: "{letter} fehlt",
+        help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
+        help_de: "{element} braucht {letter}: ans Element schreiben, oder an die Startmarke des Pfads",
+    }
+    /// O or T of the path itself.
+    MISSING_AT_START: MissingParameter {
+        en: "{letter} missing at the path's start",
+        de: "{letter} fehlt am Pfadanfang",
+        help_en: "every path needs O (cutter diameter) and T (thickness of the material) in the text of its start marker",
+        help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Startmarke",
+    }
+    /// M where a path is embedded.
+    MISSING_MATERIAL: MissingParameter {
+        en: "M missing: no material on {where}",
+        de: "M fehlt: kein Material bei {where}",
+        help_en: "where a path is embedded, both it and the segment (or the embedding path) must name the material",
+        help_de: "wo ein Pfad eingebettet wird, müssen er und das Segment (oder der einbettende Pfad) das Material nennen",
+    }
+    /// A letter that the element does not know.
+    UNKNOWN_LETTER: UnknownParameter {
+        en: "{element} does not know \"{letter}\"",
+        de: "{element} kennt \"{letter}\" nicht",
+        help_en: "it knows {known}; values follow their letter without a space",
+        help_de: "bekannt sind {known}; Werte folgen ihrem Buchstaben ohne Leerzeichen",
+    }
+    /// A known letter in lower case.
+    LOWER_CASE_LETTER: UnknownParameter {
+        en: "{element} does not know \"{letter}\"",
+        de: "{element} kennt \"{letter}\" nicht",
+        help_en: "letters are upper case: \"{upper}\"? It knows {known}",
+        help_de: "Buchstaben sind groß zu schreiben: \"{upper}\"? Bekannt sind {known}",
+    }
+    /// Two values of which one must be greater.
+    NOT_ABOVE: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
+        de: "{letter} ist {value}, muss aber größer sein als {limit_letter} mit {limit}",
+        help_en: "heights are measured from the clamping plate: S above T above D above B",
+        help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
+    }
+    /// Two values of which one must be less.
+    NOT_BELOW: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
+        de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
+        help_en: "heights are measured from the clamping plate: S above T above D above B",
+        help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
+    }
+    /// A value that must be positive.
+    NOT_POSITIVE: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be greater than 0",
+        de: "{letter} ist {value}, muss aber größer als 0 sein",
+        help_en: "correct the value",
+        help_de: "den Wert berichtigen",
+    }
+    /// The sweep height that an emitted path gets because it has none.
+    DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
+        en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",
+        de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T mit {limit}",
+        help_en: "give the path an S, or raise sweep-height",
+        help_de: "dem Pfad ein S geben, oder sweep-height erhöhen",
+    }
+    /// A letter twice in one text.
+    TWICE: DuplicateParameter {
+        en: "{letter} is given twice",
+        de: "{letter} ist zweimal angegeben",
+        help_en: "remove one of them; which one holds is never guessed",
+        help_de: "eines davon entfernen; welches gilt, wird nie geraten",
+    }
+    /// A variable twice in one text.
+    VARIABLE_TWICE: DuplicateParameter {
+        en: "variable \"{variable}\" is given twice",
+        de: "Variable \"{variable}\" ist zweimal angegeben",
+        help_en: "remove one of them; a variable's name is one character",
+        help_de: "eine davon entfernen; der Name einer Variablen ist ein Zeichen",
+    }
+    /// Not a number.
+    NOT_A_NUMBER: NotANumber {
+        en: "{letter} needs a number, not \"{value}\"",
+        de: "{letter} braucht eine Zahl, nicht \"{value}\"",
+        help_en: "an optional sign, digits, at most one decimal point or comma: {letter}-0,3",
+        help_de: "ein Vorzeichen, wenn nötig, Ziffern, höchstens ein Dezimalpunkt oder -komma: {letter}-0,3",
+    }
+    /// Not an integer.
+    NOT_AN_INTEGER: NotANumber {
+        en: "{letter} needs a whole number, not \"{value}\"",
+        de: "{letter} braucht eine ganze Zahl, nicht \"{value}\"",
+        help_en: "N gives the order at a star: N1, N2, N3",
+        help_de: "N gibt die Reihenfolge an einem Stern: N1, N2, N3",
+    }
+    /// A variable where none can be.
+    VARIABLE_NOT_ALLOWED: VariableNotAllowed {
+        en: "{letter} cannot use a variable",
+        de: "{letter} kann keine Variable verwenden",
+        help_en: "N, O and @ are needed before variables have values; write the value itself",
+        help_de: "N, O und @ werden gebraucht, bevor Variablen Werte haben; den Wert selbst hinschreiben",
+    }
+    /// A start marker without a text.
+    NO_PATH_PARAMETERS: MissingPathParameters {
+        en: "the start marker has no text",
+        de: "die Startmarke hat keinen Text",
+        help_en: "put a text over the start marker with at least O and T: \"O2 T5 I1 B0\"",
+        help_de: "einen Text mit mindestens O und T über die Startmarke legen: \"O2 T5 I1 B0\"",
+    }
+    /// @ with other letters.
+    AT_WITH_OTHERS: InvalidAtReference {
+        en: "@ cannot stand beside other parameters",
+        de: "@ kann nicht neben anderen Parametern stehen",
+        help_en: "with @ the path has exactly the parameters of the other path",
+        help_de: "mit @ hat der Pfad genau die Parameter des anderen Pfads",
+    }
+    /// @ to nothing.
+    AT_UNKNOWN: InvalidAtReference {
+        en: "there is no path {name} with a start in this drawing",
+        de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Anfang",
+        help_en: "@ names another path of the same drawing; it has {known}",
+        help_de: "@ nennt einen anderen Pfad derselben Zeichnung; sie hat {known}",
+    }
+    /// @ to a path with @.
+    AT_CHAINED: InvalidAtReference {
+        en: "path {name} itself uses @",
+        de: "Pfad {name} verwendet selbst @",
+        help_en: "name the path that has the parameters",
+        help_de: "den Pfad nennen, der die Parameter hat",
+    }
+    /// E cannot be understood.
+    INVALID_REGEX: InvalidRegex {
+        en: "E is not a regular expression: {reason}",
+        de: "E ist kein regulärer Ausdruck: {reason}",
+        help_en: "E is searched in the names of embedded paths: E^2050 or E[.]1P",
+        help_de: "E wird in den Namen eingebetteter Pfade gesucht: E^2050 oder E[.]1P",
+    }
+    /// Allowed, but nothing comes of it.
+    WITHOUT_EFFECT: ParameterWithoutEffect {
+        en: "{letter} has no effect here",
+        de: "{letter} hat hier keine Wirkung",
+        help_en: "remove it, so that nobody believes it holds",
+        help_de: "entfernen, damit niemand glaubt, dass es gilt",
+    }
+    /// Only the chain's first segment's value counts.
+    WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {
+        en: "{letter} has no effect here: a milling chain has that of its first segment",
+        de: "{letter} hat hier keine Wirkung: eine Fräskette hat jenes ihres ersten Segments",
+        help_en: "write it on the chain's first segment, or on the path's start marker",
+        help_de: "ans erste Segment der Kette schreiben, oder an die Startmarke des Pfads",
+    }
+}

@@ -1,3 +1,98 @@
-//! TBD
+//! Embedding. (PB501 to PB511)
 
-messages! {}
+messages! {
+    /// No `>`.
+    MISSING_NAME: MissingSubpathName {
+        en: "the subpath does not say which path to embed",
+        de: "der Unterpfad sagt nicht, welcher Pfad einzubetten ist",
+        help_en: "put a text over it: \">1234.1P\"; or make it DOT to skip it, DASHED for a sweep",
+        help_de: "einen Text darüberlegen: \">1234.1P\"; oder DOT, um ihn auszulassen, DASHED für eine Leerfahrt",
+    }
+    /// `>` without a path name.
+    INVALID_NAME: InvalidPathName {
+        en: "\"{value}\" is no path name",
+        de: "\"{value}\" ist kein Pfadname",
+        help_en: "path names match {pattern}",
+        help_de: "Pfadnamen entsprechen {pattern}",
+    }
+    /// More in the text than the name.
+    MORE_THAN_NAME: InvalidPathName {
+        en: "\"{value}\" is read as {name}; the rest is ignored",
+        de: "\"{value}\" wird als {name} gelesen; der Rest wird nicht beachtet",
+        help_en: "separate parameters from the name by a space",
+        help_de: "Parameter durch ein Leerzeichen vom Namen trennen",
+    }
+    /// Nowhere.
+    NOT_FOUND: PathNotFound {
+        en: "path {name} is not found",
+        de: "Pfad {name} ist nicht zu finden",
+        help_en: "looked in {directories}; files that may hold it by their names: {files}",
+        help_de: "gesucht in {directories}; Dateien, die ihn dem Namen nach enthalten können: {files}",
+    }
+    /// Note: similar names.
+    NEAR_NAMES: PathNotFound {
+        en: "similar names: {names}",
+        de: "ähnliche Namen: {names}",
+    }
+    /// Note: elsewhere in the library.
+    ELSEWHERE: PathNotFound {
+        en: "the library holds it in {file}: add {directory} to `search`",
+        de: "die Bibliothek enthält ihn in {file}: {directory} zu `search` hinzufügen",
+    }
+    /// Twice.
+    DEFINED_TWICE: PathDefinedTwice {
+        en: "path {name} is defined twice: in {first} and in {second}",
+        de: "Pfad {name} ist zweimal festgelegt: in {first} und in {second}",
+        help_en: "rename or remove one of them",
+        help_de: "einen davon umbenennen oder entfernen",
+    }
+    /// The chord differs.
+    SIZE_DIFFERS: SubpathSizeDiffers {
+        en: "the segment is {segment} mm long, but path {name} is {path} mm from start to end",
+        de: "das Segment ist {segment} mm lang, Pfad {name} aber {path} mm von Anfang bis Ende",
+        help_en: "draw the segment from where the path starts to where it ends: copy the component's proxy line",
+        help_de: "das Segment vom Anfang des Pfads bis zu seinem Ende zeichnen: die Stellvertreterlinie des Bauteils kopieren",
+    }
+    /// T, O or M differ.
+    PARAMETER_DIFFERS: SubpathParameterDiffers {
+        en: "{letter} is {segment} here, but {path} in path {name}",
+        de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
+        help_en: "write the path's {letter} on the segment, if it really is milled from that; else use another component",
+        help_de: "das {letter} des Pfads an das Segment schreiben, wenn wirklich daraus gefräst wird; sonst ein anderes Bauteil verwenden",
+    }
+    /// E or --restrict.
+    FORBIDDEN: SubpathForbidden {
+        en: "path {name} may not be embedded here: it does not match {rule}",
+        de: "Pfad {name} darf hier nicht eingebettet werden: er entspricht nicht {rule}",
+        help_en: "the rule is the path's E, or --restrict (`restrict` in pathbuild.toml)",
+        help_de: "die Regel ist das E des Pfads, oder --restrict (`restrict` in pathbuild.toml)",
+    }
+    /// Too deep.
+    TOO_DEEP: NestingTooDeep {
+        en: "path {name} is embedded more than {limit} levels deep: {chain}",
+        de: "Pfad {name} ist mehr als {limit} Ebenen tief eingebettet: {chain}",
+        help_en: "embed it in a project nearer to the outermost",
+        help_de: "in einem Projekt einbetten, das dem äußersten näher ist",
+    }
+    /// A cycle.
+    CYCLE: SubpathCycle {
+        en: "path {name} embeds itself: {chain}",
+        de: "Pfad {name} bettet sich selbst ein: {chain}",
+        help_en: "remove one of these embeddings",
+        help_de: "eine dieser Einbettungen entfernen",
+    }
+    /// The embedding path is thinner.
+    T_BELOW: PathTBelowSubpathT {
+        en: "T of this path is {path}, less than the subpath's {segment}",
+        de: "T dieses Pfads ist {path}, weniger als das des Unterpfads mit {segment}",
+        help_en: "the outer path's sweeps would run through the inner path's material; raise the path's T",
+        help_de: "die Leerfahrten des äußeren Pfads würden durch das Material des inneren laufen; T des Pfads erhöhen",
+    }
+    /// The embedded path has errors.
+    HAS_ERRORS: SubpathHasErrors {
+        en: "the embedded path {name} has errors",
+        de: "der eingebettete Pfad {name} hat Fehler",
+        help_en: "they are reported with {file}",
+        help_de: "sie werden bei {file} gemeldet",
+    }
+}

@@ -1,3 +1,60 @@
-//! TBD
+//! Variables: definitions, values, references. (PB301 to PB305)
 
-messages! {}
+messages! {
+    /// A definition of no known form.
+    INVALID_DEFINITION: InvalidVariableDefinition {
+        en: "\"{definition}\" does not define the values of a variable",
+        de: "\"{definition}\" legt keine Variablenwerte fest",
+        help_en: "a range (:A-0.5~1.2), a list (:BP1,P2,P3) or single characters (:C?PQRS)",
+        help_de: "ein Bereich (:A-0.5~1.2), eine Liste (:BP1,P2,P3) oder einzelne Zeichen (:C?PQRS)",
+    }
+    /// A range from the greater to the lesser number.
+    REVERSED_RANGE: InvalidVariableDefinition {
+        en: "the range \"{definition}\" ends before it begins",
+        de: "der Bereich \"{definition}\" endet, bevor er beginnt",
+        help_en: "write the lesser number first",
+        help_de: "die kleinere Zahl zuerst schreiben",
+    }
+    /// A list with an empty element, or nothing at all.
+    EMPTY_ELEMENT: InvalidVariableDefinition {
+        en: "\"{definition}\" has an empty element",
+        de: "\"{definition}\" hat ein leeres Element",
+        help_en: "remove the comma, or write the value between",
+        help_de: "das Komma entfernen, oder den Wert dazwischenschreiben",
+    }
+    /// A path with variables by itself.
+    MISSING_VALUE: MissingVariableValue {
+        en: "variable \"{variable}\" has no value",
+        de: "Variable \"{variable}\" hat keinen Wert",
+        help_en: "it is defined as {definition}; embed the path in a project that sets it: :{variable}VALUE",
+        help_de: "sie ist als {definition} festgelegt; den Pfad in ein Projekt einbetten, das sie setzt: :{variable}WERT",
+    }
+    /// A subpath text sets what the path does not define.
+    VALUE_WITHOUT_DEFINITION: UnknownVariable {
+        en: "path {name} has no variable \"{variable}\"",
+        de: "Pfad {name} hat keine Variable \"{variable}\"",
+        help_en: "it has {known}",
+        help_de: "er hat {known}",
+    }
+    /// A reference to nothing.
+    UNKNOWN_REFERENCE: UnknownVariable {
+        en: "there is no variable \"{variable}\" in this path",
+        de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
+        help_en: "the path's start marker defines {known}; a reference is = and one character",
+        help_de: "die Startmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
+    }
+    /// A value outside its definition.
+    VALUE_NOT_ALLOWED: VariableValueNotAllowed {
+        en: "variable \"{variable}\" cannot be \"{value}\"",
+        de: "Variable \"{variable}\" kann nicht \"{value}\" sein",
+        help_en: "path {name} defines it as {definition}",
+        help_de: "Pfad {name} legt sie als {definition} fest",
+    }
+    /// A value that leads back to itself.
+    ENDLESS: EndlessVariable {
+        en: "the value of \"{variable}\" leads back to itself",
+        de: "der Wert von \"{variable}\" führt auf sich selbst zurück",
+        help_en: "a value may refer to other variables, but not in a circle",
+        help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis",
+    }
+}

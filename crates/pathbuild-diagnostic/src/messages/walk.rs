@@ -1,3 +1,73 @@
-//! TBD
+//! The walk along a path. (PB401 to PB406)
 
-messages! {}
+messages! {
+    /// A dead end without a turn marker.
+    NOTHING_CONTINUES: NothingContinues {
+        en: "nothing continues here: {left} segments are left",
+        de: "hier geht nichts weiter: {left} Segmente sind übrig",
+        help_en: "close the gap, draw the missing segment, or move it to the path's layer",
+        help_de: "die Lücke schließen, das fehlende Segment zeichnen, oder es auf den Layer des Pfads legen",
+    }
+    /// A turn marker from where nothing is found.
+    TURN_FOUND_NOTHING: NothingContinues {
+        en: "going back from this turn marker found nothing: {left} segments are left",
+        de: "auf dem Rückweg von dieser Wendemarke fand sich nichts: {left} Segmente sind übrig",
+        help_en: "the way back leads to the start; something must branch off on it",
+        help_de: "der Rückweg führt bis zum Anfang; unterwegs muss etwas abzweigen",
+    }
+    /// Note: the nearest open end.
+    NEAREST_END: NothingContinues {
+        en: "the nearest open end is at {point}, {distance} mm away ({element})",
+        de: "das nächste offene Ende ist bei {point}, {distance} mm entfernt ({element})",
+    }
+    /// Note: an end on another layer.
+    END_ON_OTHER_LAYER: NothingContinues {
+        en: "on layer {layer} {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
+        de: "auf Layer {layer} endet {element} bei {point}, {distance} mm entfernt: liegt es auf dem falschen Layer?",
+    }
+    /// Note: a duplicate.
+    DUPLICATE: NothingContinues {
+        en: "{element} at {point} lies on one that was already traversed: it is drawn twice",
+        de: "{element} bei {point} liegt auf einem schon durchlaufenen: es ist doppelt gezeichnet",
+    }
+    /// Note: a curve that was left out (PB111).
+    LEFT_OUT_HERE: NothingContinues {
+        en: "a curve that is no part of the path ({kind}) lies at {point}",
+        de: "bei {point} liegt eine Kurve ({kind}), die nicht zum Pfad gehört",
+    }
+    /// Stopped at the end with segments left.
+    UNREACHED: UnreachedSegments {
+        en: "the path ends here, but {left} of its segments were not reached; one is {element} at {point}",
+        de: "der Pfad endet hier, aber {left} seiner Segmente wurden nicht erreicht; eines ist {element} bei {point}",
+        help_en: "connect them with the path, remove them, or move them to another layer",
+        help_de: "mit dem Pfad verbinden, entfernen, oder auf einen anderen Layer legen",
+    }
+    /// All segments done, but not at the end.
+    END_NOT_REACHED: EndNotReached {
+        en: "the path stops at {point}, but its end marker is at {end}",
+        de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
+        help_en: "move the end marker there, or draw what is missing between",
+        help_de: "die Endmarke dorthin verschieben, oder das Fehlende dazwischen zeichnen",
+    }
+    /// No segments.
+    EMPTY_PATH: EmptyPath {
+        en: "the path has no segments",
+        de: "der Pfad hat keine Segmente",
+        help_en: "draw lines, arcs or circles on the path's layer",
+        help_de: "Linien, Bögen oder Kreise auf dem Layer des Pfads zeichnen",
+    }
+    /// Larger than A.
+    HELIX_TOO_LARGE: HelixTooLarge {
+        en: "the helical circle's diameter {diameter} mm is greater than A, which is {limit}",
+        de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A mit {limit}",
+        help_en: "a core would break loose; mill the circle as a path with support bars, or give the path an A (default 4 * O)",
+        help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen, oder dem Pfad ein A geben (sonst gilt 4 * O)",
+    }
+    /// The bars are too close.
+    NO_ROOM_BETWEEN_BARS: NoRoomBetweenBars {
+        en: "between two of the {count} support bars there are {gap} mm, too little for the cutter, O{tool}",
+        de: "zwischen zwei der {count} Stützstege sind {gap} mm, zu wenig für den Fräser, O{tool}",
+        help_en: "raise U, the least distance between bars, or shorten P",
+        help_de: "U, den Mindestabstand der Stege, erhöhen, oder P verkleinern",
+    }
+}

@@ -1,0 +1,44 @@
+//! Names of things that messages put in, in every language. (Glossary in spec/00-overview.md)
+
+use crate::message::Word;
+
+macro_rules! words {
+    ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
+        $($(#[$doc])* pub static $key: Word = Word { en: $en, de: $de };)*
+    };
+}
+
+words! {
+    /// The start marker's text, which holds the path's own parameters.
+    PATH_START: "a path start", "ein Pfadanfang";
+    /// CONTINUOUS line or arc.
+    MILLING_SEGMENT: "a milling segment", "ein Frässegment";
+    /// DIVIDE line or arc.
+    MARKING_SEGMENT: "a marking segment", "ein Markierungssegment";
+    /// BORDER or CENTER line or arc.
+    SUPPORT_SEGMENT: "a segment with support bars", "ein Segment mit Stützstegen";
+    /// DASHED line or arc.
+    SWEEP: "a sweep", "eine Leerfahrt";
+    /// Circle of the cutter's diameter.
+    DRILLED_HOLE: "a drilled hole", "ein Bohrloch";
+    /// The same, to marking depth.
+    DRILLED_MARK: "a drilled mark", "eine Bohrmarkierung";
+    /// Larger circle.
+    HELICAL_CIRCLE: "a helical circle", "ein Helixkreis";
+    /// The same, to marking depth.
+    HELICAL_MARK: "a helical mark", "eine Helixmarkierung";
+    /// The same, with bars.
+    HELICAL_SUPPORT: "a helical circle with support bars", "ein Helixkreis mit Stützstegen";
+    /// Circle that may be a hole or a helical circle.
+    CIRCLE: "a circle", "ein Kreis";
+    /// DASHDOT line or arc.
+    SUBPATH: "a subpath", "ein Unterpfad";
+    /// Circle of 6 mm.
+    PROBE: "a Z-probe", "eine Z-Probe";
+    /// Anything else.
+    ELEMENT: "an element", "ein Element";
+    /// A line as such.
+    LINE: "a line", "eine Linie";
+    /// An arc as such.
+    ARC: "an arc", "ein Bogen";
+}

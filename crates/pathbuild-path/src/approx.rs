@@ -1,0 +1,31 @@
+//! The approximate comparisons of spec/00-overview.md, "Numeric comparison".
+//!
+//! Coordinates come from CAD exports, so equality is approximate. It is not transitive: take minima in one scan with these, and
+//! never sort by them.
+
+use crate::Xy;
+
+/// Whether two numbers are the same up to rounding.
+pub fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-6 * (a.abs().max(b.abs()) + 0.001)
+}
+
+/// Whether `a >= b`, approximately.
+pub fn at_least(a: f64, b: f64) -> bool {
+    a >= b || near(a, b)
+}
+
+/// Whether `a > b`, approximately: not when they are near.
+pub fn above(a: f64, b: f64) -> bool {
+    a > b && !near(a, b)
+}
+
+/// Whether two points coincide (about 0.0000316 mm): for ends of segments, markers and the walk.
+pub fn coincide(a: Xy, b: Xy) -> bool {
+    near((b - a).norm_squared(), 0.0)
+}
+
+/// Whether a distance in mm is nothing (about 1e-9 mm): for moves that would not move.
+pub fn is_nothing(distance: f64) -> bool {
+    near(distance, 0.0)
+}

@@ -1,0 +1,124 @@
+//! Formal variables: what values they may have, and which are used for checking. (spec/40-variables.md)
+
+use std::fmt;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::variables as messages;
+
+use crate::approx::at_least;
+use crate::number::parse_number;
+
+/// A variable that a path defines at its start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// Its name, one character.
+    pub name: char,
+    /// What it may be.
+    pub values: Allowed,
+    written: Box<str>,
+}
+
+/// The values that a definition allows.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the ends as written and as numbers")]
+pub enum Allowed {
+    /// `-0.5~1,2`: numbers, both ends included.
+    Range { from: f64, to: f64, from_text: Box<str>, to_text: Box<str> },
+    /// `P1,P2,P3`: exactly these texts.
+    List(Vec<Box<str>>),
+    /// `?PQRS`: exactly one of these characters.
+    Characters(Vec<char>),
+}
+
+impl Definition {
+    /// The definition in a path start's `:` piece: a name and what follows it.
+    ///
+    /// # Errors
+    /// PB301, without a place.
+    pub fn parse(value: &str) -> Result<Self, Diagnostic> {
+        let mut characters = value.chars();
+        let name = characters.next().ok_or_else(|| invalid(&messages::INVALID_DEFINITION, value))?;
+        let written = characters.as_str();
+        Ok(Self { name, values: allowed(written)?, written: written.into() })
+    }
+
+    /// Whether the variable may have a value.
+    pub fn allows(&self, value: &str) -> bool {
+        match &self.values {
+            Allowed::Range { from, to, .. } => {
+                parse_number(value).is_some_and(|number| at_least(number, *from) && at_least(*to, number))
+            }
+            Allowed::List(values) => values.iter().any(|allowed| **allowed == *value),
+            Allowed::Characters(characters) => {
+                let mut value = value.chars();
+                value.next().is_some_and(|character| characters.contains(&character))
+                    && value.next().is_none()
+            }
+        }
+    }
+
+    /// The example value that the variable with index `k` of its path is checked with.
+    pub fn check_value(&self, k: usize) -> String {
+        match &self.values {
+            Allowed::Range { from_text, to_text, .. } => {
+                if k.is_multiple_of(2) {
+                    from_text.to_string()
+                } else {
+                    to_text.to_string()
+                }
+            }
+            Allowed::List(values) => values[k % values.len()].to_string(),
+            Allowed::Characters(characters) => characters[k % characters.len()].to_string(),
+        }
+    }
+
+    /// The values that `check --all-bindings` goes through: all of a list, both ends of a range.
+    pub fn corner_values(&self) -> Vec<String> {
+        match &self.values {
+            Allowed::Range { .. } => vec![self.check_value(0), self.check_value(1)],
+            Allowed::List(values) => values.iter().map(ToString::to_string).collect(),
+            Allowed::Characters(characters) => characters.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// As it is written at the path's start.
+impl fmt::Display for Definition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+/// The forms are tried in this order: a range may have decimal commas, and a list may begin with a question mark.
+fn allowed(written: &str) -> Result<Allowed, Diagnostic> {
+    if let Some(range) = range(written) {
+        return range;
+    }
+    if written.contains(',') {
+        let clean = written.replace('?', "");
+        let values: Vec<Box<str>> = clean.split(',').map(|value| value.trim().into()).collect();
+        if values.iter().any(|value| value.is_empty()) {
+            return Err(invalid(&messages::EMPTY_ELEMENT, written));
+        }
+        return Ok(Allowed::List(values));
+    }
+    match written.strip_prefix('?') {
+        Some("") => Err(invalid(&messages::EMPTY_ELEMENT, written)),
+        Some(characters) => Ok(Allowed::Characters(characters.chars().collect())),
+        None => Err(invalid(&messages::INVALID_DEFINITION, written)),
+    }
+}
+
+/// `None` when it is no range at all.
+fn range(written: &str) -> Option<Result<Allowed, Diagnostic>> {
+    let (from_text, to_text) = written.split_once('~')?;
+    let (from, to) = (parse_number(from_text)?, parse_number(to_text)?);
+    if from > to {
+        return Some(Err(invalid(&messages::REVERSED_RANGE, written)));
+    }
+    Some(Ok(Allowed::Range { from, to, from_text: from_text.into(), to_text: to_text.into() }))
+}
+
+fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Diagnostic {
+    Diagnostic::new(message).with("definition", written)
+}

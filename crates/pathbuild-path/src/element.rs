@@ -1,0 +1,207 @@
+//! Elements of a path: what is drawn, and what it means. (spec/10-drawing.md, "Line types", "Special circles")
+
+use pathbuild_diagnostic::words;
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
+
+use crate::approx::near;
+use crate::geometry::{Curve, Xy};
+use crate::letter::ElementClass;
+use crate::line_type::LineType;
+
+/// A line, arc or circle on a path's layer that stands for something along the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// Where to find it in the file.
+    pub origin: Origin,
+    /// What is drawn.
+    pub shape: Shape,
+    /// What it means.
+    pub role: Role,
+    /// The text that belongs to it: index into [`RawPath::texts`](crate::RawPath::texts).
+    pub text: Option<u32>,
+}
+
+/// A special circle.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "as in Element")]
+pub struct Marker {
+    pub origin: Origin,
+    pub at: Xy,
+    pub text: Option<u32>,
+}
+
+/// What diagnostics say about where an element is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// Its number in the path's source map.
+    pub id: ElementId,
+    /// Its type in the file.
+    pub entity: EntityKind,
+    /// Its layer.
+    pub layer: Box<str>,
+    /// Its beginning, or centre.
+    pub point: Point,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "a circle's parts")]
+pub enum Shape {
+    Curve(Curve),
+    Circle { centre: Xy, radius: f64 },
+}
+
+/// What an element means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Milled, marked, or milled with bars. On a circle: a hole or helical circle.
+    Cut(Cut),
+    /// DASHED.
+    Sweep,
+    /// HIDDEN: a sweep that takes no text.
+    SilentSweep,
+    /// DOT: a subpath that is skipped, a sweep. It keeps its text, which is not read, so that it can be switched back.
+    SkippedSubpath,
+    /// DASHDOT.
+    Subpath,
+}
+
+/// How deep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cut {
+    /// To B.
+    Mill,
+    /// To D.
+    Mark,
+    /// To B, but with bars up to D.
+    Support,
+}
+
+/// What a circle is, by its line type and diameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum CircleMeaning {
+    Start,
+    Turn,
+    End,
+    Probe,
+    IgnoredProbe,
+    Cut(Cut),
+    UnknownDiameter,
+    UnknownLineType,
+}
+
+impl Origin {
+    /// A diagnostic at this element.
+    pub fn at(&self, diagnostic: Diagnostic) -> Diagnostic {
+        diagnostic.at_element(self.id, self.entity, &self.layer, self.point)
+    }
+}
+
+impl Shape {
+    /// Its beginning, or centre.
+    pub fn point(&self) -> Xy {
+        match self {
+            Self::Curve(curve) => curve.start(),
+            Self::Circle { centre, .. } => *centre,
+        }
+    }
+
+    /// What it is called.
+    pub fn word(&self) -> &'static Word {
+        match self {
+            Self::Curve(Curve::Line(_)) => &words::LINE,
+            Self::Curve(Curve::Arc(_)) => &words::ARC,
+            Self::Circle { .. } => &words::CIRCLE,
+        }
+    }
+}
+
+impl Element {
+    /// What its text may hold, with a cutter of diameter `tool`.
+    pub fn class(&self, tool: Option<f64>) -> ElementClass {
+        match (self.role, self.shape) {
+            (Role::Cut(cut), Shape::Circle { radius, .. }) => circle_class(cut, radius, tool),
+            (Role::Cut(Cut::Mill), _) => ElementClass::Mill,
+            (Role::Cut(Cut::Mark), _) => ElementClass::Mark,
+            (Role::Cut(Cut::Support), _) => ElementClass::Support,
+            (Role::Sweep, _) => ElementClass::Sweep,
+            (Role::SilentSweep | Role::SkippedSubpath, _) => ElementClass::Unread,
+            (Role::Subpath, _) => ElementClass::Subpath,
+        }
+    }
+}
+
+impl ElementClass {
+    /// Its name in messages.
+    pub fn word(self) -> &'static Word {
+        match self {
+            Self::PathStart => &words::PATH_START,
+            Self::Mill => &words::MILLING_SEGMENT,
+            Self::Mark => &words::MARKING_SEGMENT,
+            Self::Support => &words::SUPPORT_SEGMENT,
+            Self::Sweep => &words::SWEEP,
+            Self::DrilledHole => &words::DRILLED_HOLE,
+            Self::DrilledMark => &words::DRILLED_MARK,
+            Self::HelicalCircle => &words::HELICAL_CIRCLE,
+            Self::HelicalMark => &words::HELICAL_MARK,
+            Self::HelicalSupport => &words::HELICAL_SUPPORT,
+            Self::UnknownCircle => &words::CIRCLE,
+            Self::Subpath => &words::SUBPATH,
+            Self::Probe => &words::PROBE,
+            Self::Unread => &words::ELEMENT,
+        }
+    }
+}
+
+/// A circle of exactly the cutter's diameter is a drilled hole, also where bars are asked for: there is nothing to leave standing.
+fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
+    let Some(tool) = tool else { return ElementClass::UnknownCircle };
+    if near(radius, tool / 2.0) {
+        if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole }
+    } else if radius < tool / 2.0 {
+        ElementClass::UnknownCircle
+    } else {
+        match cut {
+            Cut::Mill => ElementClass::HelicalCircle,
+            Cut::Mark => ElementClass::HelicalMark,
+            Cut::Support => ElementClass::HelicalSupport,
+        }
+    }
+}
+
+/// What a line or arc of this line type means; `None` where it means nothing.
+pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
+    Some(match line_type {
+        LineType::Continuous => Role::Cut(Cut::Mill),
+        LineType::Divide => Role::Cut(Cut::Mark),
+        LineType::Border | LineType::Center => Role::Cut(Cut::Support),
+        LineType::Dashed => Role::Sweep,
+        LineType::Hidden => Role::SilentSweep,
+        LineType::Dot => Role::SkippedSubpath,
+        LineType::Dashdot => Role::Subpath,
+        LineType::Phantom => return None,
+    })
+}
+
+/// What a circle means.
+pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {
+    let is_probe = near(radius, 3.0);
+    match line_type {
+        LineType::Continuous => CircleMeaning::Cut(Cut::Mill),
+        LineType::Divide => CircleMeaning::Cut(Cut::Mark),
+        LineType::Border | LineType::Center => CircleMeaning::Cut(Cut::Support),
+        LineType::Dashed | LineType::Hidden => CircleMeaning::UnknownLineType,
+        LineType::Dashdot if is_probe => CircleMeaning::Probe,
+        LineType::Dot if is_probe => CircleMeaning::IgnoredProbe,
+        LineType::Phantom if is_probe => CircleMeaning::Probe,
+        LineType::Phantom if near(radius, 0.5) => CircleMeaning::Start,
+        LineType::Phantom if near(radius, 0.75) => CircleMeaning::Turn,
+        LineType::Phantom if near(radius, 1.0) => CircleMeaning::End,
+        LineType::Dashdot | LineType::Dot | LineType::Phantom => CircleMeaning::UnknownDiameter,
+    }
+}
+
+/// A point of the drawing as diagnostics show it.
+pub(crate) fn shown(point: Xy) -> Point {
+    Point::new(point.x, point.y)
+}

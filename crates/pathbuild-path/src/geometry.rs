@@ -1,0 +1,198 @@
+//! Lines, arcs and circles in the plane, and the turn-and-move that places an embedded path.
+
+use nalgebra::{Point2, UnitComplex, Vector2};
+
+/// A point in the plane, in mm.
+pub type Xy = Point2<f64>;
+
+/// A straight piece of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "its ends")]
+pub struct Line {
+    pub start: Xy,
+    pub end: Xy,
+}
+
+/// A circular piece of a path, run from `start` to `end`.
+///
+/// Both the ends and the angles are kept: the ends decide what meets, the angles how long it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Centre.
+    pub centre: Xy,
+    /// Radius in mm, > 0.
+    pub radius: f64,
+    /// Where it begins.
+    pub start: Xy,
+    /// Where it ends.
+    pub end: Xy,
+    /// The direction in which it is run.
+    pub clockwise: bool,
+    /// How far it goes round in that direction, in degrees, above 0 up to 360.
+    pub degrees: f64,
+}
+
+/// What a segment is drawn as, from its start to its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the types say it")]
+pub enum Curve {
+    Line(Line),
+    Arc(Arc),
+}
+
+/// How an embedded path lies in the program: turned, then moved; never scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    turn: UnitComplex<f64>,
+    shift: Vector2<f64>,
+}
+
+impl Curve {
+    /// Where it begins.
+    pub fn start(&self) -> Xy {
+        match self {
+            Self::Line(line) => line.start,
+            Self::Arc(arc) => arc.start,
+        }
+    }
+
+    /// Where it ends.
+    pub fn end(&self) -> Xy {
+        match self {
+            Self::Line(line) => line.end,
+            Self::Arc(arc) => arc.end,
+        }
+    }
+
+    /// The distance between its ends, in mm.
+    pub fn chord(&self) -> f64 {
+        (self.end() - self.start()).norm()
+    }
+
+    /// The length along it, in mm.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Line(line) => (line.end - line.start).norm(),
+            Self::Arc(arc) => arc.length(),
+        }
+    }
+
+    /// The same curve, run the other way.
+    pub fn reversed(self) -> Self {
+        match self {
+            Self::Line(line) => Self::Line(Line { start: line.end, end: line.start }),
+            Self::Arc(arc) => {
+                Self::Arc(Arc { start: arc.end, end: arc.start, clockwise: !arc.clockwise, ..arc })
+            }
+        }
+    }
+
+    /// The piece of it from `from` to `to`, both in mm along it from its start.
+    pub fn section(&self, from: f64, to: f64) -> Self {
+        match self {
+            Self::Line(line) => {
+                let direction = (line.end - line.start) / self.length();
+                Self::Line(Line { start: line.start + direction * from, end: line.start + direction * to })
+            }
+            Self::Arc(arc) => Self::Arc(arc.section(from, to)),
+        }
+    }
+}
+
+impl Arc {
+    /// An arc by its angles (degrees, as drawn); equal angles make a full circle.
+    pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
+        let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
+        // Not rem_euclid: a tiny negative difference would round up to 360 and swallow the arc's real direction, which it is meant to.
+        let degrees = ahead - 360.0 * (ahead / 360.0).floor();
+        let degrees = if degrees <= 0.0 { 360.0 } else { degrees };
+        Self {
+            centre,
+            radius,
+            start: on_circle(centre, radius, start_angle),
+            end: on_circle(centre, radius, end_angle),
+            clockwise,
+            degrees,
+        }
+    }
+
+    /// The length along it, in mm.
+    pub fn length(&self) -> f64 {
+        self.radius * self.degrees.to_radians()
+    }
+
+    fn section(&self, from: f64, to: f64) -> Self {
+        let at = |along: f64| {
+            let angle = (along / self.radius).copysign(if self.clockwise { -1.0 } else { 1.0 });
+            let (sin, cos) = libm::sincos(angle);
+            self.centre
+                + UnitComplex::new_unchecked(nalgebra::Complex::new(cos, sin)) * (self.start - self.centre)
+        };
+        Self { start: at(from), end: at(to), degrees: ((to - from) / self.radius).to_degrees(), ..*self }
+    }
+}
+
+impl Placement {
+    /// As the path itself lies in its drawing, but with `origin` at (0, 0).
+    pub fn from_origin(origin: Xy) -> Self {
+        Self { turn: UnitComplex::identity(), shift: -origin.coords }
+    }
+
+    /// Brings `start` exactly onto `onto_start`, and the direction from `start` to `end` into that from `onto_start` to `onto_end`. Where
+    /// a direction is missing because both its ends coincide, nothing is turned.
+    pub fn aligning((start, end): (Xy, Xy), (onto_start, onto_end): (Xy, Xy)) -> Self {
+        let turn = rotation_between(end - start, onto_end - onto_start);
+        Self { turn, shift: onto_start.coords - turn * start.coords }
+    }
+
+    /// Where a point of the path comes to lie.
+    pub fn place(&self, point: Xy) -> Xy {
+        self.turn * point + self.shift
+    }
+
+    /// Where a curve comes to lie.
+    pub fn place_curve(&self, curve: &Curve) -> Curve {
+        match curve {
+            Curve::Line(line) => {
+                Curve::Line(Line { start: self.place(line.start), end: self.place(line.end) })
+            }
+            Curve::Arc(arc) => Curve::Arc(Arc {
+                centre: self.place(arc.centre),
+                start: self.place(arc.start),
+                end: self.place(arc.end),
+                ..*arc
+            }),
+        }
+    }
+}
+
+/// The point of a circle at an angle in degrees. Quarter turns are exact, so that what a person drew at 90 degrees stays there.
+pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
+    centre + direction(degrees) * radius
+}
+
+/// The unit vector at an angle in degrees, exact at quarter turns.
+pub fn direction(degrees: f64) -> Vector2<f64> {
+    let turn = degrees - 360.0 * (degrees / 360.0).floor();
+    match turn {
+        0.0 => Vector2::new(1.0, 0.0),
+        90.0 => Vector2::new(0.0, 1.0),
+        180.0 => Vector2::new(-1.0, 0.0),
+        270.0 => Vector2::new(0.0, -1.0),
+        _ => {
+            let (sin, cos) = libm::sincos(turn.to_radians());
+            Vector2::new(cos, sin)
+        }
+    }
+}
+
+/// The rotation that turns one direction into another, from products and one square root: no angles, which would lose digits.
+fn rotation_between(from: Vector2<f64>, to: Vector2<f64>) -> UnitComplex<f64> {
+    let along = from.dot(&to);
+    let across = from.perp(&to);
+    let norm = libm::sqrt(along * along + across * across);
+    if norm == 0.0 {
+        return UnitComplex::identity();
+    }
+    UnitComplex::new_unchecked(nalgebra::Complex::new(along / norm, across / norm))
+}

@@ -1,0 +1,109 @@
+//! Line types: what happens along a line, arc or circle. (spec/10-drawing.md, "Line types")
+
+use std::collections::BTreeMap;
+
+/// The eight line types that mean something, by their usual names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the meaning depends on the entity: spec/10-drawing.md has the table")]
+pub enum LineType {
+    Continuous,
+    Divide,
+    Border,
+    Center,
+    Dashed,
+    Hidden,
+    Dashdot,
+    Dot,
+    Phantom,
+}
+
+/// Names beyond the built-in ones, from the configuration.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LineTypeAliases(BTreeMap<Box<str>, LineType>);
+
+impl LineType {
+    /// All of them with their names, as help lists them.
+    pub const NAMES: [(&str, Self); 9] = [
+        ("CONTINUOUS", Self::Continuous),
+        ("DIVIDE", Self::Divide),
+        ("BORDER", Self::Border),
+        ("CENTER", Self::Center),
+        ("DASHED", Self::Dashed),
+        ("HIDDEN", Self::Hidden),
+        ("DASHDOT", Self::Dashdot),
+        ("DOT", Self::Dot),
+        ("PHANTOM", Self::Phantom),
+    ];
+
+    /// The usual name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
+    }
+
+    /// The line type that a name in a drawing (upper case) stands for: exactly, with a suffix dropped, or through an alias. It is never
+    /// guessed from the dash pattern: DASHED2 and HIDDEN have the same.
+    pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {
+        aliases
+            .0
+            .get(name)
+            .copied()
+            .or_else(|| named(name))
+            .or_else(|| SUFFIXES.iter().find_map(|suffix| named(name.strip_suffix(suffix)?)))
+    }
+}
+
+impl LineTypeAliases {
+    /// Adds a name (in any case) for a line type.
+    pub fn insert(&mut self, name: &str, line_type: LineType) {
+        self.0.insert(name.trim().to_uppercase().into(), line_type);
+    }
+}
+
+/// Longest first: what is left of `DASHEDX2` must not be `DASHEDX`.
+const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];
+
+fn named(name: &str) -> Option<LineType> {
+    LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
+}
+
+/// Names of other programs and languages for the same line types (reference/dxf.md section 4). ISO types are mapped as LibreCAD's
+/// import does; AutoCAD Mechanical's are ISO types by number.
+const ALIASES: &[(&str, LineType)] = &[
+    ("SOLID", LineType::Continuous),
+    ("AUSGEZOGEN", LineType::Continuous),
+    ("DURCHGEHEND", LineType::Continuous),
+    ("FORTLAUFEND", LineType::Continuous),
+    ("GETRENNT", LineType::Divide),
+    ("TEILEN", LineType::Divide),
+    ("GETEILT", LineType::Divide),
+    ("RAND", LineType::Border),
+    ("MITTE", LineType::Center),
+    ("CENTRO", LineType::Center),
+    ("ОСЕВАЯ", LineType::Center),
+    ("GESTRICHELT", LineType::Dashed),
+    ("STRICHLINIE", LineType::Dashed),
+    ("TRATTEGGIATA", LineType::Dashed),
+    ("ШТРИХОВАЯ", LineType::Dashed),
+    ("VERDECKT", LineType::Hidden),
+    ("NASCOSTA", LineType::Hidden),
+    ("STRICHPUNKT", LineType::Dashdot),
+    ("PUNKT", LineType::Dot),
+    ("DOTTED", LineType::Dot),
+    ("ПУНКТИРНАЯ", LineType::Dot),
+    ("FANTASMA", LineType::Phantom),
+    ("ONS_PHANTOM", LineType::Phantom),
+    ("ONS_DASHDOT", LineType::Dashdot),
+    ("ONS_DOTTED", LineType::Dot),
+    ("ACAD_ISO02W100", LineType::Dashed),
+    ("ACAD_ISO03W100", LineType::Dashed),
+    ("ACAD_ISO04W100", LineType::Dashdot),
+    ("ACAD_ISO05W100", LineType::Divide),
+    ("ACAD_ISO07W100", LineType::Dot),
+    ("ACAD_ISO08W100", LineType::Center),
+    ("ACAD_ISO09W100", LineType::Phantom),
+    ("ACAD_ISO10W100", LineType::Dashdot),
+    ("ACAD_ISO12W100", LineType::Divide),
+    ("AM_ISO02W050", LineType::Dashed),
+    ("AM_ISO08W050", LineType::Center),
+    ("AM_ISO09W050", LineType::Phantom),
+];

@@ -1,0 +1,142 @@
+//! Path names, and the layers they are on. (spec/20-paths-and-files.md)
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+use regex::Regex;
+
+use crate::pattern::{Pattern, PatternError};
+
+/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt.
+#[derive(Clone)]
+pub struct PathName(Box<str>);
+
+/// What makes a layer a path layer: its name matches as a whole, without regard to case.
+#[derive(Clone, Debug)]
+pub struct PathPattern(Pattern);
+
+/// A layer that holds a path, or parts of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathLayer {
+    /// The path.
+    pub path: PathName,
+    /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements find only each other.
+    pub tilde: bool,
+}
+
+impl PathPattern {
+    /// The default: `2913.2P`.
+    pub const DEFAULT: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
+
+    /// A pattern from the configuration or the command line.
+    ///
+    /// # Errors
+    /// When it is no regular expression, or matches an empty name.
+    pub fn new(pattern: &str) -> Result<Self, PatternError> {
+        Pattern::new(pattern).map(Self)
+    }
+
+    /// The path that a layer belongs to; `None` for a layer that is no path layer.
+    pub fn layer(&self, layer: &str) -> Option<PathLayer> {
+        let name = without_tilde(layer);
+        let path = PathName::from_layer(name);
+        self.0.matches(&path.0).then(|| PathLayer { path, tilde: name.len() != layer.len() })
+    }
+
+    /// Whether a name is a path's.
+    pub fn matches(&self, name: &str) -> bool {
+        self.0.matches(name)
+    }
+
+    /// The first path name in a subpath's text, and the byte range it stands at.
+    pub fn find(&self, text: &str) -> Option<(PathName, std::ops::Range<usize>)> {
+        let found = self.0.find(text)?;
+        Some((PathName(text[found.clone()].into()), found))
+    }
+
+    /// The groups of a name, by which it is compared with file names. `None` when it does not match.
+    pub(crate) fn groups<'t>(&self, name: &'t str) -> Option<Vec<&'t str>> {
+        self.0.groups(name)
+    }
+
+    /// The regular expression as it was given.
+    pub fn as_str(&self) -> &str {
+        self.0.as_str()
+    }
+}
+
+impl PathName {
+    /// The name in a layer's, `_` read as `.`, a tilde suffix already dropped.
+    pub fn from_layer(layer: &str) -> Self {
+        Self(layer.replace('_', ".").into())
+    }
+
+    /// A name as a person gave it.
+    pub fn new(name: &str) -> Self {
+        Self(name.into())
+    }
+
+    /// As it is spelt.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// In the one spelling by which equal names are found and ordered.
+    pub fn folded(&self) -> String {
+        self.0.to_uppercase()
+    }
+
+    /// Whether a regular expression of E or --restrict is found anywhere in it, with regard to case.
+    pub fn is_match(&self, pattern: &Regex) -> bool {
+        pattern.is_match(&self.0)
+    }
+}
+
+impl fmt::Display for PathName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl fmt::Debug for PathName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.0)
+    }
+}
+
+impl PartialEq for PathName {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+            || self.0.chars().flat_map(char::to_uppercase).eq(other.0.chars().flat_map(char::to_uppercase))
+    }
+}
+
+impl Eq for PathName {}
+
+impl Hash for PathName {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        for letter in self.0.chars().flat_map(char::to_uppercase) {
+            letter.hash(state);
+        }
+    }
+}
+
+impl PartialOrd for PathName {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for PathName {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.0.chars().flat_map(char::to_uppercase).cmp(other.0.chars().flat_map(char::to_uppercase))
+    }
+}
+
+/// A layer's name without a trailing `~` and letters.
+fn without_tilde(layer: &str) -> &str {
+    match layer.rfind('~') {
+        Some(at) if layer[at + 1..].chars().all(char::is_alphabetic) => &layer[..at],
+        _ => layer,
+    }
+}

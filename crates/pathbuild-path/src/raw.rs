@@ -1,0 +1,112 @@
+//! Raw paths: what is drawn on a path's layers, with the texts found, whatever the variables are. (spec/10-drawing.md)
+
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
+
+use crate::definition::Definition;
+use crate::element::{Element, Marker};
+use crate::letter::Letter;
+use crate::line_type::LineTypeAliases;
+use crate::name::{PathName, PathPattern};
+use crate::number::parse_number;
+use crate::text::ParameterText;
+
+/// A path as it is drawn. It knows no lines and handles of the file: see [`SourceMap`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawPath {
+    /// Its name, as its first layer in the file spells it.
+    pub name: PathName,
+    /// That layer.
+    pub layer: Box<str>,
+    /// The start marker. Its text is that of the path itself, also where @ refers to another's.
+    pub start: Option<Marker>,
+    /// The end marker.
+    pub end: Option<Marker>,
+    /// Turn markers, in file order.
+    pub turns: Vec<Marker>,
+    /// Z-probes, in file order.
+    pub probes: Vec<Marker>,
+    /// All circles, then all lines, then all arcs, each in file order. (spec/50-path-building.md)
+    pub elements: Vec<Element>,
+    /// The texts that elements have.
+    pub texts: Vec<ParameterText>,
+    /// The path's own parameters: its start's text, or that of the path that @ names.
+    pub parameters: ParameterText,
+    /// The path that `parameters` belong to, where that is another.
+    pub parameters_of: Option<PathName>,
+    /// The variables that it defines, in the order written.
+    pub definitions: Vec<Definition>,
+    /// Curves on its layers that are no part of it, with where they begin.
+    pub left_out: Vec<(EntityKind, Point)>,
+    /// What is wrong with the drawing alone. When one is an error the path goes no further.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Where the elements of a path are in the file: by [`ElementId`](pathbuild_diagnostic::ElementId).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SourceMap(Vec<Position>);
+
+/// Line and handle of an entity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Position {
+    pub line: u32,
+    pub handle: Option<Handle>,
+}
+
+/// What the language needs to know of the configuration to read a drawing.
+#[derive(Clone, Debug)]
+pub struct Language {
+    /// Which layers are path layers.
+    pub path_pattern: PathPattern,
+    /// Names of line types.
+    pub line_types: LineTypeAliases,
+}
+
+/// All paths of a drawing, in order of first appearance.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RawFile {
+    /// The paths.
+    pub paths: Vec<(RawPath, SourceMap)>,
+    /// What belongs to the file and to none of its paths.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl RawPath {
+    /// Whether the drawing alone is in order.
+    pub fn is_sound(&self) -> bool {
+        !self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The text of an element.
+    pub fn text_of(&self, text: Option<u32>) -> Option<&ParameterText> {
+        text.and_then(|index| self.texts.get(index as usize))
+    }
+
+    /// The cutter's diameter: the literal O, when it is a number.
+    pub fn tool(&self) -> Option<f64> {
+        tool(&self.parameters)
+    }
+}
+
+impl SourceMap {
+    pub(crate) fn push(&mut self, position: Position) {
+        self.0.push(position);
+    }
+
+    /// Fills in the line and handle of a diagnostic whose element is in this map.
+    pub fn locate(&self, diagnostic: &mut Diagnostic) {
+        let element = diagnostic.place.element.and_then(|id| self.0.get(id.0 as usize));
+        if let Some(position) = element {
+            diagnostic.locate(position.line, position.handle);
+        }
+    }
+
+    /// The position of each element.
+    pub fn positions(&self) -> &[Position] {
+        &self.0
+    }
+}
+
+pub(crate) fn tool(parameters: &ParameterText) -> Option<f64> {
+    parameters.piece(Letter::O).and_then(|piece| parse_number(parameters.value(piece)))
+}

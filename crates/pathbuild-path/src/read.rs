@@ -1,0 +1,34 @@
+//! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (spec/10-drawing.md)
+
+mod collect;
+mod parameters;
+mod texts;
+
+use std::collections::BTreeMap;
+
+use pathbuild_dxf::Drawing;
+
+use crate::name::PathName;
+use crate::raw::{Language, RawFile};
+
+use collect::Collected;
+
+/// Finds the paths of a drawing. A drawing with errors of its own has none.
+pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
+    let mut collected = collect::paths(drawing, language);
+    let without_elements = collected.extract_if(.., |path| !path.has_elements()).collect::<Vec<_>>();
+    let mut diagnostics = drawing.diagnostics.clone();
+    for path in without_elements {
+        diagnostics.extend(path.orphans());
+    }
+    let starts = starts(&collected);
+    let paths = collected.into_iter().map(|path| path.finish(&starts)).collect();
+    RawFile { paths, diagnostics }
+}
+
+/// The start texts of all paths, to which @ can refer.
+type Starts = BTreeMap<PathName, crate::text::ParameterText>;
+
+fn starts(paths: &[Collected]) -> Starts {
+    paths.iter().filter_map(|path| Some((path.raw.name.clone(), path.start_text()?.clone()))).collect()
+}

@@ -1,0 +1,99 @@
+//! The parameters of a path and its elements, as far as they can be checked without values: which letters, @, definitions.
+
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+
+use super::Starts;
+use super::collect::Collected;
+use crate::definition::Definition;
+use crate::element::Origin;
+use crate::letter::{ElementClass, Letter};
+use crate::name::PathName;
+use crate::raw::tool;
+use crate::text::{ParameterText, Piece};
+
+impl Collected {
+    pub(crate) fn check_parameters(&mut self, starts: &Starts) {
+        let Some(start) = self.raw.start.clone() else { return self.check_elements(None) };
+        let Some(text) = self.raw.text_of(start.text).cloned() else {
+            if !self.has_broken_entity {
+                self.report(start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS)));
+            }
+            return self.check_elements(None);
+        };
+        self.report_all(&start.origin, text.problems(ElementClass::PathStart));
+        match text.piece(Letter::At) {
+            None => self.raw.parameters = text,
+            Some(piece) => match referenced(&text, piece, starts) {
+                Ok((name, parameters)) => {
+                    self.raw.parameters = parameters;
+                    self.raw.parameters_of = Some(name);
+                }
+                Err(problem) => self.report(start.origin.at(problem.with_text(text.fault(piece)))),
+            },
+        }
+        self.define_variables(&start.origin);
+        self.check_elements(tool(&self.raw.parameters));
+    }
+
+    fn check_elements(&mut self, tool: Option<f64>) {
+        let mut found = Vec::new();
+        let mut seen = None;
+        for element in &self.raw.elements {
+            // The parts of a polyline share one text, which is checked once.
+            if element.text.is_some() && element.text == seen {
+                continue;
+            }
+            seen = element.text.or(seen);
+            let class = element.class(tool);
+            if let Some(text) = self.raw.text_of(element.text) {
+                found.push((element.origin.clone(), text.problems(class)));
+            }
+        }
+        for probe in &self.raw.probes {
+            if let Some(text) = self.raw.text_of(probe.text) {
+                found.push((probe.origin.clone(), text.problems(ElementClass::Probe)));
+            }
+        }
+        for (origin, problems) in found {
+            self.report_all(&origin, problems);
+        }
+    }
+
+    fn report_all(&mut self, origin: &Origin, problems: Vec<Diagnostic>) {
+        for problem in problems {
+            self.report(origin.at(problem));
+        }
+    }
+
+    /// A faulty definition in a text that @ refers to is reported with the path that the text belongs to, but stops this one as well.
+    fn define_variables(&mut self, origin: &Origin) {
+        let parameters = self.raw.parameters.clone();
+        for piece in parameters.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable)) {
+            match Definition::parse(parameters.value(piece)) {
+                Ok(definition) => self.raw.definitions.push(definition),
+                Err(problem) => self.report(origin.at(problem.with_text(parameters.fault(piece)))),
+            }
+        }
+    }
+}
+
+/// The path that @ names, with its parameters.
+fn referenced(
+    text: &ParameterText,
+    piece: &Piece,
+    starts: &Starts,
+) -> Result<(PathName, ParameterText), Diagnostic> {
+    if text.pieces().len() > 1 {
+        return Err(Diagnostic::new(&messages::AT_WITH_OTHERS));
+    }
+    let name = PathName::new(text.value(piece));
+    let Some((name, parameters)) = starts.get_key_value(&name) else {
+        let known: Value = starts.keys().map(PathName::as_str).collect();
+        return Err(Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known));
+    };
+    if parameters.piece(Letter::At).is_some() {
+        return Err(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str()));
+    }
+    Ok((name.clone(), parameters.clone()))
+}

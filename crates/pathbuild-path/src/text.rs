@@ -1,0 +1,186 @@
+//! Parameter texts: letters and values. (spec/10-drawing.md, "Inside a text")
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, TextFault};
+
+use crate::letter::{ElementClass, Letter, Use};
+
+/// A parameter text with its pieces found, not yet asked what the values mean.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ParameterText {
+    text: Box<str>,
+    pieces: Vec<Piece>,
+}
+
+/// A letter with its value, still with variables in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The letter; `None` for a character that is none (PB202).
+    pub letter: Option<Letter>,
+    span: Range<u32>,
+    value_start: u32,
+}
+
+impl ParameterText {
+    /// Finds the pieces of a text, `%%` codes already replaced.
+    pub fn new(text: &str) -> Self {
+        let text = joined(text);
+        let pieces = split(&text);
+        Self { text: text.into(), pieces }
+    }
+
+    /// The text as it is shown in diagnostics.
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    /// All pieces in the order they are written.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The first piece of a letter.
+    pub fn piece(&self, letter: Letter) -> Option<&Piece> {
+        self.pieces.iter().find(|piece| piece.letter == Some(letter))
+    }
+
+    /// A piece's value as written.
+    pub fn value(&self, piece: &Piece) -> &str {
+        &self.text[piece.value_start as usize..piece.span.end as usize]
+    }
+
+    /// The whole text with a piece underlined.
+    pub fn fault(&self, piece: &Piece) -> TextFault {
+        TextFault::new(&self.text, piece.span.start as usize..piece.span.end as usize)
+    }
+
+    /// The whole text with part of a piece's value underlined; `within` counts bytes of the value.
+    pub fn fault_within(&self, piece: &Piece, within: Range<usize>) -> TextFault {
+        let start = piece.value_start as usize;
+        TextFault::new(&self.text, start + within.start..start + within.end)
+    }
+
+    /// The whole text underlined.
+    pub fn whole(&self) -> TextFault {
+        TextFault::new(&self.text, 0..self.text.len())
+    }
+
+    /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places.
+    pub fn problems(&self, class: ElementClass) -> Vec<Diagnostic> {
+        let of_piece = |(index, piece): (usize, &Piece)| {
+            let problem = self.problem(index, piece, class)?;
+            Some(problem.with_text(self.fault(piece)))
+        };
+        self.pieces.iter().enumerate().filter_map(of_piece).collect()
+    }
+
+    fn problem(&self, index: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
+        let first = self.text[piece.span.start as usize..].chars().next()?;
+        let Some(letter) = piece.letter else {
+            return (class != ElementClass::Unread).then(|| unknown_letter(first, class));
+        };
+        if class.use_of(letter) == Use::Unknown {
+            return Some(unknown_letter(first, class));
+        }
+        if self.pieces[..index].iter().any(|earlier| self.is_same(earlier, piece)) {
+            return Some(self.twice(letter, piece));
+        }
+        if letter.is_literal() && self.value(piece).contains('=') {
+            return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
+        }
+        (class.use_of(letter) == Use::Ignored)
+            .then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
+    }
+
+    /// Letters are the same letter; variables only when they are the same variable.
+    fn is_same(&self, a: &Piece, b: &Piece) -> bool {
+        a.letter == b.letter
+            && (a.letter != Some(Letter::Variable)
+                || self.value(a).chars().next() == self.value(b).chars().next())
+    }
+
+    fn twice(&self, letter: Letter, piece: &Piece) -> Diagnostic {
+        match (letter, self.value(piece).chars().next()) {
+            (Letter::Variable, Some(name)) => {
+                Diagnostic::new(&messages::VARIABLE_TWICE).with("variable", name)
+            }
+            _ => Diagnostic::new(&messages::TWICE).with("letter", letter.as_char()),
+        }
+    }
+}
+
+fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
+    let upper = letter.to_uppercase().next().and_then(Letter::new);
+    let known: pathbuild_diagnostic::Value = class.known_letters().map(|known| known.to_string()).collect();
+    let message = match upper {
+        Some(upper) if upper.as_char() != letter => &messages::LOWER_CASE_LETTER,
+        _ => &messages::UNKNOWN_LETTER,
+    };
+    let upper = upper.map_or(letter, Letter::as_char);
+    Diagnostic::new(message)
+        .with("letter", letter)
+        .with("upper", upper)
+        .with("known", known)
+        .with("element", class.word())
+}
+
+/// Joins what `~` at the end of a line continues: a long value goes on in the next line.
+fn joined(text: &str) -> String {
+    let mut joined = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(tilde) = rest.find('~') {
+        let after = &rest[tilde + 1..];
+        let is_continued = after.starts_with(['\n', '\r']);
+        joined.push_str(&rest[..tilde + usize::from(!is_continued)]);
+        rest = if is_continued { after.trim_start_matches(is_blank) } else { after };
+    }
+    joined.push_str(rest);
+    joined
+}
+
+/// What separates pieces: not a non-breaking space.
+fn is_blank(character: char) -> bool {
+    matches!(character, ' ' | '\t' | '\n' | '\r')
+}
+
+fn split(text: &str) -> Vec<Piece> {
+    let index = |byte: usize| u32::try_from(byte).unwrap_or(u32::MAX);
+    let mut pieces = Vec::new();
+    let mut end = 0;
+    while let Some(start) = text[end..].find(|character| !is_blank(character)).map(|offset| end + offset) {
+        end = text[start..].find(is_blank).map_or(text.len(), |length| start + length);
+        let first = text[start..].chars().next().unwrap_or_default();
+        pieces.push(Piece {
+            letter: Letter::new(first),
+            span: index(start)..index(end),
+            value_start: index(start + first.len_utf8()),
+        });
+    }
+    pieces
+}
+
+/// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.
+pub(crate) fn without_percent_codes(text: &str) -> String {
+    let mut replaced = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("%%") {
+        let code = rest[at + 2..].chars().next();
+        let replacement = match code {
+            Some('c' | 'C') => "_D",
+            Some('d' | 'D') => "_G",
+            Some('p' | 'P') => "_+",
+            _ => {
+                replaced.push_str(&rest[..=at]);
+                rest = &rest[at + 1..];
+                continue;
+            }
+        };
+        replaced.push_str(&rest[..at]);
+        replaced.push_str(replacement);
+        rest = &rest[at + 3..];
+    }
+    replaced.push_str(rest);
+    replaced
+}

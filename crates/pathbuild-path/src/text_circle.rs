@@ -1,0 +1,111 @@
+//! The circle by which a text finds its element, and what it overlaps. (spec/10-drawing.md, "The text circle")
+
+use nalgebra::Vector2;
+use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};
+
+use crate::geometry::{Arc, Curve, Line, Xy, direction};
+
+/// A text's circle, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "a circle's parts")]
+pub struct TextCircle {
+    pub centre: Xy,
+    pub radius: f64,
+}
+
+/// Width of a letter as part of its height.
+const LETTER_WIDTH: f64 = 0.6;
+
+impl TextCircle {
+    /// The circle of a one-line text.
+    pub fn of_text(text: &Text) -> Self {
+        let width = LETTER_WIDTH * text.height * text.string.chars().count() as f64;
+        let mut offset = offset(text.horizontal, text.vertical, width, text.height);
+        if text.backwards {
+            offset.x = -offset.x;
+        }
+        if text.upside_down {
+            offset.y = -offset.y;
+        }
+        let anchor = Xy::new(text.anchor.x, text.anchor.y);
+        Self {
+            centre: anchor + turned(offset, text.rotation),
+            radius: libm::sqrt(width * width + text.height * text.height) / 2.0,
+        }
+    }
+
+    /// The circle of a text of several lines.
+    pub fn of_mtext(text: &MText) -> Self {
+        let lines = text.plain.split('\n');
+        let (mut count, mut longest) = (0_usize, 0);
+        for line in lines {
+            count += 1;
+            longest = longest.max(line.chars().count());
+        }
+        let width = LETTER_WIDTH * text.height * longest as f64;
+        let height = text.height * count as f64;
+        let offset = offset(text.horizontal, text.vertical, width, height);
+        let anchor = Xy::new(text.anchor.x, text.anchor.y);
+        Self {
+            centre: anchor + turned(offset, text.rotation),
+            radius: (libm::sqrt(width * width + height * height) / 2.0).min(0.7 * height),
+        }
+    }
+
+    /// How far the circle's centre is from another circle's.
+    pub fn distance_to_centre(&self, centre: Xy) -> f64 {
+        (centre - self.centre).norm()
+    }
+
+    /// How far its centre is from an arc, where its radial projection lies on the arc.
+    pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
+        let out = self.centre - arc.centre;
+        let (along, across) = (out.dot(&(arc.start - arc.centre)), (arc.start - arc.centre).perp(&out));
+        let angle = libm::atan2(across, along).to_degrees();
+        let ahead = if arc.clockwise { -angle } else { angle };
+        let ahead = if ahead < 0.0 { ahead + 360.0 } else { ahead };
+        (ahead <= arc.degrees).then(|| (out.norm() - arc.radius).abs())
+    }
+
+    /// How far its centre is from a line, where the foot of the perpendicular lies on the line.
+    pub fn distance_to_line(&self, line: &Line) -> Option<f64> {
+        let direction = line.end - line.start;
+        let length = direction.norm();
+        if length == 0.0 {
+            return None;
+        }
+        let out = self.centre - line.start;
+        let foot = out.dot(&direction) / length;
+        (0.0..=length).contains(&foot).then(|| (direction.perp(&out) / length).abs())
+    }
+
+    /// How far its rim is from the nearest point of a curve, for help: 0 where they touch.
+    pub(crate) fn gap_to(&self, curve: &Curve) -> f64 {
+        let beside = match curve {
+            Curve::Line(line) => self.distance_to_line(line),
+            Curve::Arc(arc) => self.distance_to_arc(arc),
+        };
+        let to_ends = (curve.start() - self.centre).norm().min((curve.end() - self.centre).norm());
+        (beside.map_or(to_ends, |distance| distance.min(to_ends)) - self.radius).max(0.0)
+    }
+}
+
+/// From the anchor to the middle of a text that is not turned.
+fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, height: f64) -> Vector2<f64> {
+    let right = match horizontal {
+        HorizontalAlign::Left => width / 2.0,
+        HorizontalAlign::Centre => 0.0,
+        HorizontalAlign::Right => -width / 2.0,
+    };
+    let up = match vertical {
+        VerticalAlign::Baseline | VerticalAlign::Bottom => height / 2.0,
+        VerticalAlign::Middle => 0.0,
+        VerticalAlign::Top => -height / 2.0,
+    };
+    Vector2::new(right, up)
+}
+
+fn turned(offset: Vector2<f64>, degrees: f64) -> Vector2<f64> {
+    let along = direction(degrees);
+    Vector2::new(along.x * offset.x - along.y * offset.y, along.y * offset.x + along.x * offset.y)
+}
