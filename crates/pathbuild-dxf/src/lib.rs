@@ -5,7 +5,28 @@
 //! beside the entities, not in them, so that later stages are not disturbed by edits that only shift them.
 //! (spec/10-drawing.md; reference/dxf.md section 4)
 
+mod collect;
 mod drawing;
+mod encoding;
+mod entities;
+mod faults;
+mod fields;
+mod file;
+mod header;
+mod item;
+mod kind;
+mod layers;
+mod line_types;
+mod mtext;
+mod names;
+mod number;
+mod pairs;
+mod placement;
+mod sections;
+mod shapes;
+mod tables;
+mod trouble;
+mod units;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,
@@ -13,6 +34,7 @@ pub use drawing::{
 };
 
 /// Reads a drawing.
-pub fn read(_bytes: &[u8], _options: &Options<'_>) -> Drawing {
-    Drawing::default()
+pub fn read(bytes: &[u8], options: &Options<'_>) -> Drawing {
+    file::read_file(bytes, options)
+        .unwrap_or_else(|diagnostic| Drawing { diagnostics: vec![*diagnostic], ..Drawing::default() })
 }

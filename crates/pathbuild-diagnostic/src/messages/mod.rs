@@ -24,6 +24,7 @@ pub mod gcode;
 pub mod outputs;
 pub mod parameters;
 pub mod probes;
+pub mod reading;
 pub mod subpaths;
 pub mod variables;
 pub mod walk;
@@ -32,6 +33,7 @@ pub mod walk;
 pub fn all() -> impl Iterator<Item = &'static crate::Message> {
     [
         files::ALL,
+        reading::ALL,
         drawing::ALL,
         parameters::ALL,
         variables::ALL,

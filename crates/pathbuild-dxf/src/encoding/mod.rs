@@ -1,0 +1,109 @@
+//! Bytes of strings to characters. (spec/10-drawing.md: "encoding")
+//!
+//! Strings are decoded one by one, never the file as a whole: in the double-byte code pages a byte of a character may look like a
+//! backslash, but never like a line end. ASCII, nearly all there is, is borrowed as it stands.
+
+mod code_page;
+mod dos;
+mod escapes;
+
+use std::borrow::Cow;
+
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use pathbuild_diagnostic::messages::reading::{UNDECODABLE, UNKNOWN_CODE_PAGE};
+use pathbuild_diagnostic::{Diagnostic, TextFault};
+
+use crate::faults::shown;
+use crate::header::Header;
+use code_page::{CodePage, code_page};
+pub(crate) use escapes::{control, without_carets};
+
+/// Decodes the strings of one file.
+#[derive(Debug)]
+pub(crate) struct Decoder<'a> {
+    charset: Charset<'a>,
+    /// As it is called in PB008.
+    name: String,
+    doubt: Option<Diagnostic>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Charset<'a> {
+    Standard(&'static Encoding),
+    Dos(&'static str),
+    /// UTF-8 if the whole file is valid UTF-8, else `ANSI_1252`: found out when the first byte that is not ASCII is met.
+    Either(&'a [u8]),
+    /// Declared, but nobody knows it.
+    Unknown,
+}
+
+impl<'a> Decoder<'a> {
+    /// Decides on the encoding of `file`, whose header is known. A byte order mark says that it is UTF-8.
+    pub(crate) fn new(file: &'a [u8], header: &Header<'_>, has_bom: bool) -> Self {
+        let declared = header.code_page().unwrap_or_default();
+        let is_utf8 = header.is_unicode() || has_bom;
+        let (charset, name) = match code_page(declared) {
+            _ if is_utf8 => (Charset::Standard(UTF_8), "UTF-8".into()),
+            CodePage::Usual => (Charset::Either(file), "ANSI_1252".into()),
+            CodePage::Standard(encoding) => (Charset::Standard(encoding), shown(declared)),
+            CodePage::Dos(upper_half) => (Charset::Dos(upper_half), shown(declared)),
+            CodePage::Unknown => (Charset::Unknown, shown(declared)),
+        };
+        Self { charset, name, doubt: None }
+    }
+
+    /// Decodes a string that begins on this line. What can not be decoded becomes U+FFFD, and one PB008 a file.
+    pub(crate) fn decode<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
+        let (text, bytes_known) = match std::str::from_utf8(bytes) {
+            Ok(ascii) if ascii.is_ascii() => (Cow::Borrowed(ascii), true),
+            _ => self.decode_beyond_ascii(bytes),
+        };
+        let (text, escapes_known) = escapes::unescape(text);
+        if !(bytes_known && escapes_known) {
+            self.doubt.get_or_insert_with(|| doubt(self.charset, &self.name, &text, line));
+        }
+        text
+    }
+
+    /// What was doubtful.
+    pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
+        self.doubt
+    }
+
+    fn decode_beyond_ascii<'b>(&mut self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
+        match self.charset {
+            Charset::Standard(encoding) => standard(encoding, bytes),
+            Charset::Dos(upper_half) => dos(upper_half, bytes),
+            Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
+            Charset::Either(file) => {
+                let is_utf8 = std::str::from_utf8(file).is_ok();
+                let encoding = if is_utf8 { UTF_8 } else { WINDOWS_1252 };
+                self.charset = Charset::Standard(encoding);
+                standard(encoding, bytes)
+            }
+        }
+    }
+}
+
+fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
+    let message = if matches!(charset, Charset::Unknown) { &UNKNOWN_CODE_PAGE } else { &UNDECODABLE };
+    let fault = TextFault::new(text, 0..text.len());
+    Diagnostic::new(message).with("encoding", encoding).at_line(line, None).with_text(fault)
+}
+
+fn standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
+    let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
+    // The web's Windows pages give bytes that have no character in them their own number as a control character.
+    let has_holes = encoding.is_single_byte() && text.chars().any(|c| ('\u{80}'..='\u{9f}').contains(&c));
+    (text, !had_errors && !has_holes)
+}
+
+fn dos<'b>(upper_half: &str, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
+    let character = |byte: &u8| match byte.checked_sub(128) {
+        None => char::from(*byte),
+        Some(index) => upper_half.chars().nth(usize::from(index)).unwrap_or(char::REPLACEMENT_CHARACTER),
+    };
+    let text: String = bytes.iter().map(character).collect();
+    let is_known = !text.contains(char::REPLACEMENT_CHARACTER);
+    (Cow::Owned(text), is_known)
+}

@@ -1,0 +1,142 @@
+//! The entities of a section or block, one after the other: those on wanted layers, with their numbers parsed.
+
+use crate::encoding::Decoder;
+use crate::fields::{Fields, Value, Want};
+use crate::item::{Item, Shape, Traits};
+use crate::kind::Kind;
+use crate::layers::{LayerId, Layers};
+use crate::line_types::LineTypes;
+use crate::pairs::{Pair, Pairs, Stop};
+use crate::shapes::{self, OpenPolyline};
+use crate::trouble::Trouble;
+use crate::{Options, Origin};
+
+/// Reads entities; what it learns of names it keeps from one to the next.
+pub(crate) struct EntityReader<'a, 'o> {
+    pub(crate) options: &'o Options<'o>,
+    pub(crate) decoder: Decoder<'a>,
+    pub(crate) layers: Layers<'a, 'o>,
+    pub(crate) line_types: LineTypes<'a>,
+    fields: Fields<'a>,
+}
+
+/// The records of a section or block: `head` is the `0` pair of the one that comes next.
+pub(crate) struct Records<'a> {
+    pub(crate) pairs: Pairs<'a>,
+    pub(crate) head: Pair<'a>,
+}
+
+impl<'a> Records<'a> {
+    /// Begins with the next `0` pair.
+    pub(crate) fn new(mut pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
+        let head = pairs.next_zero()?;
+        Ok(Self { pairs, head })
+    }
+
+    /// Passes over the record, which is no item.
+    fn skip(&mut self) -> Result<Option<Item<'a>>, Stop<'a>> {
+        self.head = self.pairs.next_zero()?;
+        Ok(None)
+    }
+}
+
+impl<'a, 'o> EntityReader<'a, 'o> {
+    /// Knows no entity yet.
+    pub(crate) fn new(options: &'o Options<'o>, decoder: Decoder<'a>, layers: Layers<'a, 'o>) -> Self {
+        Self { options, decoder, layers, line_types: LineTypes::default(), fields: Fields::new() }
+    }
+
+    /// The next wanted entity; `None` at a record that ends the section or block, which stays the head.
+    pub(crate) fn next_item(&mut self, records: &mut Records<'a>) -> Result<Option<Item<'a>>, Stop<'a>> {
+        loop {
+            let head = records.head;
+            let item = match Kind::of(head.value) {
+                None if is_end(&head) => return Ok(None),
+                None | Some(Kind::Vertex | Kind::SequenceEnd) => records.skip()?,
+                Some(kind) => self.item(records, kind)?,
+            };
+            if item.is_some() {
+                return Ok(item);
+            }
+        }
+    }
+
+    fn item(&mut self, records: &mut Records<'a>, kind: Kind) -> Result<Option<Item<'a>>, Stop<'a>> {
+        let line = records.head.line;
+        if self.fill(records, kind)? == Want::Skip || self.is_in_paper_space() {
+            return Ok(None);
+        }
+        let layer = self.layer(line);
+        if !self.layers.is_kept(layer) {
+            return Ok(None);
+        }
+        let traits = Traits {
+            layer,
+            line_type: self.line_types.get(self.fields.get(6), &mut self.decoder),
+            kind: kind.entity_kind(),
+            origin: Origin { line, handle: self.fields.handle() },
+            is_invisible: self.fields.whole(60).is_ok_and(|flag| flag == Some(1)),
+        };
+        let shape = match kind {
+            Kind::Polyline => self.polyline(records)?,
+            _ => self.shape(kind),
+        };
+        Ok(Some(Item { traits, shape }))
+    }
+
+    /// Reads the groups of the head record.
+    #[inline]
+    fn fill(&mut self, records: &mut Records<'a>, kind: Kind) -> Result<Want, Stop<'a>> {
+        let Self { layers, decoder, fields, .. } = self;
+        let want = |layer: Value<'a>| {
+            let id = layers.id(layer.bytes, layer.line, decoder);
+            if layers.is_kept(id) { Want::Keep } else { Want::Skip }
+        };
+        let (next, want) = fields.fill(&mut records.pairs, records.head.line, kind.repeated_codes(), want)?;
+        records.head = next;
+        Ok(want)
+    }
+
+    fn is_in_paper_space(&self) -> bool {
+        self.fields.whole(67).is_ok_and(|flag| flag == Some(1))
+    }
+
+    /// The layer of the entity in hand; `0` when it does not say.
+    #[inline]
+    fn layer(&mut self, line: u32) -> LayerId {
+        let layer = self.fields.get(8).unwrap_or(Value { bytes: b"0", line });
+        self.layers.id(layer.bytes, layer.line, &mut self.decoder)
+    }
+
+    fn shape(&mut self, kind: Kind) -> Result<Shape, Trouble<'a>> {
+        let Self { fields, decoder, options, .. } = self;
+        Ok(match kind {
+            Kind::Line => Shape::Plain(shapes::line(fields)?),
+            Kind::Arc => Shape::Plain(shapes::arc(fields)?),
+            Kind::Circle => Shape::Plain(shapes::circle(fields)?),
+            Kind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
+            Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options.max_text)?),
+            _ => Shape::Parts(shapes::lightweight(fields)?),
+        })
+    }
+
+    /// The POLYLINE in hand, with the VERTEX records that follow. All of them are consumed, whatever is wrong with one.
+    fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape, Trouble<'a>>, Stop<'a>> {
+        let mut polyline = OpenPolyline::begin(&self.fields);
+        while Kind::of(records.head.value) == Some(Kind::Vertex) {
+            let always = |_| Want::Keep;
+            let (next, _) = self.fields.fill(&mut records.pairs, records.head.line, 0, always)?;
+            records.head = next;
+            let vertex = polyline.as_mut().map(|polyline| polyline.vertex(&self.fields));
+            if let Ok(Err(trouble)) = vertex {
+                polyline = Err(trouble);
+            }
+        }
+        Ok(polyline.map(|polyline| Shape::Parts(polyline.end())))
+    }
+}
+
+/// Whether a record ends a section or block.
+fn is_end(head: &Pair<'_>) -> bool {
+    ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"].iter().any(|keyword| head.is(keyword))
+}

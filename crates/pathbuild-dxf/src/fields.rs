@@ -1,0 +1,192 @@
+//! The groups of one entity, kept as bytes until it is known that the entity is wanted.
+//!
+//! An entity's groups are few and known, so each code below 80 has a slot; codes that an entity repeats (points of a polyline, chunks
+//! of a text) are kept in order as well. Nothing is allocated for an entity.
+
+use pathbuild_diagnostic::Handle;
+
+use crate::Point3;
+use crate::number::{NotANumber, real, whole};
+use crate::pairs::{Pair, Pairs, Stop};
+
+/// The value of a group.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Value<'a> {
+    /// Its bytes, not trimmed.
+    pub(crate) bytes: &'a [u8],
+    /// The line of its group code.
+    pub(crate) line: u32,
+}
+
+/// What is wrong with a group.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum BadGroup<'a> {
+    /// It is missing.
+    Missing {
+        /// Its code.
+        code: i32,
+    },
+    /// It is no number.
+    Number {
+        /// Its code.
+        code: i32,
+        /// What it holds instead.
+        value: Value<'a>,
+        /// Why it is none.
+        reason: NotANumber,
+    },
+    /// It is no length.
+    NotPositive {
+        /// Its code.
+        code: i32,
+        /// What it holds instead.
+        value: Value<'a>,
+    },
+}
+
+/// The groups of an entity.
+pub(crate) struct Fields<'a> {
+    /// The line of its `0`.
+    pub(crate) line: u32,
+    /// Which slots are filled.
+    present: u128,
+    slots: [Value<'a>; SLOTS],
+    /// The groups that its kind repeats, in order.
+    pub(crate) repeated: Vec<Pair<'a>>,
+}
+
+/// What [`Fields::fill`] does with an entity on this layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Want {
+    /// Its groups are kept.
+    Keep,
+    /// They are skipped.
+    Skip,
+}
+
+const SLOTS: usize = 83;
+
+/// The slot of a code: itself below 80, then those of an extrusion.
+#[inline]
+fn slot(code: i32) -> Option<usize> {
+    match code {
+        0..80 => usize::try_from(code).ok(),
+        210 => Some(80),
+        220 => Some(81),
+        230 => Some(82),
+        _ => None,
+    }
+}
+
+impl<'a> Fields<'a> {
+    /// Without an entity.
+    pub(crate) fn new() -> Self {
+        Self { line: 0, present: 0, slots: [Value::default(); SLOTS], repeated: Vec::new() }
+    }
+
+    /// Reads the entity that has begun with a `0` on this line. `repeats` has a bit for each code that it
+    /// repeats. `want` is asked once its layer is known. Gives back the next entity's `0`, and whether this one was kept.
+    #[inline]
+    pub(crate) fn fill(
+        &mut self,
+        pairs: &mut Pairs<'a>,
+        line: u32,
+        repeats: u128,
+        mut want: impl FnMut(Value<'a>) -> Want,
+    ) -> Result<(Pair<'a>, Want), Stop<'a>> {
+        self.line = line;
+        self.present = 0;
+        self.repeated.clear();
+        loop {
+            let pair = pairs.next()?;
+            let Some(slot) = slot(pair.code) else {
+                match pair.code {
+                    // An embedded object (of R2018's MTEXT) lasts until the entity ends.
+                    101 => return Ok((pairs.next_zero()?, Want::Keep)),
+                    102 if pair.trimmed().starts_with(b"{") => match skip_application_group(pairs)? {
+                        Some(next) => return Ok((next, Want::Keep)),
+                        None => continue,
+                    },
+                    _ => continue,
+                }
+            };
+            let value = Value { bytes: pair.value, line: pair.line };
+            match slot {
+                0 => return Ok((pair, Want::Keep)),
+                8 if want(value) == Want::Skip => return Ok((pairs.next_zero()?, Want::Skip)),
+                _ => {}
+            }
+            self.present |= 1 << slot;
+            self.slots[slot] = value;
+            if repeats >> slot & 1 != 0 {
+                self.repeated.push(pair);
+            }
+        }
+    }
+
+    /// A group, if the entity has it; the last, if it has several.
+    #[inline]
+    pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
+        let slot = slot(code)?;
+        (self.present >> slot & 1 != 0).then(|| self.slots[slot])
+    }
+
+    /// A number that may be missing.
+    #[inline]
+    pub(crate) fn number(&self, code: i32) -> Result<Option<f64>, BadGroup<'a>> {
+        let Some(value) = self.get(code) else { return Ok(None) };
+        real(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
+    }
+
+    /// A number that must be there.
+    #[inline]
+    pub(crate) fn required(&self, code: i32) -> Result<f64, BadGroup<'a>> {
+        self.number(code)?.ok_or(BadGroup::Missing { code })
+    }
+
+    /// A length that must be there and more than 0.
+    #[inline]
+    pub(crate) fn length(&self, code: i32) -> Result<f64, BadGroup<'a>> {
+        let length = self.required(code)?;
+        if length > 0.0 {
+            return Ok(length);
+        }
+        Err(self.get(code).map_or(BadGroup::Missing { code }, |value| BadGroup::NotPositive { code, value }))
+    }
+
+    /// A whole number that may be missing.
+    pub(crate) fn whole(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
+        let Some(value) = self.get(code) else { return Ok(None) };
+        whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
+    }
+
+    /// A point whose x is in this group; its z may be missing.
+    #[inline]
+    pub(crate) fn point(&self, x: i32) -> Result<Point3, BadGroup<'a>> {
+        Ok(Point3 { x: self.required(x)?, y: self.required(x + 10)?, z: self.number(x + 20)?.unwrap_or(0.0) })
+    }
+
+    /// The handle, if it has one that is hexadecimal.
+    #[inline]
+    pub(crate) fn handle(&self) -> Option<Handle> {
+        let digits = self.get(5)?.bytes.trim_ascii();
+        if digits.is_empty() || digits.len() > 16 {
+            return None;
+        }
+        let nibble =
+            |number: u64, digit: &u8| Some(number << 4 | u64::from(char::from(*digit).to_digit(16)?));
+        digits.iter().try_fold(0, nibble).map(Handle)
+    }
+}
+
+/// Skips `102/{NAME` up to `102/}`, whose codes an application chose. Gives back a `0` if that comes first.
+fn skip_application_group<'a>(pairs: &mut Pairs<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
+    loop {
+        let pair = pairs.next()?;
+        match pair.code {
+            0 => return Ok(Some(pair)),
+            102 => return Ok(None),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The line types of entities. (spec/10-drawing.md, "Line types")
+
+use std::collections::HashMap;
+
+use crate::encoding::Decoder;
+use crate::fields::Value;
+use crate::layers::line_type_name;
+
+/// What an entity says about its line type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LineType {
+    /// That of its layer, which it also has when it says nothing.
+    ByLayer,
+    /// That of the INSERT it comes with.
+    ByBlock,
+    /// The name of this number in [`LineTypes`].
+    Named(u32),
+}
+
+/// The names of line types found on entities.
+#[derive(Debug, Default)]
+pub(crate) struct LineTypes<'a> {
+    by_spelling: HashMap<&'a [u8], LineType>,
+    last: Option<(&'a [u8], LineType)>,
+    names: Vec<Box<str>>,
+}
+
+impl<'a> LineTypes<'a> {
+    /// The line type of an entity with this group 6.
+    #[inline]
+    pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
+        let Some(value) = value else { return LineType::ByLayer };
+        if let Some((last, line_type)) = self.last
+            && last == value.bytes
+        {
+            return line_type;
+        }
+        let line_type = match self.by_spelling.get(value.bytes) {
+            Some(line_type) => *line_type,
+            None => self.first_use(value, decoder),
+        };
+        self.last = Some((value.bytes, line_type));
+        line_type
+    }
+
+    /// The name of this number: upper case, without xref prefix.
+    pub(crate) fn name(&self, number: u32) -> &str {
+        &self.names[number as usize]
+    }
+
+    fn first_use(&mut self, value: Value<'a>, decoder: &mut Decoder<'_>) -> LineType {
+        let name = line_type_name(&decoder.decode(value.bytes, value.line));
+        let line_type = match &*name {
+            "" | "BYLAYER" => LineType::ByLayer,
+            "BYBLOCK" => LineType::ByBlock,
+            _ => {
+                self.names.push(name);
+                LineType::Named(u32::try_from(self.names.len() - 1).unwrap_or(u32::MAX))
+            }
+        };
+        self.by_spelling.insert(value.bytes, line_type);
+        line_type
+    }
+}

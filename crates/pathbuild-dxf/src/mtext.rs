@@ -1,0 +1,74 @@
+//! The plain text of an MTEXT. (spec/10-drawing.md, "Parameter texts")
+
+use crate::encoding::control;
+
+/// Removes the formatting from joined and decoded chunks. Line breaks become `\n`.
+///
+/// A command that never ends stays as it stands: it is no command, and to drop the rest of a parameter text would be worse.
+pub(crate) fn plain_text(raw: &str) -> String {
+    let mut plain = String::with_capacity(raw.len());
+    let mut rest = raw;
+    while let Some(special) = rest.find(['\\', '{', '}', '^']) {
+        plain.push_str(&rest[..special]);
+        rest = &rest[special..];
+        let length = match rest.as_bytes()[0] {
+            b'\\' => command(rest, &mut plain),
+            b'^' => caret(rest, &mut plain),
+            _ => 1,
+        };
+        rest = &rest[length..];
+    }
+    plain.push_str(rest);
+    plain
+}
+
+/// A command, which `text` begins with: adds what it stands for, and returns its length.
+fn command(text: &str, plain: &mut String) -> usize {
+    let Some(letter) = text[1..].chars().next() else {
+        plain.push('\\');
+        return 1;
+    };
+    let short = 1 + letter.len_utf8();
+    match letter {
+        // \N begins a new column.
+        'P' | 'X' | 'N' => plain.push('\n'),
+        '~' => plain.push('\u{a0}'),
+        '\\' | '{' | '}' => plain.push(letter),
+        'L' | 'l' | 'O' | 'o' | 'K' | 'k' => {}
+        'S' => return short + stacked(&text[short..], plain),
+        _ => {
+            let Some(end) = text.find(';') else {
+                plain.push('\\');
+                return 1;
+            };
+            return end + 1;
+        }
+    }
+    short
+}
+
+/// A stacked text up to its `;`: adds it, and returns the length.
+fn stacked(text: &str, plain: &mut String) -> usize {
+    let mut characters = text.char_indices().peekable();
+    while let Some((index, character)) = characters.next() {
+        match character {
+            ';' => return index + 1,
+            '#' => plain.push('/'),
+            '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
+            '\\' => plain.extend(characters.next().map(|(_, literal)| literal)),
+            other => plain.push(other),
+        }
+    }
+    text.len()
+}
+
+/// A caret, which `text` begins with: adds what it stands for, and returns its length.
+fn caret(text: &str, plain: &mut String) -> usize {
+    if text.starts_with("^M^J") {
+        plain.push('\n');
+        return 4;
+    }
+    let (character, length) = control(text).unwrap_or(('^', 1));
+    plain.push(character);
+    length
+}

@@ -1,0 +1,112 @@
+//! Similarities of the plane: object coordinates, insertions of blocks, units. (reference/dxf.md section 4, points 8 and 9)
+
+use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
+
+/// Moves, turns, scales and perhaps mirrors. A mirrored one maps (x, y) to (x, -y) first and turns then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placement {
+    /// Where the origin goes.
+    origin: Point3,
+    /// The direction that the x axis gets, times the scale.
+    x_axis: (f64, f64),
+    /// The angle of that direction in degrees.
+    turn: f64,
+    /// What lengths are multiplied with; > 0.
+    scale: f64,
+    /// What z is multiplied with.
+    z_scale: f64,
+    mirrored: bool,
+}
+
+impl Placement {
+    /// Everything stays where it is.
+    pub(crate) const IDENTITY: Self = Self {
+        origin: Point3 { x: 0.0, y: 0.0, z: 0.0 },
+        x_axis: (1.0, 0.0),
+        turn: 0.0,
+        scale: 1.0,
+        z_scale: 1.0,
+        mirrored: false,
+    };
+
+    /// Object coordinates with an extrusion of (0, 0, -1) to world coordinates: x and z change their sign.
+    pub(crate) const MIRRORED: Self =
+        Self { x_axis: (-1.0, 0.0), turn: 180.0, z_scale: -1.0, mirrored: true, ..Self::IDENTITY };
+
+    /// Scales everything.
+    pub(crate) fn scaled(scale: f64) -> Self {
+        Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
+    }
+
+    /// A point.
+    pub(crate) fn point(&self, point: Point3) -> Point3 {
+        let (x, y) = self.direction(point.x, point.y);
+        Point3 { x: self.origin.x + x, y: self.origin.y + y, z: self.origin.z + self.z_scale * point.z }
+    }
+
+    /// A vector.
+    pub(crate) fn direction(&self, x: f64, y: f64) -> (f64, f64) {
+        let (cos, sin) = self.x_axis;
+        let y = if self.mirrored { -y } else { y };
+        (cos * x - sin * y, sin * x + cos * y)
+    }
+
+    /// A shape.
+    pub(crate) fn apply(&self, geometry: &mut Geometry) {
+        match geometry {
+            Geometry::Line(line) => *line = Line { start: self.point(line.start), end: self.point(line.end) },
+            Geometry::Arc(arc) => *arc = self.arc(*arc),
+            Geometry::Circle(circle) => {
+                *circle = Circle { centre: self.point(circle.centre), radius: circle.radius * self.scale };
+            }
+            Geometry::Text(text) => self.place_text(text),
+            Geometry::MText(text) => self.place_mtext(text),
+        }
+    }
+
+    fn arc(&self, arc: Arc) -> Arc {
+        Arc {
+            centre: self.point(arc.centre),
+            radius: arc.radius * self.scale,
+            start_angle: self.angle(arc.start_angle),
+            end_angle: self.angle(arc.end_angle),
+            clockwise: arc.clockwise != self.mirrored,
+        }
+    }
+
+    /// The direction of an angle in degrees.
+    fn angle(&self, angle: f64) -> f64 {
+        if self.mirrored { self.turn - angle } else { self.turn + angle }
+    }
+
+    /// Mirroring makes the letters of a text run backwards, seen from its own, turned baseline.
+    fn place_text(&self, text: &mut Text) {
+        text.anchor = self.point(text.anchor);
+        text.height *= self.scale;
+        text.rotation = self.text_rotation(text.rotation);
+        text.backwards ^= self.mirrored;
+    }
+
+    /// A mirrored MTEXT occupies the place of one that is not, but stands on the other side of its anchor.
+    fn place_mtext(&self, text: &mut MText) {
+        text.anchor = self.point(text.anchor);
+        text.height *= self.scale;
+        text.rotation = self.text_rotation(text.rotation);
+        if self.mirrored {
+            text.horizontal = opposite(text.horizontal);
+        }
+    }
+
+    fn text_rotation(&self, rotation: f64) -> f64 {
+        if self.mirrored { (self.turn + 180.0 - rotation) % 360.0 } else { self.turn + rotation }
+    }
+}
+
+/// The other side.
+pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
+    match side {
+        HorizontalAlign::Left => HorizontalAlign::Right,
+        HorizontalAlign::Centre => HorizontalAlign::Centre,
+        HorizontalAlign::Right => HorizontalAlign::Left,
+    }
+}

@@ -1,0 +1,37 @@
+//! Groups of an entity to its shape, in the coordinates of the space it is in: the drawing's or its block's.
+
+mod plain;
+mod polyline;
+mod text;
+
+use crate::Geometry;
+use crate::fields::Fields;
+use crate::placement::Placement;
+use crate::trouble::Trouble;
+
+pub(crate) use plain::{arc, circle, line};
+pub(crate) use polyline::{OpenPolyline, lightweight};
+pub(crate) use text::{mtext, text};
+
+/// Whether object coordinates are mirrored against those of the space: extrusion (0, 0, -1).
+fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, Trouble<'a>> {
+    /// Components of a normal that is straight but was computed.
+    const NOISE: f64 = 1e-9;
+    if fields.get(210).is_none() && fields.get(220).is_none() && fields.get(230).is_none() {
+        return Ok(false);
+    }
+    let [x, y] = [fields.number(210)?.unwrap_or(0.0), fields.number(220)?.unwrap_or(0.0)];
+    let z = fields.number(230)?.unwrap_or(1.0);
+    if z == 0.0 || x.abs().max(y.abs()) > NOISE * z.abs() {
+        return Err(Trouble::Tilted);
+    }
+    Ok(z < 0.0)
+}
+
+/// Brings a shape from object coordinates to those of the space.
+fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> Result<Geometry, Trouble<'a>> {
+    if is_mirrored(fields)? {
+        Placement::MIRRORED.apply(&mut geometry);
+    }
+    Ok(geometry)
+}

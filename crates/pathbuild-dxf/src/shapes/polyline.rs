@@ -1,0 +1,157 @@
+//! LWPOLYLINE and two-dimensional POLYLINE as their lines and arcs. Widths mean nothing to a milling cutter.
+
+use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
+
+use crate::fields::{BadGroup, Fields, Value};
+use crate::number::real;
+use crate::pairs::Pair;
+use crate::placement::Placement;
+use crate::trouble::Trouble;
+use crate::{Arc, Geometry, Line, Point3};
+
+use super::is_mirrored;
+
+/// The lines and arcs of an LWPOLYLINE.
+pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Trouble<'a>> {
+    let flags = fields.whole(70)?.unwrap_or(0);
+    let z = fields.number(38)?.unwrap_or(0.0);
+    let mut corners: Vec<Corner> = Vec::new();
+    let mut has_y = true;
+    for pair in &fields.repeated {
+        let number = repeated_number(pair)?;
+        match (pair.code, corners.last_mut()) {
+            (10, _) if !has_y => return Err(BadGroup::Missing { code: 20 }.into()),
+            (10, _) => corners.push(Corner { x: number, y: 0.0, z, bulge: 0.0 }),
+            (_, None) => return Err(BadGroup::Missing { code: 10 }.into()),
+            (20, Some(corner)) => corner.y = number,
+            (_, Some(corner)) => corner.bulge = number,
+        }
+        has_y = if pair.code == 42 { has_y } else { pair.code == 20 };
+    }
+    if !has_y {
+        return Err(BadGroup::Missing { code: 20 }.into());
+    }
+    Ok(pieces(&corners, flags & CLOSED != 0, is_mirrored(fields)?))
+}
+
+/// A POLYLINE whose VERTEX records follow.
+pub(crate) struct OpenPolyline {
+    elevation: f64,
+    is_closed: bool,
+    is_mirrored: bool,
+    is_spline_fit: bool,
+    corners: Vec<Corner>,
+}
+
+impl OpenPolyline {
+    /// The beginning of a POLYLINE.
+    pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
+        let flags = fields.whole(70)?.unwrap_or(0);
+        if flags & (THREE_DIMENSIONAL | MESH | POLYFACE) != 0 {
+            return Err(Trouble::LeftOut { message: &POLYLINE_NOT_FLAT, point: None });
+        }
+        Ok(Self {
+            elevation: fields.number(30)?.unwrap_or(0.0),
+            is_closed: flags & CLOSED != 0,
+            is_mirrored: is_mirrored(fields)?,
+            is_spline_fit: flags & SPLINE_FIT != 0,
+            corners: Vec::new(),
+        })
+    }
+
+    /// Its next VERTEX. Those of the frame that a smoothed polyline was made from are none of its corners.
+    pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), Trouble<'a>> {
+        let flags = fields.whole(70)?.unwrap_or(0);
+        if self.is_spline_fit && flags & FRAME_POINT != 0 {
+            return Ok(());
+        }
+        let point = fields.point(10)?;
+        let z = if point.z == 0.0 { self.elevation } else { point.z };
+        let bulge = fields.number(42)?.unwrap_or(0.0);
+        self.corners.push(Corner { x: point.x, y: point.y, z, bulge });
+        Ok(())
+    }
+
+    /// Its lines and arcs.
+    pub(crate) fn end(self) -> Vec<Geometry> {
+        pieces(&self.corners, self.is_closed, self.is_mirrored)
+    }
+}
+
+/// Flags of a polyline (70).
+const CLOSED: i64 = 1;
+const SPLINE_FIT: i64 = 4;
+const THREE_DIMENSIONAL: i64 = 8;
+const MESH: i64 = 16;
+const POLYFACE: i64 = 64;
+/// Flag of a VERTEX (70).
+const FRAME_POINT: i64 = 16;
+
+/// Bulges below this are straight: over a chord of a metre they are 5 nm high, and the radius would be too large to be accurate.
+const FLAT: f64 = 1e-8;
+
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    x: f64,
+    y: f64,
+    z: f64,
+    /// Of the piece to the next corner: the tangent of a quarter of its angle, > 0 counterclockwise.
+    bulge: f64,
+}
+
+impl Corner {
+    fn point(self) -> Point3 {
+        Point3 { x: self.x, y: self.y, z: self.z }
+    }
+}
+
+fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
+    let value = Value { bytes: pair.value, line: pair.line };
+    real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
+}
+
+/// The pieces between corners, without those that have no length.
+fn pieces(corners: &[Corner], is_closed: bool, is_mirrored: bool) -> Vec<Geometry> {
+    let next = corners.iter().skip(1).chain(corners.first().filter(|_| is_closed));
+    let mut pieces: Vec<Geometry> =
+        corners.iter().zip(next).filter_map(|(from, to)| piece(*from, *to)).collect();
+    if is_mirrored {
+        for piece in &mut pieces {
+            Placement::MIRRORED.apply(piece);
+        }
+    }
+    pieces
+}
+
+fn piece(from: Corner, to: Corner) -> Option<Geometry> {
+    let [start, end] = [from.point(), to.point()];
+    if start == end {
+        return None;
+    }
+    let is_straight = from.bulge.abs() < FLAT || (start.x == end.x && start.y == end.y);
+    Some(if is_straight {
+        Geometry::Line(Line { start, end })
+    } else {
+        Geometry::Arc(bulged(start, end, from.bulge))
+    })
+}
+
+/// The arc over a chord. Its height is half the chord times the bulge.
+fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
+    let [x, y] = [end.x - start.x, end.y - start.y];
+    // From the middle of the chord to the centre, in units of the chord, to its left.
+    let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
+    let centre = Point3 {
+        x: f64::midpoint(start.x, end.x) - y * to_centre,
+        y: f64::midpoint(start.y, end.y) + x * to_centre,
+        z: start.z,
+    };
+    let angle = |point: Point3| libm::atan2(point.y - centre.y, point.x - centre.x).to_degrees();
+    Arc {
+        centre,
+        radius: libm::hypot(x, y) * (1.0 + bulge * bulge) / (4.0 * bulge.abs()),
+        start_angle: angle(start),
+        end_angle: angle(end),
+        clockwise: bulge < 0.0,
+    }
+}

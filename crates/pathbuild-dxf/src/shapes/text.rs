@@ -1,0 +1,157 @@
+//! TEXT and MTEXT. (spec/10-drawing.md, "Parameter texts" and "The text circle")
+
+use crate::encoding::{Decoder, without_carets};
+use crate::fields::{BadGroup, Fields};
+use crate::mtext::plain_text;
+use crate::pairs::Pair;
+use crate::placement::opposite;
+use crate::trouble::Trouble;
+use crate::{Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
+
+use super::{from_object_coordinates, is_mirrored};
+
+/// A TEXT.
+pub(crate) fn text<'a>(
+    fields: &Fields<'a>,
+    decoder: &mut Decoder<'_>,
+    longest: usize,
+) -> Result<Geometry, Trouble<'a>> {
+    let string = fields.get(1).ok_or(BadGroup::Missing { code: 1 })?;
+    if string.bytes.len() > longest {
+        return Err(Trouble::TextTooLong);
+    }
+    let horizontal = fields.whole(72)?.unwrap_or(0);
+    let vertical = fields.whole(73)?.unwrap_or(0);
+    let (anchor, direction) = anchor(fields, horizontal, vertical)?;
+    let generation = fields.whole(71)?.unwrap_or(0);
+    let text = Text {
+        string: without_carets(decoder.decode(string.bytes, string.line)).into(),
+        anchor,
+        height: fields.length(40)?,
+        rotation: direction.map_or_else(|| fields.number(50), |angle| Ok(Some(angle)))?.unwrap_or(0.0),
+        horizontal: horizontal_align(horizontal),
+        vertical: if horizontal == MIDDLE { VerticalAlign::Middle } else { vertical_align(vertical) },
+        backwards: generation & 2 != 0,
+        upside_down: generation & 4 != 0,
+    };
+    from_object_coordinates(Geometry::Text(text), fields)
+}
+
+/// An MTEXT; its point and direction are in world coordinates.
+pub(crate) fn mtext<'a>(
+    fields: &Fields<'a>,
+    decoder: &mut Decoder<'_>,
+    longest: usize,
+) -> Result<Geometry, Trouble<'a>> {
+    let raw = joined_chunks(fields, decoder, longest)?;
+    let attachment = fields.whole(71)?.unwrap_or(1);
+    let (horizontal, vertical) = attachment_align(attachment);
+    let is_mirrored = is_mirrored(fields)?;
+    let rotation = rotation(fields, is_mirrored)?;
+    Ok(Geometry::MText(MText {
+        plain: plain_text(&raw).into(),
+        raw,
+        anchor: fields.point(10)?,
+        height: fields.length(40)?,
+        rotation,
+        horizontal: if is_mirrored { opposite(horizontal) } else { horizontal },
+        vertical,
+    }))
+}
+
+const ALIGNED: i64 = 3;
+const MIDDLE: i64 = 4;
+const FITTED: i64 = 5;
+
+/// The anchor of a TEXT, and its direction where two points give that.
+fn anchor<'a>(
+    fields: &Fields<'a>,
+    horizontal: i64,
+    vertical: i64,
+) -> Result<(Point3, Option<f64>), BadGroup<'a>> {
+    let first = fields.point(10)?;
+    match horizontal {
+        0 if vertical == 0 => Ok((first, None)),
+        ALIGNED | FITTED => {
+            let second = fields.point(11)?;
+            Ok((between(first, second), direction(second.x - first.x, second.y - first.y)))
+        }
+        _ => Ok((fields.point(11)?, None)),
+    }
+}
+
+fn between(a: Point3, b: Point3) -> Point3 {
+    Point3 { x: f64::midpoint(a.x, b.x), y: f64::midpoint(a.y, b.y), z: f64::midpoint(a.z, b.z) }
+}
+
+/// The angle of a vector in degrees, unless it is nothing.
+fn direction(x: f64, y: f64) -> Option<f64> {
+    (x != 0.0 || y != 0.0).then(|| libm::atan2(y, x).to_degrees())
+}
+
+fn horizontal_align(code: i64) -> HorizontalAlign {
+    match code {
+        1 | ALIGNED | MIDDLE | FITTED => HorizontalAlign::Centre,
+        2 => HorizontalAlign::Right,
+        _ => HorizontalAlign::Left,
+    }
+}
+
+fn vertical_align(code: i64) -> VerticalAlign {
+    match code {
+        1 => VerticalAlign::Bottom,
+        2 => VerticalAlign::Middle,
+        3 => VerticalAlign::Top,
+        _ => VerticalAlign::Baseline,
+    }
+}
+
+/// 1 to 9 are three rows of three, from the top left to the bottom right.
+fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
+    let horizontal = match code {
+        2 | 5 | 8 => HorizontalAlign::Centre,
+        3 | 6 | 9 => HorizontalAlign::Right,
+        _ => HorizontalAlign::Left,
+    };
+    let vertical = match code {
+        4..=6 => VerticalAlign::Middle,
+        7..=9 => VerticalAlign::Bottom,
+        _ => VerticalAlign::Top,
+    };
+    (horizontal, vertical)
+}
+
+/// The rotation that an MTEXT has when seen from above: 50 or 11/21, the later of which holds. A mirrored one is read from the other
+/// end, so that its lines run the same way.
+fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
+    let last = fields.repeated.iter().rev().find(|pair| matches!(pair.code, 11 | 50));
+    let angle = match last.map(|pair| pair.code) {
+        Some(50) => fields.required(50)?,
+        Some(_) => direction(fields.required(11)?, fields.required(21)?).unwrap_or(0.0),
+        None => 0.0,
+    };
+    Ok(match (is_mirrored, last.map(|pair| pair.code)) {
+        (false, _) => angle,
+        (true, Some(11)) => (angle + 180.0) % 360.0,
+        (true, _) => -angle,
+    })
+}
+
+/// The chunks of an MTEXT, joined as bytes before they are decoded: a character or a `\U+` may be cut in two.
+fn joined_chunks<'a>(
+    fields: &Fields<'a>,
+    decoder: &mut Decoder<'_>,
+    longest: usize,
+) -> Result<Box<str>, Trouble<'a>> {
+    let is_chunk = |pair: &&Pair<'_>| matches!(pair.code, 1 | 3);
+    let chunks = || fields.repeated.iter().filter(is_chunk).map(|pair| pair.value);
+    let first = fields.repeated.iter().find(is_chunk).ok_or(BadGroup::Missing { code: 1 })?;
+    if chunks().map(<[u8]>::len).sum::<usize>() > longest {
+        return Err(Trouble::TextTooLong);
+    }
+    let decoded = match chunks().count() {
+        1 => decoder.decode(first.value, first.line),
+        _ => return Ok(decoder.decode(&chunks().collect::<Vec<_>>().concat(), first.line).into()),
+    };
+    Ok(decoded.into())
+}

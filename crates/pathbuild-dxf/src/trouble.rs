@@ -1,0 +1,61 @@
+//! Why a wanted entity does not become a shape.
+
+use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE, TILTED};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
+
+use crate::faults::{bad_value, shown};
+use crate::fields::BadGroup;
+
+/// What is wrong with an entity.
+#[derive(Clone, Debug)]
+pub(crate) enum Trouble<'a> {
+    /// It is broken: PB002.
+    Group(BadGroup<'a>),
+    /// Its extrusion is neither (0, 0, 1) nor (0, 0, -1): PB110.
+    Tilted,
+    /// It is nothing that can be milled: PB111.
+    LeftOut {
+        /// Why.
+        message: &'static Message,
+        /// Where it begins.
+        point: Option<Point>,
+    },
+    /// A text is longer than the limit: PB005, for the whole file.
+    TextTooLong,
+}
+
+impl<'a> From<BadGroup<'a>> for Trouble<'a> {
+    fn from(group: BadGroup<'a>) -> Self {
+        Self::Group(group)
+    }
+}
+
+impl BadGroup<'_> {
+    /// Says so, with the line if it is that of a value.
+    pub(crate) fn diagnostic(&self, kind: EntityKind) -> Diagnostic {
+        let entity = kind.name();
+        match self {
+            Self::Missing { code } => {
+                Diagnostic::new(&GROUP_MISSING).with("entity", entity).with("code", code.to_string())
+            }
+            Self::Number { code, value, reason } => {
+                bad_value(entity, *code, value.bytes, *reason).at_line(value.line.saturating_add(1), None)
+            }
+            Self::NotPositive { code, value } => {
+                let text = shown(value.bytes);
+                let fault = TextFault::new(&text, 0..text.len());
+                Diagnostic::new(&NOT_POSITIVE)
+                    .with("entity", entity)
+                    .with("code", code.to_string())
+                    .with("value", text)
+                    .with_text(fault)
+                    .at_line(value.line.saturating_add(1), None)
+            }
+        }
+    }
+}
+
+/// PB110 for an entity in a tilted plane.
+pub(crate) fn tilted(kind: EntityKind) -> Diagnostic {
+    Diagnostic::new(&TILTED).with("entity", kind.name())
+}

@@ -1,0 +1,107 @@
+//! LINE, ARC and CIRCLE: what is read of them, and what is wrong with them. (spec/10-drawing.md)
+
+use crate::support::{entities, faults, file, only, only_geometry, options, read_all};
+use pathbuild_diagnostic::Handle;
+use pathbuild_dxf::{Arc, Circle, Geometry, Line, Origin, Point3};
+
+fn point(x: f64, y: f64, z: f64) -> Point3 {
+    Point3 { x, y, z }
+}
+
+#[test]
+fn a_line_has_its_ends() {
+    let geometry = only_geometry(entities("0 LINE\n8 A\n10 1\n20 2\n30 3\n11 4.5\n21 -5\n31 6"));
+    assert_eq!(geometry, Geometry::Line(Line { start: point(1.0, 2.0, 3.0), end: point(4.5, -5.0, 6.0) }));
+}
+
+#[test]
+fn groups_come_in_any_order_and_z_may_be_missing() {
+    let geometry = only_geometry(entities("0 LINE\n11 3\n10 1\n21 4\n20 2\n8 A"));
+    assert_eq!(geometry, Geometry::Line(Line { start: point(1.0, 2.0, 0.0), end: point(3.0, 4.0, 0.0) }));
+}
+
+#[test]
+fn an_arc_runs_counterclockwise_with_its_angles_as_in_the_file() {
+    let geometry = only_geometry(entities("0 ARC\n8 A\n10 1\n20 2\n40 3\n50 350\n51 370"));
+    let arc = Arc {
+        centre: point(1.0, 2.0, 0.0),
+        radius: 3.0,
+        start_angle: 350.0,
+        end_angle: 370.0,
+        clockwise: false,
+    };
+    assert_eq!(geometry, Geometry::Arc(arc));
+}
+
+#[test]
+fn a_circle_has_centre_and_radius() {
+    let geometry = only_geometry(entities("0 CIRCLE\n8 A\n10 1\n20 2\n40 0.5"));
+    assert_eq!(geometry, Geometry::Circle(Circle { centre: point(1.0, 2.0, 0.0), radius: 0.5 }));
+}
+
+#[test]
+fn origins_hold_line_and_handle() {
+    let drawing = read_all(entities(
+        "0 LINE\n5 1aF\n8 A\n10 0\n20 0\n11 1\n21 1\n0 POINT\n8 A\n0 LINE\n8 A\n10 0\n20 0\n11 1\n21 1",
+    ));
+    let expected = [Origin { line: 5, handle: Some(Handle(0x1AF)) }, Origin { line: 23, handle: None }];
+    assert_eq!(drawing.origins, expected);
+}
+
+#[test]
+fn a_handle_that_is_not_hexadecimal_is_none() {
+    let drawing = read_all(entities("0 CIRCLE\n5 xyz\n8 A\n10 0\n20 0\n40 1"));
+    assert_eq!(drawing.origins, [Origin { line: 5, handle: None }]);
+}
+
+#[test]
+fn names_of_entities_count_in_lower_case() {
+    only(entities("0 line\n8 A\n10 0\n20 0\n11 1\n21 1"));
+}
+
+#[test]
+fn a_missing_coordinate_is_a_fault_of_the_layer() {
+    let drawing = read_all(entities("0 LINE\n5 1F\n8 A\n10 0\n20 0\n11 1"));
+    assert_eq!(faults(&drawing), ["PB002 5 A: LINE: group 21 is missing"]);
+    assert_eq!(drawing.faults[0].diagnostic.place.handle, Some(Handle(0x1F)));
+    assert!(drawing.entities.is_empty());
+}
+
+#[test]
+fn a_broken_entity_does_not_hide_the_next() {
+    let drawing = read_all(entities("0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n0 CIRCLE\n8 A\n10 0\n20 0\n40 1"));
+    assert_eq!(faults(&drawing), ["PB002 10 A: CIRCLE: group 10 should hold a number, not \"x\""]);
+    assert_eq!(drawing.entities.len(), 1);
+}
+
+#[test]
+fn numbers_of_unwanted_layers_are_not_looked_at() {
+    let text = entities("0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n0 CIRCLE\n8 B\n10 y\n20 0\n40 1");
+    let options = pathbuild_dxf::Options { keep_layer: &|name| name == "B", ..options() };
+    let drawing = pathbuild_dxf::read(text.as_bytes(), &options);
+    assert_eq!(faults(&drawing), ["PB002 20 B: CIRCLE: group 10 should hold a number, not \"y\""]);
+    assert_eq!(drawing.layers.len(), 1);
+}
+
+#[test]
+fn a_radius_must_be_more_than_0() {
+    for (radius, fault) in [("0", true), ("-1", true), ("0.001", false)] {
+        let drawing = read_all(entities(&format!("0 CIRCLE\n8 A\n10 0\n20 0\n40 {radius}")));
+        assert_eq!(!drawing.faults.is_empty(), fault, "{radius}");
+    }
+}
+
+#[test]
+fn line_types_are_resolved() {
+    let tables = "0 TABLE\n2 LAYER\n0 LAYER\n2 path\n70 0\n62 7\n6 Dashed\n0 ENDTAB";
+    let line = |layer: &str, line_type: &str| {
+        let text = file("", tables, "", &format!("0 LINE\n8 {layer}\n{line_type}\n10 0\n20 0\n11 1\n21 1"));
+        only(text).line_type
+    };
+    assert_eq!(&*line("PATH", ""), "DASHED");
+    assert_eq!(&*line("Path", "6  ByLayer "), "DASHED");
+    assert_eq!(&*line("PATH", "6 ByBlock"), "CONTINUOUS");
+    assert_eq!(&*line("PATH", "6 xref$0$center"), "CENTER");
+    assert_eq!(&*line("PATH", "6 xref|Hidden"), "HIDDEN");
+    assert_eq!(&*line("OTHER", ""), "CONTINUOUS");
+}

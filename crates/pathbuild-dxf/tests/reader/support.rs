@@ -1,0 +1,87 @@
+//! Small drawings for tests: the furniture around a few pairs of interest.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::{Code, Lang};
+use pathbuild_dxf::{Drawing, Entity, Geometry, Options, Units, read};
+
+/// Options that keep everything.
+pub(crate) fn options() -> Options<'static> {
+    Options {
+        keep_layer: &|_| true,
+        units: Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 100_000,
+        max_text: 65_536,
+    }
+}
+
+/// A section of pairs, which are given as `code value` lines.
+pub(crate) fn section(name: &str, pairs: &str) -> String {
+    format!("  0\nSECTION\n  2\n{name}\n{}  0\nENDSEC\n", lines(pairs))
+}
+
+/// Pairs, given one a line as `code value`, as DXF has them.
+pub(crate) fn lines(pairs: &str) -> String {
+    let mut text = String::new();
+    for line in pairs.lines().map(str::trim_start).filter(|line| !line.is_empty()) {
+        let (code, value) = line.split_once(' ').unwrap_or((line, ""));
+        writeln!(text, "{code:>3}\n{value}").expect("strings can be written to");
+    }
+    text
+}
+
+/// A file with these entities and nothing else.
+pub(crate) fn entities(pairs: &str) -> String {
+    section("ENTITIES", pairs) + "  0\nEOF\n"
+}
+
+/// A file with the variables of a header, records of tables, blocks and entities.
+pub(crate) fn file(header: &str, tables: &str, blocks: &str, entities: &str) -> String {
+    section("HEADER", header)
+        + &section("TABLES", tables)
+        + &section("BLOCKS", blocks)
+        + &section("ENTITIES", entities)
+        + "  0\nEOF\n"
+}
+
+/// Reads with everything kept.
+pub(crate) fn read_all(file: impl AsRef<[u8]>) -> Drawing {
+    read(file.as_ref(), &options())
+}
+
+/// Reads a sound drawing of one entity.
+pub(crate) fn only(file: impl AsRef<[u8]>) -> Entity {
+    let drawing = read_all(file);
+    assert_eq!((&drawing.faults, &drawing.left_out, &drawing.diagnostics), (&vec![], &vec![], &vec![]));
+    assert_eq!(drawing.entities.len(), 1, "{drawing:?}");
+    drawing.entities.into_iter().next().expect("one entity")
+}
+
+/// The shape of the only entity.
+pub(crate) fn only_geometry(file: impl AsRef<[u8]>) -> Geometry {
+    only(file).geometry
+}
+
+/// Codes of the diagnostics of the file as a whole.
+pub(crate) fn file_codes(drawing: &Drawing) -> Vec<Code> {
+    drawing.diagnostics.iter().map(pathbuild_diagnostic::Diagnostic::code).collect()
+}
+
+/// Faults as code, line and message.
+pub(crate) fn faults(drawing: &Drawing) -> Vec<String> {
+    let show = |fault: &pathbuild_dxf::Fault| {
+        let it = &fault.diagnostic;
+        let layer = &drawing.layers[fault.layer as usize].name;
+        format!("{} {} {layer}: {}", it.code(), it.place.line.unwrap_or(0), it.text(Lang::En))
+    };
+    drawing.faults.iter().map(show).collect()
+}
+
+/// Diagnostics of the file as code, line and message.
+pub(crate) fn file_faults(drawing: &Drawing) -> Vec<String> {
+    let show = |it: &pathbuild_diagnostic::Diagnostic| {
+        format!("{} {} {}", it.code(), it.place.line.unwrap_or(0), it.text(Lang::En))
+    };
+    drawing.diagnostics.iter().map(show).collect()
+}
