@@ -1,5 +1,8 @@
 //! The entities of a section or block, one after the other: those on wanted layers, with their numbers parsed.
 
+use pathbuild_diagnostic::Point;
+use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
+
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
 use crate::item::{Item, Shape, Traits};
@@ -52,7 +55,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             let item = match Kind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                None | Some(Kind::Vertex | Kind::SequenceEnd) => records.skip()?,
+                None | Some(Kind::Vertex | Kind::SequenceEnd | Kind::Insert) => records.skip()?,
                 Some(kind) => self.item(records, kind)?,
             };
             if item.is_some() {
@@ -116,6 +119,10 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             Kind::Circle => Shape::Plain(shapes::circle(fields)?),
             Kind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
             Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options.max_text)?),
+            Kind::Ellipse | Kind::Spline => {
+                let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
+                return Err(Trouble::LeftOut { message: &NOT_APPROXIMATED, point });
+            }
             _ => Shape::Parts(shapes::lightweight(fields)?),
         })
     }
