@@ -1,1 +1,4 @@
-//! G-code text: writing, reading, checking and post-processing programs.
+//! G-code text: writing, reading, checking and post-processing programs. (spec/60-gcode.md, spec/85-post-processors.md,
+//! spec/90-gcode-import.md)
+
+pub mod native;

@@ -6,21 +6,30 @@
 
 pub mod approx;
 mod assign;
+mod bind;
+mod chain;
 mod definition;
 mod element;
 mod files;
 mod geometry;
 mod letter;
+mod limits;
 mod line_type;
 mod name;
 mod number;
+mod path;
 mod pattern;
 mod raw;
 mod read;
 mod table;
 mod text;
 mod text_circle;
+mod values;
+mod variables;
+mod walk;
 
+pub use bind::bind;
+pub use chain::{Chain, ChainSegment, Item, PlacedSubpath};
 pub use definition::{Allowed, Definition};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape};
 pub use files::{FilePattern, NameRange, PathKey};
@@ -29,9 +38,15 @@ pub use letter::{ElementClass, Letter, Use};
 pub use line_type::{LineType, LineTypeAliases};
 pub use name::{PathLayer, PathName, PathPattern};
 pub use number::{parse_integer, parse_number};
+pub use path::{
+    Bars, ChainParameters, CutSegment, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName,
+    SubpathValue, Sweep, Turn,
+};
 pub use pattern::PatternError;
 pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
 pub use read::raw_file;
 pub use table::RangeTable;
 pub use text::{ParameterText, Piece};
 pub use text_circle::TextCircle;
+pub use variables::Bindings;
+pub use walk::{Walked, walk};

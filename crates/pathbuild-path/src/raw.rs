@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 
 use crate::definition::Definition;
-use crate::element::{Element, Marker};
+use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern};
@@ -31,8 +31,8 @@ pub struct RawPath {
     pub texts: Vec<ParameterText>,
     /// The path's own parameters: its start's text, or that of the path that @ names.
     pub parameters: ParameterText,
-    /// The path that `parameters` belong to, where that is another.
-    pub parameters_of: Option<PathName>,
+    /// Where `parameters` stand: the start marker, this path's own or that of the path that @ names.
+    pub parameters_at: Option<(PathName, Origin)>,
     /// The variables that it defines, in the order written.
     pub definitions: Vec<Definition>,
     /// Curves on its layers that are no part of it, with where they begin.
@@ -60,6 +60,8 @@ pub struct Language {
     pub path_pattern: PathPattern,
     /// Names of line types.
     pub line_types: LineTypeAliases,
+    /// Longest value that variables may make, in bytes.
+    pub text_limit: usize,
 }
 
 /// All paths of a drawing, in order of first appearance.
@@ -80,6 +82,15 @@ impl RawPath {
     /// The text of an element.
     pub fn text_of(&self, text: Option<u32>) -> Option<&ParameterText> {
         text.and_then(|index| self.texts.get(index as usize))
+    }
+
+    /// A diagnostic about the path's own parameters. Those that @ borrows are reported with the path they belong to, so that what is wrong
+    /// with them is said once.
+    pub(crate) fn at_parameters(&self, diagnostic: Diagnostic) -> Diagnostic {
+        match &self.parameters_at {
+            Some((path, origin)) => origin.at(diagnostic).in_path(path.as_str()),
+            None => diagnostic,
+        }
     }
 
     /// The cutter's diameter: the literal O, when it is a number.

@@ -27,8 +27,15 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
 }
 
 /// The start texts of all paths, to which @ can refer.
-type Starts = BTreeMap<PathName, crate::text::ParameterText>;
+type Starts = BTreeMap<PathName, (crate::text::ParameterText, crate::element::Origin)>;
 
 fn starts(paths: &[Collected]) -> Starts {
-    paths.iter().filter_map(|path| Some((path.raw.name.clone(), path.start_text()?.clone()))).collect()
+    paths
+        .iter()
+        .filter_map(|path| {
+            let start = path.raw.start.as_ref()?;
+            let text = path.raw.text_of(start.text)?.clone();
+            Some((path.raw.name.clone(), (text, start.origin.clone())))
+        })
+        .collect()
 }

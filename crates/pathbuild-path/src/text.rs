@@ -62,6 +62,12 @@ impl ParameterText {
         TextFault::new(&self.text, start + within.start..start + within.end)
     }
 
+    /// The text without the pieces of a letter; everything else keeps its place.
+    pub(crate) fn without(&self, letter: Letter) -> Self {
+        let pieces = self.pieces.iter().filter(|piece| piece.letter != Some(letter)).cloned().collect();
+        Self { text: self.text.clone(), pieces }
+    }
+
     /// The whole text underlined.
     pub fn whole(&self) -> TextFault {
         TextFault::new(&self.text, 0..self.text.len())

@@ -1,8 +1,22 @@
 //! The moves of a path, and the fold that places, joins and merges them into a program.
 //!
-//! A path becomes *operations* in its own coordinates; operations of a path and of all it embeds become one [`Program`]: the steps of
-//! the machine in order, every one with its numbers. Nothing here formats text. (spec/60-gcode.md, spec/70-z-probes.md)
+//! [`fold`] goes through a path and all that it embeds and writes down every step of the machine, each with its numbers. What is known
+//! of the embedded paths it asks of a [`Parts`]. Nothing here formats text. (spec/60-gcode.md, spec/70-z-probes.md)
 
+mod bars;
+mod chain;
+mod cost;
+mod fold;
+mod helix;
+mod mill;
+mod probes;
 mod program;
+mod statistics;
 
-pub use program::{Class, Comment, Count, ElementKind, Height, Move, NameId, Names, Program, Step, Xy};
+pub use cost::own_moves;
+pub use fold::{FoldOptions, Parts, fold};
+pub use pathbuild_path::Xy;
+pub use program::{
+    Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,
+};
+pub use statistics::{Statistics, Total};

@@ -1,10 +1,6 @@
-/// A point in the plane of the program: the emitted path's start marker is (0, 0). Millimetres.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[expect(missing_docs, reason = "coordinates")]
-pub struct Xy {
-    pub x: f64,
-    pub y: f64,
-}
+//! The finished program. (spec/60-gcode.md)
+
+use pathbuild_path::Xy;
 
 /// A finished program: what the machine does, step by step, before any dialect writes it down.
 ///
@@ -25,6 +21,23 @@ pub struct Program {
     pub names: Names,
     /// The moves and comments in order. Sweeps are merged; nothing follows the last.
     pub steps: Vec<Step>,
+    /// Z-probes in the order in which they are measured: the first is #51.
+    pub probes: Vec<ProbePoint>,
+}
+
+/// A point whose real height is measured before milling. (spec/70-z-probes.md)
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbePoint {
+    /// In the program.
+    pub at: Xy,
+    /// In its own drawing, which is where a person finds it.
+    pub drawn_at: Xy,
+    /// The height that is expected there, mm.
+    pub height: f64,
+    /// Probing feed in mm/min, where the drawing gives one.
+    pub feed: Option<f64>,
+    /// L.
+    pub label: Option<Box<str>>,
 }
 
 impl Program {

@@ -98,7 +98,7 @@ impl Collected {
             elements: Vec::new(),
             texts: Vec::new(),
             parameters: ParameterText::default(),
-            parameters_of: None,
+            parameters_at: None,
             definitions: Vec::new(),
             left_out: Vec::new(),
             diagnostics: Vec::new(),
@@ -116,11 +116,6 @@ impl Collected {
     /// Whether there is anything but texts: a layer with texts alone is no path.
     pub(crate) fn has_elements(&self) -> bool {
         self.has_elements
-    }
-
-    /// The text of the start marker.
-    pub(crate) fn start_text(&self) -> Option<&ParameterText> {
-        self.raw.text_of(self.raw.start.as_ref()?.text)
     }
 
     /// What is wrong with a group of layers that holds texts only.

@@ -21,18 +21,22 @@ impl Collected {
             }
             return self.check_elements(None);
         };
-        self.report_all(&start.origin, text.problems(ElementClass::PathStart));
-        match text.piece(Letter::At) {
-            None => self.raw.parameters = text,
-            Some(piece) => match referenced(&text, piece, starts) {
-                Ok((name, parameters)) => {
-                    self.raw.parameters = parameters;
-                    self.raw.parameters_of = Some(name);
-                }
-                Err(problem) => self.report(start.origin.at(problem.with_text(text.fault(piece)))),
-            },
+        let parameters_at = match text.piece(Letter::At) {
+            None => Ok((self.raw.name.clone(), (text, start.origin))),
+            Some(piece) => referenced(&text, piece, starts)
+                .map_err(|problem| start.origin.at(problem.with_text(text.fault(piece)))),
+        };
+        match parameters_at {
+            Ok((name, (parameters, origin))) => {
+                self.raw.parameters = parameters;
+                self.raw.parameters_at = Some((name, origin));
+            }
+            Err(problem) => self.report(problem),
         }
-        self.define_variables(&start.origin);
+        for problem in self.raw.parameters.problems(ElementClass::PathStart) {
+            self.report(self.raw.at_parameters(problem));
+        }
+        self.define_variables();
         self.check_elements(tool(&self.raw.parameters));
     }
 
@@ -66,34 +70,35 @@ impl Collected {
         }
     }
 
-    /// A faulty definition in a text that @ refers to is reported with the path that the text belongs to, but stops this one as well.
-    fn define_variables(&mut self, origin: &Origin) {
+    fn define_variables(&mut self) {
         let parameters = self.raw.parameters.clone();
         for piece in parameters.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable)) {
             match Definition::parse(parameters.value(piece)) {
                 Ok(definition) => self.raw.definitions.push(definition),
-                Err(problem) => self.report(origin.at(problem.with_text(parameters.fault(piece)))),
+                Err(problem) => {
+                    self.report(self.raw.at_parameters(problem.with_text(parameters.fault(piece))))
+                }
             }
         }
     }
 }
 
-/// The path that @ names, with its parameters.
+/// The path that @ names, with its parameters and where they stand.
 fn referenced(
     text: &ParameterText,
     piece: &Piece,
     starts: &Starts,
-) -> Result<(PathName, ParameterText), Diagnostic> {
+) -> Result<(PathName, (ParameterText, Origin)), Diagnostic> {
     if text.pieces().len() > 1 {
         return Err(Diagnostic::new(&messages::AT_WITH_OTHERS));
     }
     let name = PathName::new(text.value(piece));
-    let Some((name, parameters)) = starts.get_key_value(&name) else {
+    let Some((name, start)) = starts.get_key_value(&name) else {
         let known: Value = starts.keys().map(PathName::as_str).collect();
         return Err(Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known));
     };
-    if parameters.piece(Letter::At).is_some() {
+    if start.0.piece(Letter::At).is_some() {
         return Err(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str()));
     }
-    Ok((name.clone(), parameters.clone()))
+    Ok((name.clone(), start.clone()))
 }

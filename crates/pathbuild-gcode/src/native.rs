@@ -1,0 +1,13 @@
+//! Our own dialect: writing a program, its probing run and the file of probe values. (spec/60-gcode.md, spec/70-z-probes.md)
+
+mod comment;
+mod correction;
+mod number;
+mod probing;
+mod program;
+mod statistics;
+
+pub use comment::{Charset, comment};
+pub use number::f3;
+pub use probing::{probing_program, values_file};
+pub use program::{Header, WriteOptions, program};

@@ -1,0 +1,63 @@
+//! Comments, and the characters that may stand in them.
+
+/// The characters that are written. (spec/06-configuration.md, `charset`)
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Charset {
+    /// Umlauts and the like are transliterated, the rest becomes `?`: some controllers take bytes above 127 for commands.
+    #[default]
+    Ascii,
+    /// As it is.
+    Utf8,
+}
+
+/// `(text)`, with what would end or break the comment replaced.
+pub fn comment(text: &str, charset: Charset) -> String {
+    let mut comment = String::with_capacity(text.len() + 2);
+    comment.push('(');
+    for character in text.chars() {
+        match character {
+            ')' => comment.push(']'),
+            '\\' => comment.push('/'),
+            character if character.is_control() => comment.push(' '),
+            character if character.is_ascii() || charset == Charset::Utf8 => comment.push(character),
+            character => comment.push_str(transliterated(character)),
+        }
+    }
+    comment.push(')');
+    comment
+}
+
+/// What a character is written as where only ASCII may be.
+fn transliterated(character: char) -> &'static str {
+    match character {
+        'ä' | 'æ' => "ae",
+        'ö' | 'œ' => "oe",
+        'ü' => "ue",
+        'Ä' | 'Æ' => "Ae",
+        'Ö' | 'Œ' => "Oe",
+        'Ü' => "Ue",
+        'ß' => "ss",
+        'à' | 'á' | 'â' | 'ã' | 'å' => "a",
+        'è' | 'é' | 'ê' | 'ë' => "e",
+        'ì' | 'í' | 'î' | 'ï' => "i",
+        'ò' | 'ó' | 'ô' | 'õ' | 'ø' => "o",
+        'ù' | 'ú' | 'û' => "u",
+        'À' | 'Á' | 'Â' | 'Ã' | 'Å' => "A",
+        'È' | 'É' | 'Ê' | 'Ë' => "E",
+        'Ì' | 'Í' | 'Î' | 'Ï' => "I",
+        'Ò' | 'Ó' | 'Ô' | 'Õ' | 'Ø' => "O",
+        'Ù' | 'Ú' | 'Û' => "U",
+        'ç' => "c",
+        'Ç' => "C",
+        'ñ' => "n",
+        'Ñ' => "N",
+        '°' => "deg",
+        '±' => "+-",
+        '⌀' => "D",
+        'µ' | 'μ' => "u",
+        '×' => "x",
+        '–' | '—' => "-",
+        '\u{a0}' => " ",
+        _ => "?",
+    }
+}

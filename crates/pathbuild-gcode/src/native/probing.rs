@@ -1,0 +1,57 @@
+//! The probing run, and the file that a person writes the measured values into. (spec/70-z-probes.md)
+
+use std::fmt::Write;
+
+use pathbuild_toolpath::{ProbePoint, Program, Xy};
+
+use super::comment::{Charset, comment};
+use super::correction::FIRST_PARAMETER;
+use super::number::f3;
+use super::program::{Header, WriteOptions};
+
+/// Seconds that the machine waits after a probe, so that the value can be read.
+const DWELL: &str = "G04 P4";
+
+/// Writes the probing run. `feed`: --probe-feed, or --feed, for probes without a Z of their own.
+pub fn probing_program(program: &Program, header: &Header, feed: f64, options: &WriteOptions) -> String {
+    let clearance = f3(program.sweep_height);
+    let mut text = String::from("%\n");
+    if !header.provenance.is_empty() {
+        _ = writeln!(text, "{}", comment(&header.provenance, options.charset));
+    }
+    let title = format!("{}: {}", program.drawing, program.path);
+    _ = writeln!(text, "{}", comment(&title, options.charset));
+    text.push_str("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n");
+    _ = writeln!(text, "G00 Z{clearance}\nG00 X0.000 Y0.000");
+    let mut at = Xy::origin();
+    for (index, probe) in program.probes.iter().enumerate() {
+        _ = writeln!(text, "{}", comment(&label(index, probe), options.charset));
+        if !pathbuild_path::approx::is_nothing((probe.at - at).norm()) {
+            _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
+        }
+        at = probe.at;
+        _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
+        _ = writeln!(text, "G38.3 Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed.unwrap_or(feed)));
+    }
+    _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
+    text
+}
+
+/// Writes the file of values, one line a probe, with nothing behind the `=` yet.
+pub fn values_file(program: &Program, charset: Charset) -> String {
+    let mut text = String::new();
+    for (index, probe) in program.probes.iter().enumerate() {
+        _ = writeln!(text, "{} #{}=", comment(&place(probe), charset), FIRST_PARAMETER + index);
+    }
+    text
+}
+
+fn place(probe: &ProbePoint) -> String {
+    let label = probe.label.as_ref().map(|label| format!("/L:{label}")).unwrap_or_default();
+    let (x, y) = (f3(probe.drawn_at.x), f3(probe.drawn_at.y));
+    format!("[{x} {y}]{label}/T={}", f3(probe.height))
+}
+
+fn label(index: usize, probe: &ProbePoint) -> String {
+    format!("#{} {}", FIRST_PARAMETER + index, place(probe))
+}

@@ -1,0 +1,159 @@
+//! The program itself. (spec/60-gcode.md)
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_toolpath::{Comment, ElementKind, Height, Move, Program, Statistics, Step, Xy};
+
+use super::comment::{Charset, comment};
+use super::correction::push_formula;
+use super::number::{f3, push_f3};
+use super::statistics;
+
+/// How programs are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WriteOptions {
+    /// Language of comments.
+    pub lang: Lang,
+    /// Characters of comments.
+    pub charset: Charset,
+    /// --rapid in mm/min, for times.
+    pub rapid: f64,
+}
+
+/// What the first comments say.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Header {
+    /// One line: which program made it, out of what.
+    pub provenance: String,
+}
+
+/// Writes a program. Lines end with LF.
+pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
+    let mut writer = Writer { program, options, text: String::with_capacity(64 * program.steps.len() + 512) };
+    writer.line("%");
+    writer.header(header);
+    writer.line("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1");
+    writer.line(&format!("G00 Z{}", f3(program.start_height())));
+    writer.line("G00 X0.000 Y0.000");
+    for step in &program.steps {
+        match step {
+            Step::Move { to, .. } => writer.step(to),
+            Step::Comment(said) => writer.said(said),
+        }
+    }
+    writer.line(&format!("G00 Z{}", f3(program.start_height())));
+    for line in statistics::lines(&Statistics::of(program, options.rapid), options.lang, options.charset) {
+        writer.line(&line);
+    }
+    writer.line("M30\n%");
+    writer.text
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    options: &'a WriteOptions,
+    text: String,
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn comment(&mut self, text: &str) {
+        let line = comment(text, self.options.charset);
+        self.line(&line);
+    }
+
+    fn header(&mut self, header: &Header) {
+        if !header.provenance.is_empty() {
+            self.comment(&header.provenance);
+        }
+        self.comment(&format!("{}: {}", self.program.drawing, self.program.path));
+        for (index, probe) in self.program.probes.iter().enumerate() {
+            let number = super::correction::FIRST_PARAMETER + index;
+            let place = format!("{} {}", f3(probe.drawn_at.x), f3(probe.drawn_at.y));
+            self.comment(&format!("#{number}: [{place}] T={}", f3(probe.height)));
+        }
+    }
+
+    fn step(&mut self, to: &Move) {
+        match to {
+            Move::Sweep { to } => {
+                self.text.push_str("G00");
+                self.xy(*to);
+            }
+            Move::Lift { z } => {
+                self.text.push_str("G00");
+                self.z(z);
+            }
+            Move::Drill { z } => {
+                self.text.push_str("G01");
+                self.z(z);
+            }
+            Move::Line { feed, to, z } => {
+                self.text.push_str("G01");
+                self.word('F', *feed);
+                self.xy(*to);
+                self.z(z);
+            }
+            Move::Arc { feed, clockwise, centre, to, z } => {
+                self.text.push_str(if *clockwise { "G02" } else { "G03" });
+                self.word('F', *feed);
+                self.word('I', centre.x);
+                self.word('J', centre.y);
+                self.xy(*to);
+                self.z(z);
+            }
+        }
+        self.text.push('\n');
+    }
+
+    fn word(&mut self, letter: char, value: f64) {
+        self.text.push(' ');
+        self.text.push(letter);
+        push_f3(&mut self.text, value);
+    }
+
+    fn xy(&mut self, to: Xy) {
+        self.word('X', to.x);
+        self.word('Y', to.y);
+    }
+
+    fn z(&mut self, height: &Height) {
+        self.word('Z', height.z);
+        push_formula(&mut self.text, &self.program.probes, height.z, height.at);
+    }
+
+    fn said(&mut self, said: &Comment) {
+        let names = &self.program.names;
+        let text = match *said {
+            Comment::Question(text) => format!("Q:{}", names.get(text)),
+            Comment::StartSubpath(name) => format!("START Subpath {}", names.get(name)),
+            Comment::EndSubpath(name) => format!("END Subpath {}", names.get(name)),
+            Comment::Element { kind, at, bottom, .. } => {
+                format!("{} [{}|{}] Z{}", self.kind(kind), f3(at.x), f3(at.y), f3(bottom))
+            }
+            Comment::Pass { number, z } => {
+                format!("{} {number}: Z{}", self.either("Pass", "Durchgang"), f3(z))
+            }
+        };
+        self.comment(&text);
+    }
+
+    fn kind(&self, kind: ElementKind) -> &'static str {
+        match kind {
+            ElementKind::MillingChain => self.either("Milling chain", "Fräskette"),
+            ElementKind::DrilledHole => self.either("Drilled hole", "Bohrloch"),
+            ElementKind::HelicalCircle => self.either("Helical circle", "Helixkreis"),
+            ElementKind::Sweep => self.either("Sweep", "Leerfahrt"),
+        }
+    }
+
+    fn either(&self, en: &'static str, de: &'static str) -> &'static str {
+        match self.options.lang {
+            Lang::En => en,
+            Lang::De => de,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! The statistics at a program's end, which tools read. (spec/60-gcode.md, "Statistics")
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_toolpath::{Statistics, Total};
+
+use super::comment::{Charset, comment};
+
+pub(super) fn lines(statistics: &Statistics, lang: Lang, charset: Charset) -> Vec<String> {
+    let [milling, drilling, sweeps, sum, commands] = labels(lang);
+    let totals = [
+        (milling, statistics.milling),
+        (drilling, statistics.drilling),
+        (sweeps, statistics.sweeps),
+        (sum, statistics.sum()),
+    ];
+    let mut lines: Vec<String> =
+        totals.iter().map(|(label, total)| comment(&total_line(label, total), charset)).collect();
+    lines.push(comment(&format!("{commands} {}", statistics.commands), charset));
+    lines
+}
+
+fn total_line(label: &str, total: &Total) -> String {
+    format!("{label:<12} {:5.0} mm   ca.{:3.0} min", total.length, total.minutes())
+}
+
+fn labels(lang: Lang) -> [&'static str; 5] {
+    match lang {
+        Lang::En => ["Milling length:", "Drill length:", "Sweeps:", "Sum:", "Command count:"],
+        Lang::De => ["Fräslänge:", "Bohrungen:", "Leerfahrten:", "Summe:", "Befehlszahl:"],
+    }
+}

@@ -1,0 +1,164 @@
+//! From a raw path and values of its variables to a [`Path`]: every parameter found, inherited and checked.
+//! (spec/30-parameters.md, spec/40-variables.md)
+
+mod segments;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::parameters as messages;
+use regex::Regex;
+
+use crate::element::{Marker, Origin};
+use crate::letter::Letter;
+use crate::limits;
+use crate::path::{Path, Probe, Turn};
+use crate::raw::{Language, RawPath};
+use crate::text::ParameterText;
+use crate::values::Values;
+use crate::variables::{Bindings, Interpolation};
+
+/// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
+///
+/// The raw path must be sound, and the bindings those of its definitions.
+pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
+    let (Some(start), Some(end)) = (&raw.start, &raw.end) else { return (None, Vec::new()) };
+    let mut binder = Binder::new(raw, bindings, language);
+    let path = binder.path(start, end);
+    let problems = binder.problems;
+    (path.filter(|_| !problems.iter().any(Diagnostic::is_error)), problems)
+}
+
+/// Collects the values of a path and what is wrong with them.
+struct Binder<'a> {
+    raw: &'a RawPath,
+    language: &'a Language,
+    interpolation: Interpolation<'a>,
+    /// The path's own values.
+    values: Values,
+    problems: Vec<Diagnostic>,
+}
+
+impl<'a> Binder<'a> {
+    fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
+        let interpolation = Interpolation { bindings, limit: language.text_limit };
+        // A definition is no value: its "=" would be taken for a reference.
+        let values = Values::of(&raw.parameters.without(Letter::Variable), &interpolation);
+        Self { raw, language, interpolation, values, problems: Vec::new() }
+    }
+
+    fn path(&mut self, start: &Marker, end: &Marker) -> Option<Path> {
+        self.check_path_values();
+        let (tool, thickness) = (self.path_number(Letter::O), self.path_number(Letter::T));
+        let segments = self.segments(tool);
+        let turns = self.raw.turns.iter();
+        let mut path = Path {
+            name: self.raw.name.clone(),
+            tool: tool.unwrap_or_default(),
+            thickness: thickness.unwrap_or_default(),
+            sweep_height: self.path_number(Letter::S),
+            material: self.path_text(Letter::M),
+            feed: self.path_number(Letter::F),
+            output_suffix: self.path_text(Letter::R).unwrap_or_default(),
+            embeds_only: self.path_text(Letter::E),
+            start: start.at,
+            end: end.at,
+            turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
+            segments,
+            probes: Vec::new(),
+            surfaces: Vec::new(),
+            start_origin: start.origin.clone(),
+            end_origin: end.origin.clone(),
+            left_out: self.raw.left_out.clone(),
+        };
+        path.add_surface(self.parameters_origin(start), path.thickness, self.values.fault(Letter::T));
+        self.add_probes(&mut path);
+        self.add_subpath_surfaces(&mut path);
+        (tool.is_some() && thickness.is_some()).then_some(path)
+    }
+
+    fn parameters_origin(&self, start: &Marker) -> Origin {
+        self.raw.parameters_at.as_ref().map_or_else(|| start.origin.clone(), |(_, origin)| origin.clone())
+    }
+
+    fn check_path_values(&mut self) {
+        let mut problems = std::mem::take(&mut self.values.problems);
+        for letter in [Letter::O, Letter::T] {
+            if !self.values.has(letter) {
+                let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
+                problems.push(missing.with_text(self.raw.parameters.whole()));
+            }
+        }
+        if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
+            let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));
+            problems.push(self.values.underline(Letter::E, problem));
+        }
+        problems.extend(limits::check(&self.values, &self.values, true));
+        self.problems.extend(problems.into_iter().map(|problem| {
+            let problem = self.raw.at_parameters(problem);
+            if problem.path.is_none() { problem.in_path(self.raw.name.as_str()) } else { problem }
+        }));
+    }
+
+    fn path_number(&self, letter: Letter) -> Option<f64> {
+        self.values.number(letter).number()
+    }
+
+    fn path_text(&self, letter: Letter) -> Option<Box<str>> {
+        self.values.text(letter).map(Into::into)
+    }
+
+    /// The values of an element's text, checked; what is wrong is reported at the element.
+    fn element_values(&mut self, origin: &Origin, text: Option<&ParameterText>, has_bars: bool) -> Values {
+        let Some(text) = text else { return Values::default() };
+        let mut values = Values::of(text, &self.interpolation);
+        let found = std::mem::take(&mut values.problems);
+        let limits = limits::check(&values, &self.values, has_bars);
+        for problem in found.into_iter().chain(limits) {
+            self.report(origin, problem);
+        }
+        values
+    }
+
+    /// Reports once what several parts of a polyline, which share a text, have in common.
+    fn report(&mut self, origin: &Origin, problem: Diagnostic) {
+        let problem = origin.at(problem.in_path(self.raw.name.as_str()));
+        let is_same = |known: &Diagnostic| {
+            known.message == problem.message
+                && known.text == problem.text
+                && known.arguments == problem.arguments
+                && known.place.entity == problem.place.entity
+        };
+        if problem.text.is_none() || !self.is_shared_text(origin) || !self.problems.iter().any(is_same) {
+            self.problems.push(problem);
+        }
+    }
+
+    fn is_shared_text(&self, origin: &Origin) -> bool {
+        use pathbuild_diagnostic::EntityKind::{LwPolyline, Polyline};
+        matches!(origin.entity, LwPolyline | Polyline)
+    }
+
+    fn add_probes(&mut self, path: &mut Path) {
+        for marker in &self.raw.probes {
+            let values = self.element_values(&marker.origin, self.raw.text_of(marker.text), false);
+            let own_thickness = values.number(Letter::T);
+            if let Some(thickness) = own_thickness.number() {
+                path.add_surface(marker.origin.clone(), thickness, values.fault(Letter::T));
+            }
+            let thickness = own_thickness.or(self.values.number(Letter::T)).number().unwrap_or_default();
+            path.probes.push(Probe {
+                origin: marker.origin.clone(),
+                at: marker.at,
+                height: thickness + values.number(Letter::H).number().unwrap_or(0.0),
+                feed: values.number(Letter::Z).or(self.values.number(Letter::Z)).number(),
+                label: values.text(Letter::L).map(Into::into),
+            });
+        }
+    }
+}
+
+/// The last line of a regular expression error says what is wrong; the lines before it draw the place, which the text shows anyway.
+pub(crate) fn regex_reason(error: &regex::Error) -> String {
+    let text = error.to_string();
+    let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
+    last.trim().trim_start_matches("error: ").to_owned()
+}

@@ -1,0 +1,71 @@
+//! Values against their limits: PB203. (spec/30-parameters.md, "Checks")
+
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, Message};
+
+use crate::approx::above;
+use crate::letter::Letter;
+use crate::values::{Given, Values};
+
+/// Letters that must be greater than 0 wherever they stand. (Z is not in the specification's list, but a machine that is to probe at
+/// feed 0 never arrives.)
+const POSITIVE: [Letter; 8] =
+    [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
+
+/// Letters that must be greater than 0 on paths and where there are bars.
+const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
+
+/// What is wrong with the values that `own` gives, with those of the path where it gives none. `has_bars`: on a path, and on every
+/// element with support bars.
+pub(crate) fn check(own: &Values, path: &Values, has_bars: bool) -> Vec<Diagnostic> {
+    let limits = Limits { own, path };
+    let mut problems: Vec<Diagnostic> =
+        POSITIVE.iter().filter_map(|letter| limits.positive(*letter)).collect();
+    problems.extend(limits.above(Letter::S, Letter::T, &messages::NOT_ABOVE));
+    problems.extend(limits.above(Letter::T, Letter::B, &messages::NOT_BELOW));
+    problems.extend(limits.above(Letter::T, Letter::D, &messages::NOT_BELOW));
+    if has_bars {
+        problems.extend(limits.above(Letter::D, Letter::B, &messages::NOT_ABOVE));
+        problems.extend(POSITIVE_BARS.iter().filter_map(|letter| limits.positive(*letter)));
+    }
+    problems
+}
+
+struct Limits<'a> {
+    own: &'a Values,
+    path: &'a Values,
+}
+
+impl Limits<'_> {
+    fn positive(&self, letter: Letter) -> Option<Diagnostic> {
+        let value = self.own.number(letter).number()?;
+        if above(value, 0.0) {
+            return None;
+        }
+        let problem = Diagnostic::new(&messages::NOT_POSITIVE);
+        Some(self.own.underline(letter, problem.with("letter", letter.as_char()).with("value", value)))
+    }
+
+    /// That `upper` is above `lower`, where the own text gives at least one of them: else it is the path's fault, reported there.
+    fn above(&self, upper: Letter, lower: Letter, message: &'static Message) -> Option<Diagnostic> {
+        if !self.own.has(upper) && !self.own.has(lower) {
+            return None;
+        }
+        let value = |letter| -> Given { self.own.number(letter).or(self.path.number(letter)) };
+        let (high, low) = (value(upper).number()?, value(lower).number()?);
+        if above(high, low) {
+            return None;
+        }
+        // The message is about the letter that the person can mend here.
+        let says_upper = *message == messages::NOT_ABOVE;
+        let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
+        let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };
+        let problem = Diagnostic::new(message)
+            .with("letter", subject.as_char())
+            .with("value", subject_value)
+            .with("limit_letter", limit.as_char())
+            .with("limit", limit_value);
+        let underlined = if self.own.has(subject) { subject } else { limit };
+        Some(self.own.underline(underlined, problem))
+    }
+}

@@ -1,0 +1,324 @@
+//! Paths: raw paths with their variables bound and every parameter known. (spec/30-parameters.md, spec/50-path-building.md)
+
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault};
+
+use crate::approx::above;
+use crate::element::{Cut, Origin};
+use crate::geometry::{Curve, Xy};
+use crate::name::PathName;
+
+/// A path whose parameters are all there and within their limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// O in mm.
+    pub tool: f64,
+    /// T in mm.
+    pub thickness: f64,
+    /// S in mm, where the path gives one; what holds else depends on its role: [`Path::embedded_sweep_height`].
+    pub sweep_height: Option<f64>,
+    /// M.
+    pub material: Option<Box<str>>,
+    /// F in mm/min.
+    pub feed: Option<f64>,
+    /// R.
+    pub output_suffix: Box<str>,
+    /// E: the regular expression that names of embedded paths must match.
+    pub embeds_only: Option<Box<str>>,
+    /// Where it starts.
+    pub start: Xy,
+    /// Where it ends.
+    pub end: Xy,
+    /// Turn markers.
+    pub turns: Vec<Turn>,
+    /// Segments in their order: circles, lines, arcs.
+    pub segments: Vec<Segment>,
+    /// Z-probes in file order.
+    pub probes: Vec<Probe>,
+    /// The upper faces that S must be above, for those of its elements that have their own T.
+    pub(crate) surfaces: Vec<(Origin, f64, Option<TextFault>)>,
+    /// The start marker.
+    pub start_origin: Origin,
+    /// The end marker.
+    pub end_origin: Origin,
+    /// Curves that are no part of it.
+    pub left_out: Vec<(EntityKind, Point)>,
+}
+
+/// A turn marker.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "a point")]
+pub struct Turn {
+    pub origin: Origin,
+    pub at: Xy,
+}
+
+/// A Z-probe. (spec/70-z-probes.md)
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// The circle.
+    pub origin: Origin,
+    /// Its centre.
+    pub at: Xy,
+    /// T + H: the height that is expected there, before what the path is raised by. mm.
+    pub height: f64,
+    /// Z: probing feed in mm/min.
+    pub feed: Option<f64>,
+    /// L.
+    pub label: Option<Box<str>>,
+}
+
+/// What the walk goes along.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it is drawn.
+    pub origin: Origin,
+    /// Order at a star: N, or what its kind has.
+    pub order: f64,
+    /// What it is.
+    pub kind: SegmentKind,
+}
+
+/// The kinds of segments.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
+pub enum SegmentKind {
+    Cut(CutSegment),
+    Hole(Hole),
+    Helix(Helix),
+    Sweep(Sweep),
+    Subpath(Subpath),
+}
+
+/// A milling, marking or support segment: member of a milling chain. Lengths in mm, feeds in mm/min.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutSegment {
+    /// From its start to its end.
+    pub curve: Curve,
+    /// What it leaves.
+    pub cut: Cut,
+    /// F.
+    pub feed: Option<f64>,
+    /// Z of the bottom: B, or D of a mark.
+    pub bottom: f64,
+    /// Bars along it, for [`Cut::Support`].
+    pub bars: Option<Bars>,
+    /// I, C and W, which count where it is the first of its chain.
+    pub chain: ChainParameters,
+    /// Those of I, C and W that its own text gives.
+    pub own_chain_letters: Vec<(char, TextFault)>,
+    /// Q.
+    pub comment: Option<Box<str>>,
+}
+
+/// Parameters of a whole chain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ChainParameters {
+    /// I: infeed per pass.
+    pub infeed: Option<f64>,
+    /// C: peck depth.
+    pub peck: Option<f64>,
+    /// W: first depth of sweepless milling.
+    pub first_depth: Option<f64>,
+}
+
+/// Support bars of 45 degree slopes, cut to their number along a segment. (spec/60-gcode.md, "Support bars")
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bars {
+    /// D: Z of their top.
+    pub top: f64,
+    /// P: length of a bar.
+    pub length: f64,
+    /// U: least distance between bars.
+    pub distance: f64,
+}
+
+/// A drilled hole or mark.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "as in CutSegment; peck is C")]
+pub struct Hole {
+    pub centre: Xy,
+    pub bottom: f64,
+    pub feed: Option<f64>,
+    pub peck: Option<f64>,
+    pub comment: Option<Box<str>>,
+}
+
+/// A helical circle, mark or circle with bars.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Helix {
+    /// Centre.
+    pub centre: Xy,
+    /// Of the drawn circle: the outer one.
+    pub radius: f64,
+    /// Z down to which it is milled whole: B, or D of a mark and with bars.
+    pub bottom: f64,
+    /// B below, and the bars, for circles with bars.
+    pub bars: Option<(f64, Bars)>,
+    /// F.
+    pub feed: Option<f64>,
+    /// I.
+    pub infeed: f64,
+    /// Q.
+    pub comment: Option<Box<str>>,
+}
+
+/// A rapid move at sweep height. A drawn arc is swept straight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweep {
+    /// Its drawn ends.
+    pub start: Xy,
+    /// The other.
+    pub end: Xy,
+    /// Its own S; else the path's.
+    pub height: Option<f64>,
+}
+
+/// A path to embed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subpath {
+    /// Where the embedded path's start comes to lie.
+    pub start: Xy,
+    /// The direction in which its end lies.
+    pub end: Xy,
+    /// Which path.
+    pub name: SubpathName,
+    /// T, own or the path's.
+    pub thickness: f64,
+    /// O.
+    pub tool: f64,
+    /// M.
+    pub material: Option<Box<str>>,
+    /// H: how much it is raised.
+    pub height: f64,
+    /// Values of its variables, in the order written.
+    pub values: Vec<SubpathValue>,
+    /// T, O and M underlined, where the segment's own text gives them.
+    pub faults: Vec<(char, TextFault)>,
+}
+
+/// What a subpath's text says of the name.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum SubpathName {
+    Missing {
+        text: Option<TextFault>,
+    },
+    Invalid {
+        value: Box<str>,
+        text: TextFault,
+    },
+    /// `has_more`: the whole value, where there is more in it than the name.
+    Found {
+        name: PathName,
+        text: TextFault,
+        has_more: Option<Box<str>>,
+    },
+}
+
+/// A value for a variable of the embedded path.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct SubpathValue {
+    pub variable: Option<char>,
+    pub value: Box<str>,
+    pub text: TextFault,
+}
+
+impl Path {
+    /// S of the path where it is embedded or checked: its own, else T + O.
+    pub fn embedded_sweep_height(&self) -> f64 {
+        self.sweep_height.unwrap_or(self.thickness + self.tool)
+    }
+
+    /// S of the path where it is emitted: its own, else the option's.
+    pub fn emitted_sweep_height(&self, option: f64) -> f64 {
+        self.sweep_height.unwrap_or(option)
+    }
+
+    /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
+    /// its other values.
+    pub fn check_sweep_height(&self, height: f64) -> Vec<Diagnostic> {
+        if self.sweep_height.is_some() {
+            return Vec::new();
+        }
+        let too_high = self.surfaces.iter().filter(|(_, thickness, _)| !above(height, *thickness));
+        let report = |(origin, thickness, text): &(Origin, f64, Option<TextFault>)| {
+            let problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
+                .with("value", height)
+                .with("limit", *thickness)
+                .in_path(self.name.as_str());
+            let problem = match text {
+                Some(text) => problem.with_text(text.clone()),
+                None => problem,
+            };
+            origin.at(problem)
+        };
+        too_high.map(report).collect()
+    }
+
+    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<TextFault>) {
+        self.surfaces.push((origin, thickness, text));
+    }
+}
+
+impl Segment {
+    /// Where it starts, as drawn.
+    pub fn start(&self) -> Xy {
+        match &self.kind {
+            SegmentKind::Cut(cut) => cut.curve.start(),
+            SegmentKind::Hole(hole) => hole.centre,
+            SegmentKind::Helix(helix) => helix.centre,
+            SegmentKind::Sweep(sweep) => sweep.start,
+            SegmentKind::Subpath(subpath) => subpath.start,
+        }
+    }
+
+    /// Where it ends, as drawn.
+    pub fn end(&self) -> Xy {
+        match &self.kind {
+            SegmentKind::Cut(cut) => cut.curve.end(),
+            SegmentKind::Hole(hole) => hole.centre,
+            SegmentKind::Helix(helix) => helix.centre,
+            SegmentKind::Sweep(sweep) => sweep.end,
+            SegmentKind::Subpath(subpath) => subpath.end,
+        }
+    }
+
+    /// The same segment from its other end. A subpath is then embedded the other way round: its start comes to lie where the walk
+    /// comes from.
+    pub fn turned_round(mut self) -> Self {
+        match &mut self.kind {
+            SegmentKind::Cut(cut) => cut.curve = cut.curve.reversed(),
+            SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
+            SegmentKind::Sweep(sweep) => std::mem::swap(&mut sweep.start, &mut sweep.end),
+            SegmentKind::Subpath(subpath) => std::mem::swap(&mut subpath.start, &mut subpath.end),
+        }
+        self
+    }
+
+    /// What of several segments at a point comes first when their orders are equal.
+    pub(crate) fn preference(&self) -> u8 {
+        match self.kind {
+            SegmentKind::Hole(_) => 1,
+            SegmentKind::Helix(_) => 2,
+            SegmentKind::Subpath(_) => 3,
+            SegmentKind::Cut(_) => 4,
+            SegmentKind::Sweep(_) => 5,
+        }
+    }
+
+    /// Its length at a star: the chord.
+    pub(crate) fn chord(&self) -> f64 {
+        (self.end() - self.start()).norm()
+    }
+}
+
+impl Bars {
+    /// How many bars a segment of this length gets.
+    pub fn count(&self, length: f64) -> f64 {
+        (length / (self.distance + self.length)).floor()
+    }
+}

@@ -1,0 +1,130 @@
+//! Values of variables, and putting them into texts. (spec/40-variables.md)
+
+use std::borrow::Cow;
+
+use pathbuild_diagnostic::messages::{files, variables as messages};
+use pathbuild_diagnostic::{Diagnostic, Value};
+
+use crate::letter::Letter;
+use crate::raw::RawPath;
+
+/// The values that a path's variables have where it is used, in order of their names.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Bindings(Vec<(char, Box<str>)>);
+
+/// Puts values for references.
+pub(crate) struct Interpolation<'a> {
+    pub(crate) bindings: &'a Bindings,
+    pub(crate) limit: usize,
+}
+
+impl Bindings {
+    /// Bindings of names to values; the first of a name holds.
+    pub fn new(values: impl IntoIterator<Item = (char, Box<str>)>) -> Self {
+        let mut values: Vec<_> = values.into_iter().collect();
+        values.sort_by_key(|(name, _)| *name);
+        values.dedup_by_key(|(name, _)| *name);
+        Self(values)
+    }
+
+    /// The example values that a path by itself is checked with: k counts from 0 over its definitions as they are written.
+    pub fn check_values(raw: &RawPath) -> Self {
+        let value = |(k, definition): (usize, &crate::Definition)| {
+            (definition.name, definition.check_value(k).into_boxed_str())
+        };
+        Self::new(raw.definitions.iter().enumerate().map(value))
+    }
+
+    /// The value of a variable.
+    pub fn get(&self, name: char) -> Option<&str> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| &**value)
+    }
+
+    /// All names and values.
+    pub fn iter(&self) -> impl Iterator<Item = (char, &str)> {
+        self.0.iter().map(|(name, value)| (*name, &**value))
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl RawPath {
+    /// PB302 for each variable without a value: nobody emits a path that has variables by itself.
+    pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
+        let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
+        let report = |definition: &crate::Definition| {
+            let problem = Diagnostic::new(&messages::MISSING_VALUE)
+                .with("variable", definition.name)
+                .with("definition", definition.to_string());
+            let piece = self.parameters.pieces().iter().find(|piece| {
+                piece.letter == Some(Letter::Variable)
+                    && self.parameters.value(piece).starts_with(definition.name)
+            });
+            let problem = match piece {
+                Some(piece) => problem.with_text(self.parameters.fault(piece)),
+                None => problem,
+            };
+            self.at_parameters(problem)
+        };
+        missing.map(report).collect()
+    }
+}
+
+impl Interpolation<'_> {
+    /// A value with all references replaced, again and again until nothing changes.
+    ///
+    /// # Errors
+    /// PB303, PB305 or PB005, without a place.
+    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Diagnostic> {
+        let mut filled = Cow::Borrowed(value);
+        // Without a circle each round resolves at least one level, and there are no more levels than variables.
+        for _ in 0..=self.bindings.0.len() {
+            if !filled.contains('=') {
+                return Ok(filled);
+            }
+            filled = Cow::Owned(self.fill_once(&filled)?);
+        }
+        match filled.split_once('=') {
+            None => Ok(filled),
+            Some((_, rest)) => {
+                let name = rest.chars().next().map(String::from).unwrap_or_default();
+                Err(Diagnostic::new(&messages::ENDLESS).with("variable", name))
+            }
+        }
+    }
+
+    fn fill_once(&self, value: &str) -> Result<String, Diagnostic> {
+        let mut filled = String::with_capacity(2 * value.len());
+        let mut rest = value;
+        while let Some((before, after)) = rest.split_once('=') {
+            let name = after.chars().next();
+            let replacement =
+                name.and_then(|name| self.bindings.get(name)).ok_or_else(|| self.unknown(name))?;
+            filled.push_str(before);
+            filled.push_str(replacement);
+            if filled.len() > self.limit {
+                return Err(self.too_long());
+            }
+            rest = &after[name.map_or(0, char::len_utf8)..];
+        }
+        filled.push_str(rest);
+        Ok(filled)
+    }
+
+    fn unknown(&self, name: Option<char>) -> Diagnostic {
+        let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
+        Diagnostic::new(&messages::UNKNOWN_REFERENCE)
+            .with("variable", name.map(String::from).unwrap_or_default())
+            .with("known", known)
+    }
+
+    fn too_long(&self) -> Diagnostic {
+        Diagnostic::new(&files::LIMIT)
+            .with("what", "a text with its variables' values")
+            .with("limit", format!("{} bytes", self.limit))
+            .with("key", "text-length")
+    }
+}

@@ -1,0 +1,78 @@
+//! Support bars along a segment. (spec/60-gcode.md, "Support bars")
+
+use pathbuild_path::{Bars, Curve};
+
+use crate::mill::Section;
+
+/// Where a segment with bars is milled how deep, as positions along it in mm.
+#[derive(Clone, Debug)]
+pub(crate) struct BarPlan {
+    pieces: Vec<Piece>,
+}
+
+/// From `from` to `to` along the segment; a slope goes from one level to the other.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    from: f64,
+    to: f64,
+    starts_low: bool,
+    ends_low: bool,
+}
+
+impl BarPlan {
+    /// The plan for a segment of this length with B at `bottom`; `None` where there is no room for a gap: the segment then stays at the
+    /// bars' height.
+    pub(crate) fn new(bars: &Bars, bottom: f64, tool: f64, length: f64) -> Option<Self> {
+        let count = bars.count(length);
+        if count <= 0.0 {
+            return None;
+        }
+        let pitch = length / count;
+        // Slopes of 45 degrees where there is room, else steeper.
+        let slope = (bars.top - bottom).min(bars.length / 2.0).min((pitch - bars.length - tool) / 2.0);
+        let edge = bars.length / 2.0 + tool / 2.0;
+        let between = (pitch - bars.length - 2.0 * slope - tool).max(0.0);
+        let mut plan = Self { pieces: Vec::new() };
+        plan.piece(0.0, edge, false, false);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number, 1 or more"
+        )]
+        let gaps = count as u64;
+        for k in 0..gaps - 1 {
+            let start = edge + k as f64 * pitch;
+            let end = plan.gap(start, slope, between);
+            plan.piece(end, end + bars.length + tool, false, false);
+        }
+        let end = plan.gap(length - edge - 2.0 * slope - between, slope, between);
+        plan.piece(end, length, false, false);
+        Some(plan)
+    }
+
+    /// Down, between, up; gives where it ends.
+    fn gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
+        let (low, high) = (start + slope, start + slope + between);
+        self.piece(start, low, false, true);
+        self.piece(low, high, true, true);
+        self.piece(high, high + slope, true, false);
+        high + slope
+    }
+
+    fn piece(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
+        if to > from {
+            self.pieces.push(Piece { from, to, starts_low, ends_low });
+        }
+    }
+
+    /// The sections along a curve, in order from its start, low parts at `low` and bars at `high`.
+    pub(crate) fn sections(&self, curve: &Curve, low: f64, high: f64) -> Vec<Section> {
+        let level = |is_low| if is_low { low } else { high };
+        let section = |piece: &Piece| Section {
+            curve: curve.section(piece.from, piece.to),
+            from_z: level(piece.starts_low),
+            to_z: level(piece.ends_low),
+        };
+        self.pieces.iter().map(section).collect()
+    }
+}

@@ -1,0 +1,183 @@
+//! Milling chains, pass by pass. (spec/60-gcode.md, "Chains")
+
+use pathbuild_path::approx::{above, at_least, coincide, near};
+use pathbuild_path::{Chain, ChainSegment, Curve, Cut};
+
+use crate::bars::BarPlan;
+use crate::fold::{Fold, Parts, Place, Tip, distance};
+use crate::mill::Section;
+use crate::program::ElementKind;
+
+/// A segment of the chain, placed, with the depths of its edges from top to bottom.
+struct Strand<'a> {
+    segment: &'a ChainSegment,
+    curve: Curve,
+    depths: Vec<f64>,
+    /// h + B, or h + D of a mark.
+    bottom: f64,
+    /// h + D and where the bars are, for segments with bars; no plan where nothing goes below D.
+    bars: Option<(f64, Option<BarPlan>)>,
+    feed: f64,
+}
+
+/// An edge to run: a strand at one of its depths, from its start or from its end.
+#[derive(Clone, Copy)]
+struct Run {
+    strand: usize,
+    edge: usize,
+    is_backwards: bool,
+}
+
+impl<P: Parts> Fold<'_, P> {
+    pub(crate) fn chain(&mut self, place: &Place<'_>, chain: &Chain) {
+        let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
+        let strands: Vec<Strand<'_>> =
+            chain.segments.iter().map(|segment| self.strand(place, segment, first, chain.infeed)).collect();
+        let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
+        self.element(ElementKind::MillingChain, &chain.segments[0].origin, bottom, place, None);
+        if chain.first_depth.is_some() {
+            self.sweepless(place, &strands);
+        } else {
+            self.pass_by_pass(place, &strands);
+        }
+    }
+
+    fn strand<'s>(
+        &self,
+        place: &Place<'_>,
+        segment: &'s ChainSegment,
+        first: f64,
+        infeed: f64,
+    ) -> Strand<'s> {
+        let cut = &segment.cut;
+        let bottom = place.raised + cut.bottom;
+        let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
+            let plan = BarPlan::new(bars, cut.bottom, place.path.tool, cut.curve.length());
+            (place.raised + bars.top, plan)
+        });
+        Strand {
+            segment,
+            curve: place.placement.place_curve(&cut.curve),
+            depths: depths(first, infeed, bottom),
+            bottom,
+            bars,
+            feed: self.feed(cut.feed),
+        }
+    }
+
+    /// Edges in the order of the nearest end, each after the one above it.
+    fn pass_by_pass(&mut self, place: &Place<'_>, strands: &[Strand<'_>]) {
+        let mut done = vec![0; strands.len()];
+        let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
+        let mut last_pass = None;
+        while let Some(run) = nearest(strands, &done, tip) {
+            self.checkpoint();
+            done[run.strand] += 1;
+            let strand = &strands[run.strand];
+            let z = strand.depths[run.edge];
+            if last_pass != Some(run.edge) {
+                self.pass(u32::try_from(run.edge + 1).unwrap_or(u32::MAX), z);
+                last_pass = Some(run.edge);
+            }
+            let (from, to) = strand.ends(run.is_backwards);
+            self.travel(Tip { at: from, z }, place.surface, place.sweep_height, place.feed);
+            self.edge(place, strand, z, run.is_backwards);
+            tip = Tip { at: to, z };
+        }
+        let end = strands[strands.len() - 1].curve.end();
+        self.travel(Tip { at: end, z: place.sweep_height }, place.surface, place.sweep_height, place.feed);
+    }
+
+    /// To and fro in the groove, without leaving it.
+    fn sweepless(&mut self, place: &Place<'_>, strands: &[Strand<'_>]) {
+        let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
+        let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());
+        let goes_back = runs > 1 && !coincide(start, end);
+        for run in 0..runs {
+            self.checkpoint();
+            let mut way = Vec::with_capacity(strands.len());
+            for (index, strand) in strands.iter().enumerate() {
+                let edge = run.min(strand.depths.len() - 1);
+                let is_backwards = !strand.starts_nearer(self.tip.at);
+                way.push(Run { strand: index, edge, is_backwards });
+                self.run_in_groove(place, strands, way[index]);
+            }
+            if goes_back && run + 1 < runs {
+                for forth in way.into_iter().rev() {
+                    self.run_in_groove(place, strands, Run { is_backwards: !forth.is_backwards, ..forth });
+                }
+            }
+        }
+    }
+
+    fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
+        let strand = &strands[run.strand];
+        let z = strand.depths[run.edge];
+        self.plunge(z, place.surface, place.feed);
+        self.edge(place, strand, z, run.is_backwards);
+    }
+
+    /// Mills a segment once at a depth, its bars spared.
+    fn edge(&mut self, place: &Place<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
+        self.question(strand.segment.cut.comment.as_deref());
+        for section in strand.sections(z, is_backwards) {
+            self.mill(&section, place.surface, strand.feed);
+        }
+    }
+}
+
+impl Strand<'_> {
+    /// Where a run begins and where it ends.
+    fn ends(&self, is_backwards: bool) -> (pathbuild_path::Xy, pathbuild_path::Xy) {
+        let (start, end) = (self.curve.start(), self.curve.end());
+        if is_backwards { (end, start) } else { (start, end) }
+    }
+
+    fn starts_nearer(&self, at: pathbuild_path::Xy) -> bool {
+        above((self.curve.end() - at).norm(), (self.curve.start() - at).norm())
+    }
+
+    fn sections(&self, z: f64, is_backwards: bool) -> Vec<Section> {
+        let whole = |z: f64| vec![Section { curve: self.curve, from_z: z, to_z: z }];
+        let mut sections = match &self.bars {
+            Some((top, Some(plan))) if above(*top, z) => plan.sections(&self.curve, z.max(self.bottom), *top),
+            Some((top, _)) => whole(z.max(*top)),
+            None => whole(z.max(self.bottom)),
+        };
+        if is_backwards {
+            sections.reverse();
+            sections.iter_mut().for_each(|section| *section = section.reversed());
+        }
+        sections
+    }
+}
+
+/// Depths from the first down to the bottom, by subtracting again and again.
+pub(crate) fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
+    let mut depths = Vec::new();
+    let mut z = first;
+    while at_least(z, bottom) {
+        depths.push(z);
+        z -= infeed;
+    }
+    if depths.last().is_none_or(|last| !near(*last, bottom)) {
+        depths.push(bottom);
+    }
+    depths
+}
+
+/// The next edge: of those whose edge above is done, the one with an end nearest to the tip; the first on a tie.
+fn nearest(strands: &[Strand<'_>], done: &[usize], tip: Tip) -> Option<Run> {
+    let mut best: Option<(f64, Run)> = None;
+    for (index, strand) in strands.iter().enumerate() {
+        let Some(z) = strand.depths.get(done[index]) else { continue };
+        let to = |at| distance(tip, Tip { at, z: *z });
+        let (to_start, to_end) = (to(strand.curve.start()), to(strand.curve.end()));
+        let is_backwards = !above(to_end, to_start);
+        let least = if is_backwards { to_end } else { to_start };
+        if best.is_none_or(|(nearest, _)| above(nearest, least)) {
+            best = Some((least, Run { strand: index, edge: done[index], is_backwards }));
+        }
+    }
+    best.map(|(_, run)| run)
+}

@@ -1,0 +1,49 @@
+//! How many moves a path comes to, before they are made: limits are known before the fold starts.
+
+use pathbuild_path::{Chain, Helix, Item, Path};
+
+/// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
+pub fn own_moves(path: &Path, items: &[Item]) -> u64 {
+    items.iter().map(|item| moves(path, item)).fold(0, u64::saturating_add)
+}
+
+fn moves(path: &Path, item: &Item) -> u64 {
+    match item {
+        Item::Chain(chain) => chain_moves(path, chain),
+        Item::Helix { helix, .. } => helix_moves(path, helix),
+        Item::Hole { .. } | Item::Sweep { .. } | Item::Subpath(_) => 4,
+    }
+}
+
+fn chain_moves(path: &Path, chain: &Chain) -> u64 {
+    let first = chain.first_depth.unwrap_or(path.thickness);
+    let segments = chain.segments.iter().map(|member| {
+        let cut = &member.cut;
+        let sections = cut.bars.map_or(1.0, |bars| 4.0 * bars.count(cut.curve.length()) + 1.0);
+        passes(first - cut.bottom, chain.infeed).saturating_mul(whole(sections).saturating_add(1))
+    });
+    let once = segments.fold(0, u64::saturating_add);
+    if chain.first_depth.is_some() { once.saturating_mul(2) } else { once }
+}
+
+fn helix_moves(path: &Path, helix: &Helix) -> u64 {
+    let spiral = passes(path.thickness - helix.bottom, helix.infeed).saturating_mul(2);
+    let with_bars = helix.bars.map_or(0, |(depth, bars)| {
+        let length = std::f64::consts::TAU * (helix.radius - path.tool / 2.0);
+        passes(helix.bottom - depth, helix.infeed).saturating_mul(whole(4.0 * bars.count(length) + 1.0))
+    });
+    spiral.saturating_add(with_bars)
+}
+
+fn passes(depth: f64, infeed: f64) -> u64 {
+    whole((depth / infeed).ceil().max(0.0)).saturating_add(1)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, and is never negative"
+)]
+fn whole(number: f64) -> u64 {
+    number as u64
+}

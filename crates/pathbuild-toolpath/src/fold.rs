@@ -1,0 +1,261 @@
+//! The fold: one walk over a path and what it embeds that carries the tool's position.
+
+use pathbuild_path::approx::{coincide, is_nothing, near};
+use pathbuild_path::{Hole, Item, Origin, Path, PlacedSubpath, Placement, SegmentKind, Sweep, Xy};
+
+use crate::probes;
+use crate::program::{Class, Comment, Count, ElementKind, Height, Move, Names, ProbePoint, Program, Step};
+
+/// The paths that are joined: the emitted one and all it embeds.
+pub trait Parts {
+    /// Names a path with its variables bound.
+    type Id: Copy;
+
+    /// The path.
+    fn path(&self, id: Self::Id) -> &Path;
+
+    /// What is done along it.
+    fn items(&self, id: Self::Id) -> &[Item];
+
+    /// What a subpath segment of it (an index into [`Path::segments`]) embeds.
+    fn embedded(&self, id: Self::Id, segment: usize) -> Option<Self::Id>;
+
+    /// Called now and then: the place to unwind from when the result is no longer wanted.
+    fn checkpoint(&self) {}
+}
+
+/// What the options say where the drawing says nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoldOptions {
+    /// --feed: F in mm/min.
+    pub feed: f64,
+    /// --sweep-height: S of the emitted path in mm.
+    pub sweep_height: f64,
+}
+
+/// Makes the program of a path. Every path in it must be free of errors.
+pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions) -> Program {
+    let path = parts.path(root);
+    let sweep_height = path.emitted_sweep_height(options.sweep_height);
+    let mut program = Program {
+        path: path.name.as_str().into(),
+        drawing: drawing.into(),
+        tool: path.tool,
+        sweep_height,
+        thickness: path.thickness,
+        ..Program::default()
+    };
+    let mut fold = Fold {
+        parts,
+        feed: options.feed,
+        tip: Tip { at: Xy::origin(), z: program.start_height() },
+        steps: Vec::new(),
+        names: Names::default(),
+        probes: Vec::new(),
+        mergeable: None,
+    };
+    fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
+    program.steps = fold.steps;
+    program.names = fold.names;
+    program.probes = probes::in_order(fold.probes);
+    program
+}
+
+/// Where the tool is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tip {
+    pub(crate) at: Xy,
+    pub(crate) z: f64,
+}
+
+pub(crate) struct Fold<'a, P> {
+    parts: &'a P,
+    feed: f64,
+    pub(crate) tip: Tip,
+    steps: Vec<Step>,
+    names: Names,
+    probes: Vec<ProbePoint>,
+    /// The last sweep, while nothing but comments follow it: another sweep replaces it.
+    mergeable: Option<usize>,
+}
+
+/// A path where it is placed: heights are absolute, lengths in mm.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) placement: Placement,
+    /// h: what the path is raised by.
+    pub(crate) raised: f64,
+    /// h + T.
+    pub(crate) surface: f64,
+    /// h + S.
+    pub(crate) sweep_height: f64,
+    /// F of the path, or --feed.
+    pub(crate) feed: f64,
+}
+
+impl<'a, P: Parts> Fold<'a, P> {
+    fn path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) {
+        self.parts.checkpoint();
+        let path = self.parts.path(id);
+        let place = Place {
+            path,
+            placement,
+            raised,
+            surface: raised + path.thickness,
+            sweep_height: raised + sweep_height,
+            feed: path.feed.unwrap_or(self.feed),
+        };
+        self.probes.extend(path.probes.iter().map(|probe| ProbePoint {
+            at: placement.place(probe.at),
+            drawn_at: probe.at,
+            height: probe.height + raised,
+            feed: probe.feed,
+            label: probe.label.clone(),
+        }));
+        for item in self.parts.items(id) {
+            match item {
+                Item::Chain(chain) => self.chain(&place, chain),
+                Item::Hole { origin, hole } => self.hole(&place, origin, hole),
+                Item::Helix { origin, helix } => self.helix(&place, origin, helix),
+                Item::Sweep { sweep, .. } => self.sweep_along(&place, sweep),
+                Item::Subpath(subpath) => self.subpath(&place, id, subpath),
+            }
+        }
+    }
+
+    /// The embedded path begins exactly at the segment's start; what follows it begins at the segment's end, though it may have ended
+    /// 0.001 mm beside that.
+    fn subpath(&mut self, outer: &Place<'a>, id: P::Id, subpath: &PlacedSubpath) {
+        let Some(embedded) = self.parts.embedded(id, subpath.segment) else { return };
+        let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
+        let path = self.parts.path(embedded);
+        let (start, end) = (outer.placement.place(subpath.start), outer.placement.place(subpath.end));
+        let placement = Placement::aligning((path.start, path.end), (start, end));
+        let name = self.names.intern(path.name.as_str());
+        self.comment(Comment::StartSubpath(name));
+        self.path(embedded, placement, outer.raised + parameters.height, path.embedded_sweep_height());
+        self.comment(Comment::EndSubpath(name));
+        self.tip.at = end;
+    }
+
+    fn sweep_along(&mut self, place: &Place<'_>, sweep: &Sweep) {
+        let height = sweep.height.map_or(place.sweep_height, |height| place.raised + height);
+        let to = Tip { at: place.placement.place(sweep.end), z: height };
+        self.travel(to, place.surface, height, place.feed);
+    }
+
+    /// The tool stays at the bottom; what follows retracts it.
+    fn hole(&mut self, place: &Place<'_>, origin: &Origin, hole: &Hole) {
+        let bottom = place.raised + hole.bottom;
+        self.element(ElementKind::DrilledHole, origin, bottom, place, hole.peck);
+        self.question(hole.comment.as_deref());
+        self.plunge(bottom, place.surface, hole.feed.unwrap_or(self.feed));
+    }
+
+    /// Moves to another point at sweep height, and down or up to its height there.
+    pub(crate) fn travel(&mut self, to: Tip, surface: f64, sweep_height: f64, feed: f64) {
+        if coincide(self.tip.at, to.at) {
+            return self.plunge(to.z, surface, feed);
+        }
+        self.plunge(sweep_height, surface, feed);
+        let distance = distance(Tip { at: self.tip.at, z: sweep_height }, to);
+        if !is_nothing(distance) {
+            self.sweep(to.at, distance);
+        }
+        self.plunge(to.z, surface, feed);
+    }
+
+    /// Up or down where the tool stands: fast above the material, drilling below its surface.
+    pub(crate) fn plunge(&mut self, to: f64, surface: f64, feed: f64) {
+        let from = self.tip.z;
+        if near(from, to) {
+            return;
+        }
+        if to > surface || to > from {
+            return self.lift(to, (from - to).abs());
+        }
+        if from > surface {
+            self.lift(surface, (from - surface).abs());
+        }
+        if !near(to, surface) {
+            let z = Height { z: to, at: self.tip.at };
+            let count = Count { class: Class::Drilling, length: (surface - to).abs(), feed: Some(feed) };
+            self.step(Move::Drill { z }, count, Tip { z: to, ..self.tip });
+        }
+    }
+
+    /// `G00 Z` to a height, counted with a length of its own.
+    pub(crate) fn lift(&mut self, to: f64, length: f64) {
+        self.lift_corrected_at(to, self.tip.at, length);
+    }
+
+    /// The same with the height corrected by the probes round another point: a helical circle's centre.
+    pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
+        let count = Count { class: Class::Sweep, length, feed: None };
+        self.step(Move::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
+    }
+
+    /// `G00 X Y`. Of several with nothing but comments between only the last is kept.
+    pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
+        if let Some(index) = self.mergeable.take() {
+            self.steps.remove(index);
+        }
+        let index = self.steps.len();
+        let count = Count { class: Class::Sweep, length, feed: None };
+        self.step(Move::Sweep { to }, count, Tip { at: to, ..self.tip });
+        self.mergeable = Some(index);
+    }
+
+    /// Writes a move down.
+    pub(crate) fn step(&mut self, to: Move, count: Count, tip: Tip) {
+        self.mergeable = None;
+        self.steps.push(Step::Move { to, count });
+        self.tip = tip;
+    }
+
+    fn comment(&mut self, comment: Comment) {
+        self.steps.push(Step::Comment(comment));
+    }
+
+    /// `(Q:...)`, where there is one.
+    pub(crate) fn question(&mut self, text: Option<&str>) {
+        if let Some(text) = text {
+            let name = self.names.intern(text);
+            self.comment(Comment::Question(name));
+        }
+    }
+
+    /// Says which drawn element begins.
+    pub(crate) fn element(
+        &mut self,
+        kind: ElementKind,
+        origin: &Origin,
+        bottom: f64,
+        place: &Place<'_>,
+        peck: Option<f64>,
+    ) {
+        let at = Xy::new(origin.point.x.0, origin.point.y.0);
+        self.comment(Comment::Element { kind, at, bottom, surface: place.surface, peck });
+    }
+
+    /// Says which pass begins.
+    pub(crate) fn pass(&mut self, number: u32, z: f64) {
+        self.comment(Comment::Pass { number, z });
+    }
+
+    /// A segment's feed, or --feed.
+    pub(crate) fn feed(&self, own: Option<f64>) -> f64 {
+        own.unwrap_or(self.feed)
+    }
+
+    pub(crate) fn checkpoint(&self) {
+        self.parts.checkpoint();
+    }
+}
+
+/// The distance in space.
+pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
+    let (plane, height) = ((b.at - a.at).norm_squared(), b.z - a.z);
+    libm::sqrt(plane + height * height)
+}

@@ -1,0 +1,40 @@
+//! Milling along a curve. (spec/60-gcode.md, "Elementary moves")
+
+use pathbuild_path::Curve;
+
+use crate::fold::{Fold, Parts, Tip};
+use crate::program::{Class, Count, Height, Move};
+
+/// A piece of a segment with the heights of its ends, in mm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Section {
+    pub(crate) curve: Curve,
+    pub(crate) from_z: f64,
+    pub(crate) to_z: f64,
+}
+
+impl Section {
+    /// Run the other way.
+    pub(crate) fn reversed(self) -> Self {
+        Self { curve: self.curve.reversed(), from_z: self.to_z, to_z: self.from_z }
+    }
+}
+
+impl<P: Parts> Fold<'_, P> {
+    /// Mills a section (placed in the program) after coming to its height where it begins.
+    pub(crate) fn mill(&mut self, section: &Section, surface: f64, feed: f64) {
+        self.plunge(section.from_z, surface, feed);
+        let to = section.curve.end();
+        let z = Height { z: section.to_z, at: section.curve.start() };
+        let count = Count { class: Class::Milling, length: section.curve.length(), feed: Some(feed) };
+        let tip = Tip { at: to, z: section.to_z };
+        let to = match section.curve {
+            Curve::Line(_) => Move::Line { feed, to, z },
+            Curve::Arc(arc) => {
+                let centre = (arc.centre - arc.start).into();
+                Move::Arc { feed, clockwise: arc.clockwise, centre, to, z }
+            }
+        };
+        self.step(to, count, tip);
+    }
+}

@@ -1,0 +1,79 @@
+//! Lengths and times of a program. (spec/60-gcode.md, "Statistics")
+
+use crate::program::{Class, Count, Move, Program, Step};
+
+/// What a program adds up to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Statistics {
+    pub milling: Total,
+    pub drilling: Total,
+    pub sweeps: Total,
+    /// How many moves count.
+    pub commands: u64,
+}
+
+/// Length and time of moves of a kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Total {
+    /// mm.
+    pub length: f64,
+    /// Sum of length / feed, in minutes: without accelerations.
+    pub time: f64,
+}
+
+/// What a machine takes longer than length / feed.
+const SLOWER: f64 = 1.4;
+
+impl Statistics {
+    /// Adds up a program that sweeps at a rapid feed in mm/min.
+    pub fn of(program: &Program, rapid: f64) -> Self {
+        let mut statistics = Self::default();
+        let mut z = program.start_height();
+        for step in &program.steps {
+            if let Step::Move { to, count } = step {
+                statistics.add(count, rapid);
+                z = height_after(to).unwrap_or(z);
+            }
+        }
+        let last = (z - program.start_height()).abs();
+        statistics.add(&Count { class: Class::Sweep, length: last, feed: None }, rapid);
+        statistics
+    }
+
+    /// All together.
+    pub fn sum(&self) -> Total {
+        let totals = [self.milling, self.drilling, self.sweeps];
+        totals.iter().fold(Total::default(), |sum, total| Total {
+            length: sum.length + total.length,
+            time: sum.time + total.time,
+        })
+    }
+
+    fn add(&mut self, count: &Count, rapid: f64) {
+        let total = match count.class {
+            Class::Milling => &mut self.milling,
+            Class::Drilling => &mut self.drilling,
+            Class::Sweep => &mut self.sweeps,
+        };
+        total.length += count.length;
+        total.time += count.length / count.feed.unwrap_or(rapid);
+        self.commands += 1;
+    }
+}
+
+impl Total {
+    /// What a person has to reckon with: whole minutes, rounded up after rounding off what is less than 0.0000001 s.
+    pub fn minutes(&self) -> f64 {
+        let seconds = SLOWER * self.time * 60.0;
+        ((seconds * 1e7).round() / 1e7 / 60.0).ceil()
+    }
+}
+
+/// The height that a move ends at; `None` where it stays.
+fn height_after(to: &Move) -> Option<f64> {
+    match to {
+        Move::Sweep { .. } => None,
+        Move::Lift { z } | Move::Drill { z } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z.z),
+    }
+}
