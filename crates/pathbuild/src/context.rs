@@ -4,6 +4,7 @@ use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 
 use crate::args::Format;
+use crate::config::Settings;
 use crate::exit::ExitStatus;
 use crate::printer::{Printer, Stream};
 use crate::render::{View, render};
@@ -16,13 +17,22 @@ pub struct Context {
     pub printer: Printer,
     /// How diagnostics are shown.
     pub format: Format,
-    /// The language of messages.
-    pub lang: Lang,
+    /// What the configuration and the command line say.
+    pub settings: Settings,
     /// The directory that relative names mean.
     pub working_directory: Utf8PathBuf,
+    /// With how many threads to work; `None`: as many as there are cores.
+    pub jobs: Option<u16>,
+    /// Whether results of earlier runs may be used and this one's kept.
+    pub use_cache: bool,
 }
 
 impl Context {
+    /// The language of everything that is said.
+    pub fn lang(&self) -> Lang {
+        self.settings.general.lang.value
+    }
+
     /// Shows findings on stderr, as every command but `check` does.
     pub fn show(&self, findings: &Findings) {
         self.show_on(Stream::Stderr, findings);
@@ -40,10 +50,16 @@ impl Context {
         ExitStatus::Usage
     }
 
+    /// Shows what went wrong and ends with that.
+    pub fn fail(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
+        self.show(&Findings::new(diagnostics));
+        ExitStatus::Errors
+    }
+
     /// The view of somebody who looks at that stream.
     pub fn view(&self, stream: Stream) -> View {
         View {
-            lang: self.lang,
+            lang: self.lang(),
             color: self.printer.is_colored(stream),
             width: self.printer.width(stream),
             base: self.working_directory.clone(),

@@ -3,8 +3,10 @@
 
 pub mod args;
 pub mod commands;
+pub mod config;
 mod context;
 mod exit;
+mod files;
 pub mod printer;
 pub mod render;
 pub mod report;
@@ -14,12 +16,12 @@ use std::ffi::OsString;
 
 use camino::Utf8PathBuf;
 use clap::Parser;
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::Diagnostic;
 
 pub use context::Context;
 pub use exit::ExitStatus;
 
-use args::{Cli, CommonArgs};
+use args::Cli;
 use printer::Printer;
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
@@ -32,18 +34,28 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
             return printer.finish(status);
         }
     };
-    let context = context(&cli.common);
-    let status = commands::run(&context, &cli.command);
+    let (context, faults) = context(&cli);
+    let status = if faults.is_empty() || !cli.command.needs_configuration() {
+        commands::run(&context, &cli.command)
+    } else {
+        context.refuse(faults)
+    };
     context.printer.finish(status)
 }
 
-fn context(common: &CommonArgs) -> Context {
-    Context {
+/// The surroundings, and what is wrong with the configuration.
+fn context(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
+    let working_directory = working_directory();
+    let (settings, faults) = config::load(common, &command.inputs(), &working_directory);
+    let context = Context {
         printer: Printer::new(common.verbosity(), common.color.unwrap_or_default()),
         format: common.format.unwrap_or_default(),
-        lang: common.lang.map_or(Lang::En, Into::into),
-        working_directory: working_directory(),
-    }
+        settings,
+        working_directory,
+        jobs: common.jobs,
+        use_cache: !common.no_cache,
+    };
+    (context, faults)
 }
 
 /// The working directory; empty, so that relative names stay relative, where the system does not tell it or it is no UTF-8.

@@ -18,6 +18,7 @@ macro_rules! messages {
     };
 }
 
+pub mod configuration;
 pub mod drawing;
 pub mod files;
 pub mod gcode;
@@ -34,6 +35,7 @@ pub fn all() -> impl Iterator<Item = &'static crate::Message> {
     [
         files::ALL,
         reading::ALL,
+        configuration::ALL,
         drawing::ALL,
         parameters::ALL,
         variables::ALL,

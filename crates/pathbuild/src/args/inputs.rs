@@ -12,6 +12,14 @@ pub struct Inputs {
 }
 
 impl Inputs {
+    /// Names of files, whatever they end in.
+    pub(super) fn places<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
+        let place = |file: &Utf8PathBuf| {
+            if file.components().count() > 1 { file.to_string() } else { format!("./{file}") }
+        };
+        Self { inputs: files.into_iter().map(place).collect() }
+    }
+
     /// Each of them.
     pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
         self.inputs.iter().map(|text| Input::new(text))

@@ -98,10 +98,8 @@ pub enum Command {
     #[command(hide = true)]
     Explain(ExplainArgs),
     /// Write a commented pathbuild.toml into the working directory
-    #[command(hide = true)]
     Init,
     /// Show the configuration
-    #[command(hide = true)]
     Config(ConfigArgs),
     /// Print a completion script for a shell
     #[command(hide = true)]
@@ -115,6 +113,32 @@ pub enum Command {
 }
 
 impl Command {
+    /// The drawings and paths that it works on; of other commands than those none.
+    pub fn inputs(&self) -> Inputs {
+        match self {
+            Self::Check(args) => args.inputs.clone(),
+            Self::Emit(args) => args.inputs.clone(),
+            Self::Watch(args) => args.inputs.clone(),
+            Self::Texts(args) => args.inputs.clone(),
+            Self::Preview(args) => args.inputs.clone(),
+            Self::Diff(args) => args.inputs.clone(),
+            Self::Graph(args)
+            | Self::Deps(args)
+            | Self::Rdeps(args)
+            | Self::Where(args)
+            | Self::Why(args) => args.inputs.clone(),
+            Self::QProject(args) => Inputs::places([&args.drawing]),
+            Self::Adjust(args) => Inputs::places(&args.files),
+            Self::Config(ConfigArgs { command: ConfigCommand::Show { inputs, .. } }) => inputs.clone(),
+            _ => Inputs::default(),
+        }
+    }
+
+    /// Whether a configuration with faults stops it.
+    pub fn needs_configuration(&self) -> bool {
+        !matches!(self, Self::Explain(_) | Self::Init | Self::Completions(_) | Self::Man | Self::Compat(_))
+    }
+
     /// The name that it is called by.
     pub fn name(&self) -> &'static str {
         match self {

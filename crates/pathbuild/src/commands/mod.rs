@@ -1,5 +1,8 @@
 //! One module for each command: `run(&Context, &Args) -> ExitStatus`.
 
+pub mod config;
+pub mod init;
+
 use crate::args::{Command, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -9,7 +12,11 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     if let Some(refusal) = format_refusal(context.format, command) {
         return refuse(context, &refusal);
     }
-    refuse(context, &format!("`{}` is not built yet", command.name()))
+    match command {
+        Command::Init => init::run(context),
+        Command::Config(args) => config::run(context, args),
+        _ => refuse(context, &format!("`{}` is not built yet", command.name())),
+    }
 }
 
 /// Formats of graphs are for commands that print graphs.

@@ -1,0 +1,136 @@
+//! pathbuild.toml and the values of options. (PB003; spec/06-configuration.md)
+
+use crate::message::Word;
+
+messages! {
+    /// Not there, or not to be read.
+    CONFIGURATION_UNREADABLE: InvalidConfiguration {
+        en: "cannot read the configuration: {reason}",
+        de: "die Konfiguration ist nicht lesbar: {reason}",
+        help_en: "check the name; `pathbuild init` writes a new one",
+        help_de: "den Namen prüfen; `pathbuild init` schreibt eine neue",
+    }
+    /// No TOML.
+    TOML_SYNTAX: InvalidConfiguration {
+        en: "this is not TOML: {reason}",
+        de: "das ist kein TOML: {reason}",
+        help_en: "texts stand in quotes, patterns in single ones; `pathbuild init` shows how each key is written",
+        help_de: "Texte stehen in Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
+    }
+    /// A key that is nearly one that is known.
+    UNKNOWN_KEY: InvalidConfiguration {
+        en: "unknown key `{key}`",
+        de: "unbekannter Schlüssel `{key}`",
+        help_en: "did you mean `{near}`?",
+        help_de: "ist `{near}` gemeint?",
+    }
+    /// A key that resembles none.
+    STRANGE_KEY: InvalidConfiguration {
+        en: "unknown key `{key}`",
+        de: "unbekannter Schlüssel `{key}`",
+        help_en: "known here: {known}",
+        help_de: "hier bekannt: {known}",
+    }
+    /// A table for something that is not there yet.
+    NOT_BUILT: InvalidConfiguration {
+        en: "`{key}` is not built yet",
+        de: "`{key}` gibt es noch nicht",
+        help_en: "remove it; this version would ignore it",
+        help_de: "entfernen; diese Version würde es nicht beachten",
+    }
+    /// A table without what it is about.
+    MISSING_KEY: InvalidConfiguration {
+        en: "`{key}` needs the key `{missing}`",
+        de: "`{key}` braucht den Schlüssel `{missing}`",
+    }
+    /// Wrong type, or out of range.
+    INVALID_VALUE: InvalidConfiguration {
+        en: "`{key}` must be {expected}, not {found}",
+        de: "`{key}` muss {expected} sein, nicht {found}",
+    }
+    /// Not one of those that there are.
+    INVALID_CHOICE: InvalidConfiguration {
+        en: "`{key}` has no value {found}",
+        de: "`{key}` hat keinen Wert {found}",
+        help_en: "it can be {choices}",
+        help_de: "möglich sind {choices}",
+    }
+    /// The same, nearly one of them.
+    NEAR_CHOICE: InvalidConfiguration {
+        en: "`{key}` has no value {found}",
+        de: "`{key}` hat keinen Wert {found}",
+        help_en: "did you mean \"{near}\"?",
+        help_de: "ist \"{near}\" gemeint?",
+    }
+    /// No regular expression.
+    BROKEN_REGEX: InvalidConfiguration {
+        en: "`{key}` is no regular expression: {reason}",
+        de: "`{key}` ist kein regulärer Ausdruck: {reason}",
+        help_en: "a character that means itself has a backslash before it, or stands in brackets: [.]",
+        help_de: "ein Zeichen, das für sich selbst steht, hat einen Backslash davor oder steht in Klammern: [.]",
+    }
+    /// No glob.
+    BROKEN_GLOB: InvalidConfiguration {
+        en: "`{key}` is no pattern of names: {reason}",
+        de: "`{key}` ist kein Namensmuster: {reason}",
+        help_en: "* is any text, ** also across directories, ? one character, [a-c] one of several",
+        help_de: "* ist beliebiger Text, ** auch über Verzeichnisse hinweg, ? ein Zeichen, [a-c] eines von mehreren",
+    }
+    /// A rule without a colon.
+    RESTRICT_WITHOUT_COLON: InvalidConfiguration {
+        en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
+        de: "`{key}` muss PARENT:CHILD sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
+        help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"8*:[0-9.]*P\"",
+        help_de: "Pfade, deren Namen PARENT entsprechen, betten nur Pfade ein, deren Namen CHILD entsprechen: \"8*:[0-9.]*P\"",
+    }
+    /// A severity for no code.
+    UNKNOWN_CODE: InvalidConfiguration {
+        en: "there is no diagnostic {code}",
+        de: "es gibt keine Meldung {code}",
+        help_en: "did you mean {near}? `pathbuild explain` lists them",
+        help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
+    }
+    /// An error that stays one.
+    CANNOT_BE_LOWERED: InvalidConfiguration {
+        en: "{code} ({name}) cannot be lowered to \"{level}\"",
+        de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
+        help_en: "it stops a program from being right; mend the drawing, or keep known errors in a file with --baseline",
+        help_de: "damit wäre das Programm nicht richtig; die Zeichnung verbessern, oder bekannte Fehler mit --baseline in einer Datei festhalten",
+    }
+    /// Two configurations in one run.
+    OTHER_CONFIGURATION: InvalidConfiguration {
+        en: "{argument} lies under {other}, but this run has {used}",
+        de: "{argument} liegt unter {other}, dieser Lauf hat aber {used}",
+        help_en: "run once for each configuration, or name the one that is meant with --config",
+        help_de: "für jede Konfiguration einen eigenen Lauf machen, oder die gemeinte mit --config nennen",
+    }
+    /// The same, where the first argument has none.
+    UNEXPECTED_CONFIGURATION: InvalidConfiguration {
+        en: "{argument} lies under {other}, but this run has no configuration, because its first argument has none",
+        de: "{argument} liegt unter {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
+        help_en: "run once for each, or name the configuration that is meant with --config",
+        help_de: "für jedes einen eigenen Lauf machen, oder die gemeinte Konfiguration mit --config nennen",
+    }
+}
+
+/// What a value must be, in every language.
+macro_rules! expectations {
+    ($($key:ident: $en:literal, $de:literal;)*) => {
+        $(#[doc = $en] pub static $key: Word = Word { en: $en, de: $de };)*
+    };
+}
+
+expectations! {
+    POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
+    NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
+    COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
+    SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
+    DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
+    TEXT: "a text", "ein Text";
+    NOT_EMPTY: "a text that is not empty", "ein nicht leerer Text";
+    LIST_OF_TEXTS: "a list of texts", "eine Liste von Texten";
+    SWITCH: "true or false", "true oder false";
+    TABLE: "a table", "eine Tabelle";
+    LIST_OF_TABLES: "a list of tables", "eine Liste von Tabellen";
+    EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
+}

@@ -1,0 +1,15 @@
+//! `pathbuild config show` and `config schema`.
+
+use crate::args::{ConfigArgs, ConfigCommand};
+use crate::config::{schema, show};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Prints what holds, or what can be written.
+pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
+    match args.command {
+        ConfigCommand::Show { origin, .. } => context.printer.result(show(&context.settings, origin)),
+        ConfigCommand::Schema => context.printer.result(format_args!("{:#}\n", schema())),
+    }
+    ExitStatus::Success
+}

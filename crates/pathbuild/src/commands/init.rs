@@ -1,0 +1,18 @@
+//! `pathbuild init`: a configuration with every key, commented.
+
+use crate::config::{FILE_NAME, template};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::files;
+
+/// Writes it into the working directory, unless there is one.
+pub fn run(context: &Context) -> ExitStatus {
+    let file = context.working_directory.join(FILE_NAME);
+    match files::create(&file, &template()) {
+        Ok(()) => {
+            context.printer.result(format_args!("{FILE_NAME}\n"));
+            ExitStatus::Success
+        }
+        Err(reason) => context.fail(vec![*reason]),
+    }
+}

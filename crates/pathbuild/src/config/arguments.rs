@@ -1,0 +1,100 @@
+use camino::Utf8Path;
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
+
+use super::kinds::number::number_from_text;
+use super::kinds::pattern::{regex_fault, split_restriction};
+use super::options::Options;
+use super::origin::Sourced;
+use super::types::Restriction;
+use crate::args::CommonArgs;
+
+/// What the command line says, and what is wrong with it.
+pub(super) fn read(arguments: &CommonArgs, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
+    let mut reader = Reader::default();
+    let mut options = Options::default();
+    let general = &mut options.general;
+    general.feed = reader.positive("feed", arguments.feed.as_deref());
+    general.rapid = reader.positive("rapid", arguments.rapid.as_deref());
+    general.sweep_height = reader.positive("sweep-height", arguments.sweep_height.as_deref());
+    general.probe_feed = reader.positive("probe-feed", arguments.probe_feed.as_deref());
+    general.path_pattern = reader.regex("path-pattern", arguments.path_pattern.as_deref());
+    general.file_pattern = reader.regex("file-pattern", arguments.file_pattern.as_deref());
+    general.restrict = given(&arguments.restrict, "restrict", |rules| {
+        rules.iter().filter_map(|rule| reader.restriction(rule)).collect()
+    });
+    general.search = given(&arguments.search, "search", |directories| {
+        directories.iter().map(|directory| working_directory.join(directory)).collect()
+    });
+    general.out_dir = arguments
+        .out_dir
+        .as_ref()
+        .map(|directory| Sourced::option("out-dir", Some(working_directory.join(directory))));
+    general.lang = arguments.lang.map(|lang| Sourced::option("lang", lang.into()));
+    (options, reader.diagnostics)
+}
+
+/// A number greater than 0, with decimal point or comma, of an option.
+///
+/// # Errors
+/// A diagnostic that underlines it.
+pub fn positive(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
+    let fault = || {
+        fault(&messages::INVALID_VALUE, name, text)
+            .with("expected", Value::Word(&messages::POSITIVE))
+            .with("found", text)
+    };
+    number_from_text(text).filter(|number| *number > 0.0).ok_or_else(|| Box::new(fault()))
+}
+
+/// A regular expression of an option.
+///
+/// # Errors
+/// A diagnostic that underlines it.
+pub fn regex<'t>(name: &str, text: &'t str) -> Result<&'t str, Box<Diagnostic>> {
+    match regex_fault(text) {
+        None => Ok(text),
+        Some(reason) => Err(Box::new(fault(&messages::BROKEN_REGEX, name, text).with("reason", reason))),
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Reader {
+    fn positive(&mut self, name: &'static str, text: Option<&str>) -> Option<Sourced<Option<f64>>> {
+        let number = self.keep(positive(name, text?))?;
+        Some(Sourced::option(name, Some(number)))
+    }
+
+    fn regex(&mut self, name: &'static str, text: Option<&str>) -> Option<Sourced<Box<str>>> {
+        let regex = self.keep(regex(name, text?))?;
+        Some(Sourced::option(name, regex.into()))
+    }
+
+    fn restriction(&mut self, text: &str) -> Option<Restriction> {
+        let fault = || fault(&messages::RESTRICT_WITHOUT_COLON, "restrict", text);
+        let rule = self.keep(split_restriction(text).ok_or_else(|| Box::new(fault())))?;
+        let reason = regex_fault(&rule.parent).or_else(|| regex_fault(&rule.child));
+        let broken = reason
+            .map(|reason| self::fault(&messages::BROKEN_REGEX, "restrict", text).with("reason", reason));
+        self.keep(broken.map_or(Ok(rule), |broken| Err(Box::new(broken))))
+    }
+
+    fn keep<T>(&mut self, result: Result<T, Box<Diagnostic>>) -> Option<T> {
+        result.map_err(|diagnostic| self.diagnostics.push(*diagnostic)).ok()
+    }
+}
+
+fn given<T, U>(values: &[T], name: &'static str, read: impl FnOnce(&[T]) -> U) -> Option<Sourced<U>> {
+    (!values.is_empty()).then(|| Sourced::option(name, read(values)))
+}
+
+fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
+    let option = format!("--{name}");
+    let shown = format!("{option}={text}");
+    let span = option.len() + 1..shown.len();
+    Diagnostic::new(message).with("key", option).with_text(TextFault::new(&shown, span))
+}

@@ -1,0 +1,171 @@
+//! Numbers, sizes and times.
+
+use std::time::Duration;
+
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::messages::configuration as messages;
+use serde_json::json;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::config::kind::Kind;
+use crate::config::reader::Reader;
+use crate::config::types::Extent;
+
+/// A number greater than 0, where there is one.
+pub(in crate::config) const POSITIVE: Kind<Option<f64>> = Kind {
+    read: |value, reader| match number(value).filter(|number| *number > 0.0) {
+        Some(number) => Some(Some(number)),
+        None => reader.expected(Value::Word(&messages::POSITIVE), value),
+    },
+    show: |number| number.map(|number| number.to_string()),
+    schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
+};
+
+/// A time in seconds greater than 0.
+pub(in crate::config) const SECONDS: Kind<Duration> = Kind {
+    read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
+        Some(time) if !time.is_zero() => Some(time),
+        _ => reader.expected(Value::Word(&messages::POSITIVE), value),
+    },
+    show: |time| Some(time.as_secs_f64().to_string()),
+    schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
+};
+
+/// A number of at least 0.
+pub(in crate::config) const NOT_NEGATIVE: Kind<f64> = Kind {
+    read: |value, reader| match number(value).filter(|number| *number >= 0.0) {
+        Some(number) => Some(number),
+        None => reader.expected(Value::Word(&messages::NOT_NEGATIVE), value),
+    },
+    show: |number| Some(number.to_string()),
+    schema: || json!({ "type": "number", "minimum": 0 }),
+};
+
+/// The same, where there is one.
+pub(in crate::config) const OPTIONAL_NOT_NEGATIVE: Kind<Option<f64>> = Kind {
+    read: |value, reader| (NOT_NEGATIVE.read)(value, reader).map(Some),
+    show: |number| number.map(|number| number.to_string()),
+    schema: NOT_NEGATIVE.schema,
+};
+
+/// A whole number from 1 up.
+pub(in crate::config) const COUNT: Kind<u64> = Kind {
+    read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
+        Some(count) => Some(count),
+        None => reader.expected(Value::Word(&messages::COUNT), value),
+    },
+    show: |count| Some(count.to_string()),
+    schema: || json!({ "type": "integer", "minimum": 1 }),
+};
+
+/// A number of bytes: a whole number, or a text such as "256 MiB".
+pub(in crate::config) const SIZE: Kind<u64> = Kind {
+    read: |value, reader| match size(value).filter(|size| *size > 0) {
+        Some(size) => Some(size),
+        None => reader.expected(Value::Word(&messages::SIZE), value),
+    },
+    show: |size| Some(shown_size(*size)),
+    schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
+};
+
+/// A text such as "50 ms".
+pub(in crate::config) const DURATION: Kind<Duration> = Kind {
+    read: |value, reader| match value.get_ref().as_str().and_then(duration) {
+        Some(duration) => Some(duration),
+        None => reader.expected(Value::Word(&messages::DURATION), value),
+    },
+    show: |duration| Some(format!("\"{} ms\"", duration.as_millis())),
+    schema: || json!({ "type": "string", "pattern": "^[0-9]+ ?(ms|s|min)$" }),
+};
+
+/// Two numbers, the smaller first.
+pub(in crate::config) const EXTENT: Kind<Option<Extent>> = Kind {
+    read: |value, reader| match extent(value) {
+        Some(extent) => Some(Some(extent)),
+        None => reader.expected(Value::Word(&messages::EXTENT), value),
+    },
+    show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
+    schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
+};
+
+/// True or false.
+pub(in crate::config) const SWITCH: Kind<bool> =
+    Kind { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
+
+fn switch(value: &Spanned<DeValue<'_>>, reader: &mut Reader<'_>) -> Option<bool> {
+    value.get_ref().as_bool().or_else(|| reader.expected(Value::Word(&messages::SWITCH), value))
+}
+
+/// A number as parameters of drawings are written, too: an optional sign, digits, at most one decimal point or comma. (spec/30-parameters.md)
+pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
+    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let is_number = digits.contains(|c: char| c.is_ascii_digit())
+        && digits.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | ','))
+        && digits.matches(['.', ',']).count() <= 1;
+    is_number.then(|| text.replace(',', ".").parse().ok()).flatten().filter(|number: &f64| number.is_finite())
+}
+
+fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
+    let value = value.get_ref();
+    let text = match value.as_float() {
+        Some(float) => float.as_str(),
+        None => value.as_integer().filter(|integer| integer.radix() == 10)?.as_str(),
+    };
+    text.replace('_', "").parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn whole_number(value: &Spanned<DeValue<'_>>) -> Option<u64> {
+    let integer = value.get_ref().as_integer()?;
+    u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok()
+}
+
+fn extent(value: &Spanned<DeValue<'_>>) -> Option<Extent> {
+    let array = value.get_ref().as_array()?;
+    match (array.len(), array.first().and_then(number), array.get(1).and_then(number)) {
+        (2, Some(from), Some(to)) if from < to => Some(Extent { from, to }),
+        _ => None,
+    }
+}
+
+const SIZE_PATTERN: &str = "^[0-9]+ ?(B|kB|KiB|MB|MiB|GB|GiB)$";
+const UNITS: &[(&str, u64)] = &[
+    ("GiB", 1 << 30),
+    ("MiB", 1 << 20),
+    ("KiB", 1 << 10),
+    ("GB", 1_000_000_000),
+    ("MB", 1_000_000),
+    ("kB", 1000),
+    ("B", 1),
+];
+
+fn size(value: &Spanned<DeValue<'_>>) -> Option<u64> {
+    let Some(text) = value.get_ref().as_str() else { return whole_number(value) };
+    let (digits, unit) = digits_and_unit(text)?;
+    let factor = UNITS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)?;
+    digits.checked_mul(factor)
+}
+
+fn shown_size(size: u64) -> String {
+    let is_whole = |(_, factor): &&(&str, u64)| size.is_multiple_of(*factor);
+    match UNITS.iter().filter(|(name, _)| name.ends_with("iB")).find(is_whole) {
+        Some((unit, factor)) => format!("\"{} {unit}\"", size / factor),
+        None => size.to_string(),
+    }
+}
+
+fn duration(text: &str) -> Option<Duration> {
+    let (count, unit) = digits_and_unit(text)?;
+    match unit {
+        "ms" => Some(Duration::from_millis(count)),
+        "s" => Some(Duration::from_secs(count)),
+        "min" => Some(Duration::from_secs(count.checked_mul(60)?)),
+        _ => None,
+    }
+}
+
+/// `256 MiB` is 256 and `MiB`.
+fn digits_and_unit(text: &str) -> Option<(u64, &str)> {
+    let (digits, unit) = text.split_at(text.find(|c: char| !c.is_ascii_digit())?);
+    Some((digits.parse().ok()?, unit.strip_prefix(' ').unwrap_or(unit)))
+}

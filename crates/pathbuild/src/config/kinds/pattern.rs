@@ -1,0 +1,104 @@
+//! Regular expressions, globs, and rules made of them.
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::configuration as messages;
+use regex::RegexBuilder;
+use serde_json::json;
+
+use super::text::{list, quoted, texts};
+use crate::config::kind::Kind;
+use crate::config::reader::Reader;
+use crate::config::types::{Pattern, Restriction};
+
+/// A regular expression.
+pub(in crate::config) const REGEX: Kind<Box<str>> = Kind {
+    read: |value, reader| {
+        let text = reader.text(value)?;
+        check_regex(text, value.span(), reader).then(|| text.into())
+    },
+    show: |text| Some(literal(text)),
+    schema: || json!({ "type": "string", "format": "regex" }),
+};
+
+/// A list of PARENT:CHILD.
+pub(in crate::config) const RESTRICTIONS: Kind<Vec<Restriction>> = Kind {
+    read: |value, reader| {
+        let rules =
+            texts(value, reader)?.into_iter().map(|(text, item)| restriction(text, item.span(), reader));
+        all(rules)
+    },
+    show: |rules| {
+        let texts: Vec<_> =
+            rules.iter().map(|rule| literal(&format!("{}:{}", rule.parent, rule.child))).collect();
+        Some(format!("[{}]", texts.join(", ")))
+    },
+    schema: || json!({ "type": "array", "items": { "type": "string", "pattern": ":" } }),
+};
+
+/// A list of globs.
+pub(in crate::config) const PATTERNS: Kind<Vec<Pattern>> = Kind {
+    read: |value, reader| {
+        let patterns =
+            texts(value, reader)?.into_iter().map(|(text, item)| pattern(text, item.span(), reader));
+        all(patterns)
+    },
+    show: |patterns| Some(list(patterns.iter().map(Pattern::text))),
+    schema: || json!({ "type": "array", "items": { "type": "string" } }),
+};
+
+/// What is wrong with a regular expression, in a few words.
+pub(in crate::config) fn regex_fault(text: &str) -> Option<String> {
+    let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?.to_string();
+    let last = error.lines().last().unwrap_or_default();
+    Some(last.strip_prefix("error: ").unwrap_or(last).to_owned())
+}
+
+/// PARENT and CHILD, which the first colon separates.
+pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
+    let (parent, child) = text.split_once(':')?;
+    Some(Restriction { parent: parent.into(), child: child.into() })
+}
+
+/// A pattern of names needs far less; a larger one only wastes memory.
+const REGEX_SIZE: usize = 1 << 20;
+
+fn check_regex(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> bool {
+    let Some(reason) = regex_fault(text) else { return true };
+    let fault = reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason);
+    reader.report(fault);
+    false
+}
+
+fn restriction(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> Option<Restriction> {
+    let Some(rule) = split_restriction(text) else {
+        let fault = reader.fault(&messages::RESTRICT_WITHOUT_COLON, span);
+        reader.report(fault);
+        return None;
+    };
+    let parent = check_regex(&rule.parent, span.clone(), reader);
+    let child = check_regex(&rule.child, span, reader);
+    (parent && child).then_some(rule)
+}
+
+fn pattern(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> Option<Pattern> {
+    match Pattern::new(text) {
+        Ok(pattern) => Some(pattern),
+        Err(reason) => {
+            let fault = reader.fault(&messages::BROKEN_GLOB, span).with("reason", reason);
+            reader.report(fault);
+            None
+        }
+    }
+}
+
+/// All of them, or `None` when one is missing; none is skipped, because each may have something to report.
+fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let items: Vec<Option<T>> = items.collect();
+    items.into_iter().collect()
+}
+
+/// Patterns are easier to read without escapes.
+fn literal(text: &str) -> String {
+    if text.contains(['\'', '\n']) { quoted(text) } else { format!("'{text}'") }
+}

@@ -1,0 +1,215 @@
+//! Tables whose keys are names that the configuration itself chooses.
+
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Code, Severity, Value};
+use serde_json::{Value as Json, json};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::number::{COUNT, POSITIVE};
+use super::pattern::{PATTERNS, REGEX};
+use super::text::{choice, choice_schema, name_of, quoted, read_choice};
+use crate::config::kind::Kind;
+use crate::config::nearest::nearest;
+use crate::config::reader::{Reader, Table};
+use crate::config::types::{Coolant, Direction, Level, LineType, LineTypeAlias, SeveritiesIn, Tool};
+
+/// Names of line types, each with what it stands for.
+pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
+    read: |value, reader| {
+        let entries = entries(value, reader)?;
+        Some(entries.into_iter().filter_map(|entry| alias(entry, reader)).collect())
+    },
+    show: |aliases| inline(aliases.iter().map(|alias| (&*alias.name, name_of(alias.means).map(quoted)))),
+    schema: || json!({ "type": "object", "additionalProperties": choice_schema::<LineType>() }),
+};
+
+/// Codes with what becomes of them.
+pub(in crate::config) const SEVERITY: Kind<Vec<(Code, Level)>> = Kind {
+    read: |value, reader| {
+        let entries = entries(value, reader)?;
+        Some(entries.into_iter().filter_map(|entry| severity(entry, reader)).collect())
+    },
+    show: |levels| inline_levels(levels),
+    schema: || json!({ "type": "object", "propertyNames": code_schema(), "additionalProperties": choice_schema::<Level>() }),
+};
+
+/// The same, each with the drawings that it holds for.
+pub(in crate::config) const SEVERITY_IN: Kind<Vec<SeveritiesIn>> = Kind {
+    read: |value, reader| {
+        let tables =
+            value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
+        match tables.and_then(Iterator::collect::<Option<Vec<_>>>) {
+            Some(tables) => Some(tables.into_iter().map(|table| severities_in(table, reader)).collect()),
+            None => reader.expected(Value::Word(&messages::LIST_OF_TABLES), value),
+        }
+    },
+    show: |parts| {
+        let shown = parts.iter().filter_map(|part| {
+            let files = (PATTERNS.show)(&part.files).map(|files| ("files", files));
+            let levels = part
+                .levels
+                .iter()
+                .filter_map(|(code, level)| Some((code.to_string(), quoted(name_of(*level)?))));
+            let all = files.into_iter().map(|(name, files)| (name.to_owned(), files)).chain(levels);
+            inline(all.collect::<Vec<_>>().iter().map(|(name, value)| (name.as_str(), Some(value.clone()))))
+        });
+        let shown: Vec<_> = shown.collect();
+        (!shown.is_empty()).then(|| format!("[{}]", shown.join(", ")))
+    },
+    schema: || {
+        json!({ "type": "array", "items": {
+            "type": "object",
+            "required": ["files"],
+            "properties": { "files": (PATTERNS.schema)() },
+            "propertyNames": { "anyOf": [{ "const": "files" }, code_schema()] },
+            "additionalProperties": choice_schema::<Level>(),
+        } })
+    },
+};
+
+/// Tools by name.
+pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
+    read: |value, reader| {
+        let tools = entries(value, reader)?;
+        Some(
+            tools
+                .into_iter()
+                .filter_map(|entry| reader.within(entry.0.get_ref(), |reader| tool(entry, reader)))
+                .collect(),
+        )
+    },
+    show: |tools| inline(tools.iter().map(|tool| (&*tool.name, shown_tool(tool)))),
+    schema: || {
+        json!({ "type": "object", "additionalProperties": {
+            "type": "object",
+            "required": ["diameter"],
+            "additionalProperties": false,
+            "properties": {
+                "diameter": (POSITIVE.schema)(),
+                "paths": (REGEX.schema)(),
+                "number": (COUNT.schema)(),
+                "spindle": (POSITIVE.schema)(),
+                "direction": choice_schema::<Direction>(),
+                "coolant": choice_schema::<Coolant>(),
+            },
+        } })
+    },
+};
+
+type Entry<'v, 't> = (&'v Spanned<DeString<'t>>, &'v Spanned<DeValue<'t>>);
+
+/// The entries of a table, or a report that it is none.
+fn entries<'v, 't>(value: &'v Spanned<DeValue<'t>>, reader: &mut Reader<'_>) -> Option<Vec<Entry<'v, 't>>> {
+    match value.get_ref().as_table() {
+        Some(table) => Some(table.iter().collect()),
+        None => reader.expected(Value::Word(&messages::TABLE), value),
+    }
+}
+
+fn alias((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<LineTypeAlias> {
+    let means = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
+    Some(LineTypeAlias { name: (**name.get_ref()).into(), means })
+}
+
+fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Code, Level)> {
+    let level = reader.within(name.get_ref(), |reader| read_choice(value, reader));
+    let text = &**name.get_ref();
+    let Ok(code) = text.parse::<Code>() else {
+        let fault = reader
+            .fault(&messages::UNKNOWN_CODE, name.span())
+            .with("code", text)
+            .with("near", nearest_code(text));
+        reader.report(fault);
+        return None;
+    };
+    let level = level?;
+    if code.severity() == Severity::Error && level != Level::Error && !code.can_be_lowered() {
+        let fault = reader.fault(&messages::CANNOT_BE_LOWERED, value.span());
+        let fault = fault.with("code", code.to_string()).with("name", code.name());
+        reader.report(fault.with("level", name_of(level).unwrap_or_default()));
+        return None;
+    }
+    Some((code, level))
+}
+
+/// The code whose number or name is nearest; of several that are as near, the first.
+pub(crate) fn nearest_code(name: &str) -> String {
+    let codes: Vec<(String, &str)> = Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect();
+    let names = codes.iter().flat_map(|(code, name)| [code.as_str(), name]);
+    nearest(name, names).unwrap_or("PB001").to_owned()
+}
+
+fn severities_in(table: &DeTable<'_>, reader: &mut Reader<'_>) -> SeveritiesIn {
+    let mut part = SeveritiesIn::default();
+    for (name, value) in table {
+        if name.get_ref() == "files" {
+            part.files = (PATTERNS.read)(value, reader).unwrap_or_default();
+        } else {
+            part.levels.extend(severity((name, value), reader));
+        }
+    }
+    if !table.contains_key("files") {
+        reader.missing("files", table.keys().next().map(Spanned::span).unwrap_or_default());
+    }
+    part
+}
+
+fn tool((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<Tool> {
+    let Some(table) = value.get_ref().as_table() else {
+        return reader.expected(Value::Word(&messages::TABLE), value);
+    };
+    if !table.contains_key("diameter") {
+        reader.missing("diameter", name.span());
+    }
+    let prefix = format!("{}.", reader.key());
+    reader.table(table, &prefix, |table| read_tool(name.get_ref(), table))
+}
+
+/// Without a diameter a tool is for nothing.
+fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
+    let diameter = table.take("diameter", &POSITIVE).and_then(|it| it.value);
+    let paths = table.take("paths", &REGEX).map(|it| it.value);
+    let number = table.take("number", &COUNT).and_then(|it| u32::try_from(it.value).ok());
+    let spindle = table.take("spindle", &POSITIVE).and_then(|it| it.value);
+    let direction =
+        table.take("direction", &choice::<Direction>()).map_or(Direction::Clockwise, |it| it.value);
+    let coolant = table.take("coolant", &choice::<Coolant>()).map_or(Coolant::Off, |it| it.value);
+    Some(Tool { name: name.into(), diameter: diameter?, paths, number, spindle, direction, coolant })
+}
+
+fn shown_tool(tool: &Tool) -> Option<String> {
+    let number = |number: Option<f64>| number.map(|number| number.to_string());
+    inline([
+        ("diameter", number(Some(tool.diameter))),
+        ("paths", tool.paths.as_deref().map(quoted)),
+        ("number", tool.number.map(|number| number.to_string())),
+        ("spindle", number(tool.spindle)),
+        ("direction", name_of(tool.direction).map(quoted)),
+        ("coolant", name_of(tool.coolant).map(quoted)),
+    ])
+}
+
+fn inline_levels(levels: &[(Code, Level)]) -> Option<String> {
+    let names: Vec<_> =
+        levels.iter().map(|(code, level)| (code.to_string(), name_of(*level).map(quoted))).collect();
+    inline(names.iter().map(|(code, level)| (code.as_str(), level.clone())))
+}
+
+/// An inline table of what has a value; `None` when nothing has.
+fn inline<'a>(entries: impl IntoIterator<Item = (&'a str, Option<String>)>) -> Option<String> {
+    let entries = entries.into_iter().filter_map(|(name, value)| Some(format!("{} = {}", key(name), value?)));
+    let entries: Vec<_> = entries.collect();
+    (!entries.is_empty()).then(|| format!("{{ {} }}", entries.join(", ")))
+}
+
+fn key(name: &str) -> String {
+    let is_bare =
+        !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
+    if is_bare { name.to_owned() } else { quoted(name) }
+}
+
+fn code_schema() -> Json {
+    let codes = Code::ALL.iter().flat_map(|code| [code.to_string(), code.name().to_owned()]);
+    json!({ "enum": codes.collect::<Vec<_>>() })
+}

@@ -1,0 +1,102 @@
+//! Texts, names of files, and choices.
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::messages::configuration as messages;
+use serde_json::{Value as Json, json};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::config::kind::Kind;
+use crate::config::nearest::nearest;
+use crate::config::reader::Reader;
+use crate::config::types::{Choice, Directories};
+
+/// A text that is not empty.
+pub(in crate::config) const TEXT: Kind<Box<str>> = Kind {
+    read: |value, reader| match reader.text(value)? {
+        "" => reader.expected(Value::Word(&messages::NOT_EMPTY), value),
+        text => Some(text.into()),
+    },
+    show: |text| Some(quoted(text)),
+    schema: || json!({ "type": "string", "minLength": 1 }),
+};
+
+/// A directory, where there is one. The empty text is none.
+pub(in crate::config) const DIRECTORY: Kind<Option<Utf8PathBuf>> = Kind {
+    read: |value, reader| {
+        let text = reader.text(value)?;
+        Some((!text.is_empty()).then(|| reader.path(text)))
+    },
+    show: |directory| Some(quoted(directory.as_ref().map_or("", |directory| directory.as_str()))),
+    schema: || json!({ "type": "string" }),
+};
+
+/// Directories.
+pub(in crate::config) const DIRECTORIES: Kind<Directories> = Kind {
+    read: |value, reader| {
+        let names = texts(value, reader)?;
+        Some(names.iter().map(|(name, _)| reader.path(name)).collect())
+    },
+    show: |directories| Some(list(directories.iter().map(|directory| directory.as_str()))),
+    schema: || json!({ "type": "array", "items": { "type": "string" } }),
+};
+
+/// One of the names of a choice.
+pub(in crate::config) const fn choice<T: Choice>() -> Kind<T> {
+    Kind { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
+}
+
+pub(in crate::config) fn read_choice<T: Choice>(
+    value: &Spanned<DeValue<'_>>,
+    reader: &mut Reader<'_>,
+) -> Option<T> {
+    let text = reader.text(value)?;
+    let found = T::ALL.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+    if found.is_none() {
+        let names = || T::ALL.iter().map(|(name, _)| *name);
+        let fault = match nearest(text, names()) {
+            Some(near) => reader.fault(&messages::NEAR_CHOICE, value.span()).with("near", near),
+            None => reader
+                .fault(&messages::INVALID_CHOICE, value.span())
+                .with("choices", names().collect::<Value>()),
+        };
+        reader.report(fault.with("found", quoted(text)));
+    }
+    found
+}
+
+pub(in crate::config) fn choice_schema<T: Choice>() -> Json {
+    json!({ "enum": T::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
+}
+
+/// The name of a choice.
+pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
+    T::ALL.iter().find(|(_, it)| *it == choice).map(|(name, _)| *name)
+}
+
+/// The texts of a list with the values that they come from, or a report that it is no list of texts.
+pub(in crate::config) fn texts<'v, 't>(
+    value: &'v Spanned<DeValue<'t>>,
+    reader: &mut Reader<'_>,
+) -> Option<Vec<(&'v str, &'v Spanned<DeValue<'t>>)>> {
+    let items = value
+        .get_ref()
+        .as_array()
+        .map(|array| array.iter().map(|item| item.get_ref().as_str().map(|text| (text, item))));
+    match items.and_then(Iterator::collect::<Option<Vec<_>>>) {
+        Some(texts) => Some(texts),
+        None => reader.expected(Value::Word(&messages::LIST_OF_TEXTS), value),
+    }
+}
+
+/// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too.
+pub(in crate::config) fn quoted(text: &str) -> String {
+    let is_plain = !text.contains(['\'', '\n', '\r']) && !text.contains(char::is_control);
+    if text.contains(['\\', '"']) && is_plain { format!("'{text}'") } else { json!(text).to_string() }
+}
+
+/// Texts as a TOML list.
+pub(in crate::config) fn list<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
+    format!("[{}]", texts.into_iter().map(quoted).collect::<Vec<_>>().join(", "))
+}

@@ -1,0 +1,71 @@
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::configuration as messages;
+use toml::de::DeTable;
+
+use super::options::Options;
+use super::reader::Reader;
+use super::settings::Settings;
+use super::source::Source;
+use super::{arguments, discover};
+use crate::args::{CommonArgs, Inputs};
+use crate::files;
+
+/// What holds for a run: finds and reads the configuration, and puts the command line over it.
+///
+/// Everything that is wrong comes with it; when anything is, nothing can be done, but the language can be told.
+pub fn load(
+    common: &CommonArgs,
+    inputs: &Inputs,
+    working_directory: &Utf8Path,
+) -> (Settings, Vec<Diagnostic>) {
+    let (given, mut diagnostics) = arguments::read(common, working_directory);
+    let file = match &common.config {
+        Some(file) => Some(discover::clean(&working_directory.join(file))),
+        None => discover::above(&discover::clean(&working_directory.join(inputs.first_directory()))),
+    };
+    if common.config.is_none() {
+        diagnostics.extend(discover::strangers(inputs, working_directory, file.as_deref()));
+    }
+    let configured = file.as_deref().map(|file| read(file, &mut diagnostics)).unwrap_or_default();
+    (Settings { file, ..given.over(configured).resolve() }, diagnostics)
+}
+
+fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
+    match files::read(file) {
+        Ok(text) => {
+            let (options, faults) = parse(file, &text);
+            diagnostics.extend(faults);
+            options
+        }
+        Err(reason) => {
+            diagnostics.push(
+                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE)
+                    .in_file(file)
+                    .with("reason", reason.to_string()),
+            );
+            Options::default()
+        }
+    }
+}
+
+/// A text that is no TOML gives its faults only, since what can still be read of it may lack half of a table.
+fn parse(file: &Utf8Path, text: &str) -> (Options, Vec<Diagnostic>) {
+    let source = Source { file, text };
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        let mut faults: Vec<_> = errors.iter().map(|error| syntax_fault(error, source)).collect();
+        // What follows on the same line only follows from it.
+        faults.dedup_by_key(|fault| fault.place.line);
+        return (Options::default(), faults);
+    }
+    let directory = file.parent().unwrap_or(Utf8Path::new(""));
+    let mut reader = Reader::new(source, directory);
+    let options = Options::read(root.get_ref(), &mut reader);
+    (options, reader.finish())
+}
+
+fn syntax_fault(error: &toml::de::Error, source: Source<'_>) -> Diagnostic {
+    let reason = error.message().lines().next().unwrap_or_default();
+    source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", reason)
+}

@@ -1,0 +1,38 @@
+//! The configuration: `pathbuild.toml` and the options that say the same. (spec/06-configuration.md)
+//!
+//! ```text
+//! file ---------> Options --\
+//!                            over --> Settings
+//! command line -> Options --/
+//! ```
+//!
+//! Each key is declared once, in [`sections`]: its type, its default, what it means. From that come the reader, the file that
+//! `init` writes, the JSON schema and `config show`, so none of them can know a key that another does not.
+
+mod arguments;
+mod discover;
+mod kind;
+mod kinds;
+mod load;
+mod nearest;
+mod options;
+mod origin;
+mod reader;
+mod schema;
+pub mod sections;
+mod settings;
+mod show;
+mod source;
+mod template;
+pub mod types;
+
+pub use arguments::{positive, regex};
+pub use load::load;
+pub use options::Options;
+pub use origin::{Origin, Sourced};
+pub use schema::schema;
+pub use settings::Settings;
+pub use show::show;
+pub use template::template;
+
+pub(crate) use discover::FILE_NAME;

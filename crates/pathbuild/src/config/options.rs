@@ -1,0 +1,60 @@
+use toml::de::DeTable;
+
+use super::reader::Reader;
+use super::sections::{emit, general, limits, machine, tables, watch};
+use super::settings::Settings;
+
+/// What one source says: a configuration, or the command line. Keys that it does not give are `None`.
+#[derive(Clone, Debug, Default)]
+#[expect(missing_docs, reason = "the tables of the configuration, by name")]
+pub struct Options {
+    pub general: general::Options,
+    pub emit: emit::Options,
+    pub limits: limits::Options,
+    pub machine: machine::Options,
+    pub watch: watch::Options,
+    pub tables: tables::Options,
+}
+
+impl Options {
+    /// Reads a parsed configuration; what is wrong stays with the reader.
+    pub(super) fn read(root: &DeTable<'_>, reader: &mut Reader<'_>) -> Self {
+        reader.table(root, "", |table| {
+            let options = Self {
+                general: general::Options::read(table),
+                emit: table.section("emit", emit::Options::read),
+                limits: table.section("limits", limits::Options::read),
+                machine: table.section("machine", machine::Options::read),
+                watch: table.section("watch", watch::Options::read),
+                tables: tables::Options::read(table),
+            };
+            table.refuse("remote");
+            options
+        })
+    }
+
+    /// These, and where they say nothing the others.
+    pub fn over(self, below: Self) -> Self {
+        Self {
+            general: self.general.over(below.general),
+            emit: self.emit.over(below.emit),
+            limits: self.limits.over(below.limits),
+            machine: self.machine.over(below.machine),
+            watch: self.watch.over(below.watch),
+            tables: self.tables.over(below.tables),
+        }
+    }
+
+    /// What holds when nobody says more.
+    pub fn resolve(self) -> Settings {
+        Settings {
+            file: None,
+            general: self.general.resolve(),
+            emit: self.emit.resolve(),
+            limits: self.limits.resolve(),
+            machine: self.machine.resolve(),
+            watch: self.watch.resolve(),
+            tables: self.tables.resolve(),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+use std::ops::Range;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::kind::Kind;
+use super::nearest::nearest;
+use super::origin::{Origin, Sourced};
+use super::source::Source;
+
+/// Reads values out of a parsed file and keeps what is wrong with them, all of it.
+pub(super) struct Reader<'a> {
+    source: Source<'a>,
+    directory: &'a Utf8Path,
+    key: String,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader of a file whose names of files are relative to `directory`.
+    pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path) -> Self {
+        Self { source, directory, key: String::new(), diagnostics: Vec::new() }
+    }
+
+    /// Reads a table whose keys are all known to `read`; others are reported.
+    pub(super) fn table<T>(
+        &mut self,
+        table: &DeTable<'_>,
+        prefix: &str,
+        read: impl FnOnce(&mut Table<'_, '_, 'a>) -> T,
+    ) -> T {
+        let key = self.key.clone();
+        let mut table = Table { content: table, prefix: prefix.to_owned(), known: Vec::new(), reader: self };
+        let value = read(&mut table);
+        table.report_unknown();
+        self.key = key;
+        value
+    }
+
+    /// A name of a file, relative to the configuration's directory.
+    pub(super) fn path(&self, name: &str) -> Utf8PathBuf {
+        self.directory.join(name).components().collect()
+    }
+
+    /// The key that is being read, for messages.
+    pub(super) fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Reads what a key of the table that is being read holds.
+    pub(super) fn within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
+        let table = std::mem::take(&mut self.key);
+        self.key = format!("{table}.{name}");
+        let value = read(self);
+        self.key = table;
+        value
+    }
+
+    /// Reports that the table that is being read lacks a key.
+    pub(super) fn missing(&mut self, name: &'static str, span: Range<usize>) {
+        let fault = self.fault(&messages::MISSING_KEY, span).with("missing", name);
+        self.report(fault);
+    }
+
+    /// A fault at a span, its key filled in.
+    pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
+        self.source.fault(message, span).with("key", self.key.as_str())
+    }
+
+    /// Keeps a fault.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports that a value is not what is expected, and gives `None`.
+    pub(super) fn expected<T>(&mut self, expected: Value, value: &Spanned<DeValue<'_>>) -> Option<T> {
+        let found = self.source.slice(value.span()).lines().next().unwrap_or_default();
+        let fault = self
+            .fault(&messages::INVALID_VALUE, value.span())
+            .with("expected", expected)
+            .with("found", found);
+        self.report(fault);
+        None
+    }
+
+    /// The text of a value, or a report that it is none.
+    pub(super) fn text<'v>(&mut self, value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
+        match value.get_ref().as_str() {
+            Some(text) => Some(text),
+            None => self.expected(Value::Word(&messages::TEXT), value),
+        }
+    }
+
+    /// Everything that was wrong.
+    pub(super) fn finish(self) -> Vec<Diagnostic> {
+        self.diagnostics
+    }
+}
+
+/// A table that is being read.
+pub(super) struct Table<'t, 'r, 'a> {
+    content: &'t DeTable<'t>,
+    prefix: String,
+    known: Vec<&'static str>,
+    reader: &'r mut Reader<'a>,
+}
+
+impl<'a> Table<'_, '_, 'a> {
+    /// The value of a key, where there is one and it is right.
+    pub(super) fn take<T>(&mut self, name: &'static str, kind: &Kind<T>) -> Option<Sourced<T>> {
+        self.known.push(name);
+        let value = self.content.get(name)?;
+        self.reader.key = format!("{}{name}", self.prefix);
+        let line = self.reader.source.line_number(value.span().start);
+        (kind.read)(value, self.reader).map(|value| Sourced { value, origin: Origin::File(line) })
+    }
+
+    /// Reads a table in the table; one that is not there is empty.
+    pub(super) fn section<T: Default>(
+        &mut self,
+        name: &'static str,
+        read: impl FnOnce(&mut Table<'_, '_, 'a>) -> T,
+    ) -> T {
+        self.known.push(name);
+        let Some(value) = self.content.get(name) else { return T::default() };
+        self.reader.key = format!("{}{name}", self.prefix);
+        match value.get_ref().as_table() {
+            Some(table) => self.reader.table(table, &format!("{}{name}.", self.prefix), read),
+            None => self.reader.expected(Value::Word(&messages::TABLE), value).unwrap_or_default(),
+        }
+    }
+
+    /// Refuses a table that this version does not know what to do with.
+    pub(super) fn refuse(&mut self, name: &'static str) {
+        self.known.push(name);
+        if let Some((key, _)) = self.content.get_key_value(name) {
+            self.reader.key = format!("{}{name}", self.prefix);
+            let fault = self.reader.fault(&messages::NOT_BUILT, key.span());
+            self.reader.report(fault);
+        }
+    }
+
+    fn report_unknown(&mut self) {
+        for key in self.content.keys().filter(|key| !self.known.contains(&&**key.get_ref())) {
+            self.reader.key = format!("{}{}", self.prefix, key.get_ref());
+            let fault = match nearest(key.get_ref(), self.known.iter().copied()) {
+                Some(near) => self.reader.fault(&messages::UNKNOWN_KEY, key.span()).with("near", near),
+                None => self
+                    .reader
+                    .fault(&messages::STRANGE_KEY, key.span())
+                    .with("known", self.known.iter().collect::<Value>()),
+            };
+            self.reader.report(fault);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! `[emit]`: what is written when nothing is named.
+
+use crate::config::kind::Key;
+use crate::config::kinds::pattern::PATTERNS;
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+use crate::config::types::Pattern;
+
+section! {
+    /// globs of path names: what `emit` without arguments and `watch --emit` write
+    targets: Vec<Pattern> = "targets", PATTERNS, Vec::new(), "[]";
+}

@@ -1,0 +1,62 @@
+//! Keys outside any table.
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::Lang;
+
+use crate::config::kind::Key;
+use crate::config::kinds::number::{NOT_NEGATIVE, OPTIONAL_NOT_NEGATIVE, POSITIVE, SWITCH};
+use crate::config::kinds::pattern::{REGEX, RESTRICTIONS};
+use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, TEXT, choice};
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+use crate::config::types::{Charset, Directories, Restriction, SupportBars, Units, ZModel};
+
+/// What a path name is, unless the configuration says otherwise. (spec/20-paths-and-files.md)
+pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
+/// What path names in a file name are, unless the configuration says otherwise.
+pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";
+
+section! {
+    /// mm/min: F where no path gives one; needed to emit, not to check
+    feed: Option<f64> = "feed", POSITIVE, None, "150";
+    /// mm/min: for times; needed to emit
+    rapid: Option<f64> = "rapid", POSITIVE, None, "1000";
+    /// mm: S of an emitted path without S; needed to emit
+    sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20";
+    /// mm/min: Z where no probe gives one; else as feed
+    probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40";
+    /// what `check` and `emit` without arguments mean, and where path names are found;
+    /// directories are walked below, .gitignore and .ignore respected
+    library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#;
+    /// further directories for embedded paths, in order, flat
+    search: Directories = "search", DIRECTORIES, Vec::new(), "[]";
+    /// what a path name is
+    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'";
+    /// what path names in a file name are
+    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'";
+    /// PARENT:CHILD, split at the first colon: what may embed what, such as "8*:[0-9.]*P"
+    restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]";
+    /// en | de; the environment is not asked
+    lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#;
+    /// header (mm or none, else PB113) | drawing (converted) | mm (the header is not believed)
+    units: Units = "units", choice::<Units>(), Units::Header, r#""header""#;
+    /// ascii (umlauts transliterated) | utf-8, for what is written
+    charset: Charset = "charset", choice::<Charset>(), Charset::Ascii, r#""ascii""#;
+    /// mm: tolerance for ELLIPSE and SPLINE on path layers; 0: PB111, they are no part of the path
+    approximate_curves: f64 = "approximate-curves", NOT_NEGATIVE, 0.0, "0";
+    /// mm: ends this near count as joined, with a warning (PB115) each
+    join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0";
+    /// compatible | solid (no drilling into the bar at a segment's end)
+    support_bars: SupportBars = "support-bars", choice::<SupportBars>(), SupportBars::Compatible, r#""compatible""#;
+    /// idw4 | plane | tin: how heights between probes are found
+    z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#;
+    /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
+    z_split: Option<f64> = "z-split", OPTIONAL_NOT_NEGATIVE, None, "0";
+    /// a built-in post-processor or a file
+    post: Box<str> = "post", TEXT, "native".into(), r#""native""#;
+    /// whether holes become canned cycles where the post has them
+    cycles: bool = "cycles", SWITCH, false, "false";
+    /// where files are written; empty: beside the drawing
+    out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#;
+}

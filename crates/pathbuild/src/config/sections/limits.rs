@@ -1,0 +1,22 @@
+//! `[limits]`: how large anything may be. PB005 names the key when one is met.
+
+use std::time::Duration;
+
+use crate::config::kind::Key;
+use crate::config::kinds::number::{COUNT, SECONDS, SIZE};
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+
+section! {
+    /// largest drawing
+    file_size: u64 = "file-size", SIZE, 256 << 20, r#""256 MiB""#;
+    /// most entities in a drawing
+    entities: u64 = "entities", COUNT, 2_000_000, "2_000_000";
+    /// most moves of a program, with everything that it embeds
+    embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000";
+    /// characters: longest parameter text
+    text_length: u64 = "text-length", COUNT, 65_536, "65_536";
+    /// longest time for one path
+    seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60";
+}

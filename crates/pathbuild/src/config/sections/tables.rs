@@ -1,0 +1,23 @@
+//! Tables whose keys are names that the configuration chooses.
+
+use pathbuild_diagnostic::Code;
+
+use crate::config::kind::Key;
+use crate::config::kinds::table::{LINE_TYPES, SEVERITY, SEVERITY_IN, TOOLS};
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+use crate::config::types::{Level, LineTypeAlias, SeveritiesIn, Tool};
+
+section! {
+    /// aliases beyond the built-in ones: name in the drawing = one of the line types that mean something
+    line_types: Vec<LineTypeAlias> = "line-types", LINE_TYPES, Vec::new(), "[line-types]\n\"MITTE\" = \"CENTER\"";
+    /// code = "error" | "warning" | "ignore"; errors that stop a program from being right
+    /// (PB0 to PB5 errors) cannot be lowered
+    severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"";
+    /// the same for some drawings: globs relative to this file
+    severity_in: Vec<SeveritiesIn> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"";
+    /// a tool, for post-processors: found by O (and by paths, a pattern of path names)
+    tools: Vec<Tool> = "tool", TOOLS, Vec::new(),
+        "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"";
+}

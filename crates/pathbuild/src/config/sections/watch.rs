@@ -1,0 +1,16 @@
+//! `[watch]`: how changes are noticed.
+
+use std::time::Duration;
+
+use crate::config::kind::Key;
+use crate::config::kinds::number::{DURATION, SWITCH};
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+
+section! {
+    /// how long nothing must change before drawings are read again
+    debounce: Duration = "debounce", DURATION, Duration::from_millis(50), r#""50 ms""#;
+    /// look for changes from time to time (network drives)
+    poll: bool = "poll", SWITCH, false, "false";
+}

@@ -1,0 +1,50 @@
+use std::fmt::Write;
+
+use super::kind::Key;
+use super::sections::{emit, general, limits, machine, tables, watch};
+
+/// A configuration with every key, its meaning and its default (or an example), all commented out but `library`.
+pub fn template() -> String {
+    let mut text = HEAD.to_owned();
+    for key in general::KEYS {
+        entry(&mut text, key, if key.name == "library" { "" } else { "#" });
+    }
+    for key in tables::KEYS {
+        table(&mut text, key);
+    }
+    let sections =
+        [("emit", emit::KEYS), ("limits", limits::KEYS), ("machine", machine::KEYS), ("watch", watch::KEYS)];
+    for (name, keys) in sections {
+        _ = write!(text, "\n[{name}]\n");
+        for key in keys {
+            entry(&mut text, key, "#");
+        }
+    }
+    text
+}
+
+const HEAD: &str = "\
+# Configuration of pathbuild. Names of files are relative to this one. Options of the command line win over it.
+# Lines that begin with # and no blank are the defaults, or examples where there is none: remove the # and change them.
+# `pathbuild config show` prints what holds.
+
+";
+
+fn entry(text: &mut String, key: &Key, mark: &str) {
+    let line = format!("{mark}{} = {}", key.name, key.example);
+    let [first, further @ ..] = key.meaning else { return };
+    _ = writeln!(text, "{line:<28} #{first}");
+    for meaning in further {
+        _ = writeln!(text, "{:<28} #{meaning}", "");
+    }
+}
+
+fn table(text: &mut String, key: &Key) {
+    text.push('\n');
+    for meaning in key.meaning {
+        _ = writeln!(text, "#{meaning}");
+    }
+    for line in key.example.lines() {
+        _ = writeln!(text, "#{line}");
+    }
+}

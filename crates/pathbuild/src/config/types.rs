@@ -1,0 +1,240 @@
+//! Values that are more than a number or a text.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use globset::{Glob, GlobBuilder, GlobMatcher};
+use pathbuild_diagnostic::{Code, Lang, Severity};
+
+/// Declares a choice: what can be written, and what it means.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $text:literal,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $($(#[$variant_doc])* $variant,)* }
+
+        impl Choice for $name {
+            const ALL: &[(&str, Self)] = &[$(($text, Self::$variant),)*];
+        }
+    };
+}
+
+/// A value out of a few.
+pub(crate) trait Choice: Copy + PartialEq + 'static {
+    /// Each with its name.
+    const ALL: &[(&str, Self)];
+}
+
+impl Choice for Lang {
+    const ALL: &[(&str, Self)] = &[("en", Self::En), ("de", Self::De)];
+}
+
+choice! {
+    /// Which unit the numbers of a drawing have.
+    Units {
+        /// Millimetres, which the header must not contradict.
+        Header = "header",
+        /// The header's, converted.
+        Drawing = "drawing",
+        /// Millimetres, whatever the header says.
+        Millimetres = "mm",
+    }
+}
+
+choice! {
+    /// Which characters are written.
+    Charset {
+        /// ASCII; others are transliterated.
+        Ascii = "ascii",
+        /// All.
+        Utf8 = "utf-8",
+    }
+}
+
+choice! {
+    /// How support bars are milled where a segment begins. (spec/60-gcode.md)
+    SupportBars {
+        /// As the original tool does.
+        Compatible = "compatible",
+        /// Without drilling into the bar at the end.
+        Solid = "solid",
+    }
+}
+
+choice! {
+    /// How heights are interpolated between probes. (spec/70-z-probes.md)
+    ZModel {
+        /// Inverse distance to the nearest four.
+        Idw4 = "idw4",
+        /// The plane of least squares.
+        Plane = "plane",
+        /// A triangulation.
+        Tin = "tin",
+    }
+}
+
+choice! {
+    /// One of the line types that mean something. (spec/10-drawing.md)
+    #[expect(missing_docs, reason = "the drawing's names say it")]
+    LineType {
+        Continuous = "CONTINUOUS",
+        Divide = "DIVIDE",
+        Border = "BORDER",
+        Center = "CENTER",
+        Dashed = "DASHED",
+        Hidden = "HIDDEN",
+        DashDot = "DASHDOT",
+        Dot = "DOT",
+        Phantom = "PHANTOM",
+    }
+}
+
+choice! {
+    /// What becomes of a diagnostic.
+    Level {
+        /// It stops what it is in.
+        Error = "error",
+        /// It is shown.
+        Warning = "warning",
+        /// It is not.
+        Ignore = "ignore",
+    }
+}
+
+choice! {
+    /// Which way a spindle turns.
+    Direction {
+        /// Clockwise.
+        Clockwise = "cw",
+        /// Counterclockwise.
+        Counterclockwise = "ccw",
+    }
+}
+
+choice! {
+    /// What cools.
+    Coolant {
+        /// Nothing.
+        Off = "off",
+        /// Mist.
+        Mist = "mist",
+        /// Flood.
+        Flood = "flood",
+    }
+}
+
+impl Level {
+    /// The severity, unless it is not shown.
+    pub fn severity(self) -> Option<Severity> {
+        match self {
+            Self::Error => Some(Severity::Error),
+            Self::Warning => Some(Severity::Warning),
+            Self::Ignore => None,
+        }
+    }
+}
+
+/// A name of a line type in drawings, and which one it stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LineTypeAlias {
+    /// The name in drawings.
+    pub name: Box<str>,
+    /// What it means.
+    pub means: LineType,
+}
+
+/// A rule of embedding: paths that `parent` matches embed only those that `child` matches.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Restriction {
+    /// A regular expression, searched in the embedding path's name.
+    pub parent: Box<str>,
+    /// One that is searched in the embedded path's name.
+    pub child: Box<str>,
+}
+
+/// A pattern of names: of paths, or of files relative to the configuration's directory. Case does not count.
+#[derive(Clone, Debug)]
+pub struct Pattern(GlobMatcher);
+
+impl Pattern {
+    /// Reads a glob, in which `*` does not match `/`.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn new(text: &str) -> Result<Self, String> {
+        let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
+        glob.map(|glob| Self(glob.compile_matcher())).map_err(|error| error.kind().to_string())
+    }
+
+    /// Whether a name matches.
+    pub fn matches(&self, name: &str) -> bool {
+        self.0.is_match(name)
+    }
+
+    /// The pattern as it was written.
+    pub fn text(&self) -> &str {
+        Glob::glob(self.0.glob())
+    }
+}
+
+/// Severities that differ from the catalogue's.
+#[derive(Clone, Debug, Default)]
+pub struct Severities {
+    /// For every drawing.
+    pub everywhere: Vec<(Code, Level)>,
+    /// For some drawings; where several name a code, the last counts.
+    pub in_files: Vec<SeveritiesIn>,
+}
+
+/// Severities for some drawings.
+#[derive(Clone, Debug, Default)]
+pub struct SeveritiesIn {
+    /// Which drawings, relative to the configuration's directory.
+    pub files: Vec<Pattern>,
+    /// What differs there.
+    pub levels: Vec<(Code, Level)>,
+}
+
+impl Severities {
+    /// What becomes of a diagnostic with this code in this file (relative to the configuration's directory); `None`: as the
+    /// catalogue says.
+    pub fn level(&self, code: Code, file: Option<&Utf8Path>) -> Option<Level> {
+        let of =
+            |levels: &[(Code, Level)]| levels.iter().find(|(it, _)| *it == code).map(|(_, level)| *level);
+        let file = file.map(|file| file.as_str().replace('\\', "/"));
+        let is_in = |part: &&SeveritiesIn| {
+            file.as_ref().is_some_and(|file| part.files.iter().any(|it| it.matches(file)))
+        };
+        let in_file = self.in_files.iter().rev().filter(is_in).find_map(|part| of(&part.levels));
+        in_file.or_else(|| of(&self.everywhere))
+    }
+}
+
+/// A tool, as post-processors know it. (spec/85-post-processors.md)
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// The name of its table.
+    pub name: Box<str>,
+    /// Its diameter in mm: the O of paths that it is for.
+    pub diameter: f64,
+    /// A regular expression searched in the names of paths that it is for; `None`: all of that diameter.
+    pub paths: Option<Box<str>>,
+    /// Its place in the machine.
+    pub number: Option<u32>,
+    /// Revolutions a minute.
+    pub spindle: Option<f64>,
+    /// Which way it turns.
+    pub direction: Direction,
+    /// What cools it.
+    pub coolant: Coolant,
+}
+
+/// How far an axis goes, in mm of the emitted program's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// The lower end.
+    pub from: f64,
+    /// The upper end.
+    pub to: f64,
+}
+
+/// Directories, absolute or relative to the working directory.
+pub type Directories = Vec<Utf8PathBuf>;
