@@ -1,0 +1,133 @@
+use super::{NoteKind, Pair};
+
+/// How a sheet is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// $ACADVER.
+    pub version: Version,
+    /// $DWGCODEPAGE, and the encoding of texts before R2007; `None`: the variable is missing, texts are as for `ANSI_1252`.
+    pub code_page: Option<String>,
+    /// How characters become bytes.
+    pub encoding: TextEncoding,
+    /// $INSUNITS; `None`: the variable is missing.
+    pub units: Option<i16>,
+    /// Ends of lines.
+    pub line_ends: LineEnds,
+    /// Binary DXF.
+    pub binary: bool,
+    /// Begin with a byte order mark.
+    pub byte_order_mark: bool,
+    /// What is left out.
+    pub left_out: Vec<Part>,
+    /// Header variables that are added, or get other values.
+    pub header: Vec<(String, Pair)>,
+    /// As what notes are written.
+    pub note_kind: NoteKind,
+    /// How high notes are where there is room, in mm.
+    pub note_height: f64,
+    /// A seed of the furniture that a workshop's drawing has around the path.
+    pub furniture: Option<u64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            version: Version::default(),
+            code_page: Some("ANSI_1252".to_owned()),
+            encoding: TextEncoding::default(),
+            units: Some(4),
+            line_ends: LineEnds::default(),
+            binary: false,
+            byte_order_mark: false,
+            left_out: Vec::new(),
+            header: Vec::new(),
+            note_kind: NoteKind::default(),
+            note_height: 2.0,
+            furniture: None,
+        }
+    }
+}
+
+/// The versions of DXF that are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Version {
+    R10,
+    R12,
+    R13,
+    R14,
+    #[default]
+    R2000,
+    R2004,
+    R2007,
+    R2010,
+    R2013,
+    R2018,
+}
+
+impl Version {
+    /// All of them, oldest first.
+    pub const ALL: [Self; 10] = [
+        Self::R10,
+        Self::R12,
+        Self::R13,
+        Self::R14,
+        Self::R2000,
+        Self::R2004,
+        Self::R2007,
+        Self::R2010,
+        Self::R2013,
+        Self::R2018,
+    ];
+
+    /// The usual name, such as `R2000`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::R10 => "R10",
+            Self::R12 => "R12",
+            Self::R13 => "R13",
+            Self::R14 => "R14",
+            Self::R2000 => "R2000",
+            Self::R2004 => "R2004",
+            Self::R2007 => "R2007",
+            Self::R2010 => "R2010",
+            Self::R2013 => "R2013",
+            Self::R2018 => "R2018",
+        }
+    }
+}
+
+/// How the characters of names and texts become bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextEncoding {
+    /// As the version demands: UTF-8 from R2007 on, before that the code page, with `\U+XXXX` for what it lacks.
+    #[default]
+    Proper,
+    /// UTF-8 whatever the version, as careless scripts do.
+    Utf8,
+    /// `\U+XXXX` for everything outside ASCII, as QCAD does.
+    Escaped,
+}
+
+/// The ends of lines of ASCII DXF.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum LineEnds {
+    #[default]
+    CrLf,
+    Lf,
+    Cr,
+}
+
+/// Parts of a DXF file that simple writers leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the DXF names say it")]
+pub enum Part {
+    Header,
+    Tables,
+    Blocks,
+    Objects,
+    Handles,
+    /// The last pair, 0/EOF.
+    Eof,
+}

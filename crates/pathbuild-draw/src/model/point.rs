@@ -1,0 +1,85 @@
+use std::ops::{Add, Mul, Sub};
+
+/// A point (or a vector) in world coordinates, in mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[expect(missing_docs, reason = "coordinates")]
+pub struct Point {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+}
+
+impl Point {
+    /// A point in the drawing's plane.
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y, z: 0.0 }
+    }
+
+    /// The same point at another height.
+    pub const fn at(self, z: f64) -> Self {
+        Self { z, ..self }
+    }
+
+    /// The point at a distance in a direction (degrees, counterclockwise from the x axis).
+    pub fn polar(self, distance: f64, degrees: f64) -> Self {
+        let (sin, cos) = sin_cos(degrees);
+        Self { x: self.x + distance * cos, y: self.y + distance * sin, ..self }
+    }
+
+    /// The distance to another point, seen from above.
+    pub fn distance(self, other: Self) -> f64 {
+        libm::hypot(other.x - self.x, other.y - self.y)
+    }
+
+    /// The direction in which another point lies, in degrees from -180 to 180.
+    pub fn direction(self, other: Self) -> f64 {
+        libm::atan2(other.y - self.y, other.x - self.x).to_degrees()
+    }
+
+    /// The vector turned about the origin.
+    pub fn turned(self, degrees: f64) -> Self {
+        let (sin, cos) = sin_cos(degrees);
+        Self { x: self.x * cos - self.y * sin, y: self.x * sin + self.y * cos, ..self }
+    }
+}
+
+/// Sine and cosine of an angle in degrees: exact in the four directions that most drawings are made of.
+pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        angle => libm::sincos(angle.to_radians()),
+    }
+}
+
+impl From<(f64, f64)> for Point {
+    fn from((x, y): (f64, f64)) -> Self {
+        Self::new(x, y)
+    }
+}
+
+impl Add for Point {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl Sub for Point {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+impl Mul<f64> for Point {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}

@@ -1,0 +1,299 @@
+use super::Point;
+
+/// The shape of an entity, in world coordinates: that of a mirrored one is given as it is seen.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the DXF names say it")]
+pub enum Shape {
+    Line(Line),
+    Arc(Arc),
+    Circle(Circle),
+    Polyline(Polyline),
+    Ellipse(Ellipse),
+    Spline(Spline),
+    Insert(Insert),
+    Text(Text),
+    MText(MText),
+    Solid([Point; 4]),
+    Raw(Vec<Pair>),
+}
+
+/// A straight line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Line {
+    pub from: Point,
+    pub to: Point,
+}
+
+/// A part of a circle, counterclockwise from `start` to `end` (degrees).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Arc {
+    pub centre: Point,
+    pub radius: f64,
+    pub start: f64,
+    pub end: f64,
+}
+
+/// A whole circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Circle {
+    pub centre: Point,
+    pub radius: f64,
+}
+
+/// Lines and arcs in one piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    /// As which DXF entity it is written.
+    pub kind: PolylineKind,
+    /// The corners.
+    pub vertices: Vec<Vertex>,
+    /// Whether the last corner is joined to the first.
+    pub closed: bool,
+}
+
+/// A corner of a polyline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Where.
+    pub point: Point,
+    /// Of the piece from here to the next corner: tan of a quarter of the arc's angle, positive counterclockwise; 0 is a line.
+    pub bulge: f64,
+}
+
+/// The DXF entities that are polylines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PolylineKind {
+    /// LWPOLYLINE, or POLYLINE in versions before R14.
+    #[default]
+    Light,
+    /// POLYLINE with VERTEX entities.
+    Heavy,
+    /// POLYLINE in space.
+    Spatial,
+}
+
+/// An ellipse or a part of one, from parameter `start` to `end` in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Ellipse {
+    pub centre: Point,
+    /// From the centre to the end of the longer axis.
+    pub major: Point,
+    /// The shorter axis divided by the longer one.
+    pub ratio: f64,
+    pub start: f64,
+    pub end: f64,
+}
+
+/// A B-spline by its control points, or by fit points alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    /// 3 for the usual cubic.
+    pub degree: u8,
+    /// The control points.
+    pub control: Vec<Point>,
+    /// As many as control points + degree + 1.
+    pub knots: Vec<f64>,
+    /// One for each control point, or none.
+    pub weights: Vec<f64>,
+    /// Points on the curve.
+    pub fit: Vec<Point>,
+    /// Whether the flag says closed.
+    pub closed: bool,
+}
+
+/// A block put into the drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Insert {
+    /// The block's name.
+    pub block: String,
+    /// Where the block's base point comes to lie.
+    pub at: Point,
+    /// Factors in x, y and z.
+    pub scale: Point,
+    /// Degrees, counterclockwise.
+    pub rotation: f64,
+    /// Columns, rows.
+    pub count: (i16, i16),
+    /// Between columns, between rows.
+    pub spacing: (f64, f64),
+}
+
+/// A text of one line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// The string as it stands in the file.
+    pub value: String,
+    /// The point that the alignment is relative to; the left one of the two for aligned and fitted texts.
+    pub anchor: Point,
+    /// In mm.
+    pub height: f64,
+    /// Degrees, counterclockwise.
+    pub rotation: f64,
+    /// Group 72.
+    pub horizontal: Horizontal,
+    /// Group 73.
+    pub vertical: Vertical,
+    /// The letters run from right to left (71 bit 2).
+    pub backwards: bool,
+    /// 71 bit 4.
+    pub upside_down: bool,
+}
+
+/// Group 72 of TEXT.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Horizontal {
+    /// 0
+    #[default]
+    Left,
+    /// 1
+    Centre,
+    /// 2
+    Right,
+    /// 3, with the other end
+    Aligned(Point),
+    /// 4: in the middle both ways
+    Middle,
+    /// 5, with the other end
+    Fit(Point),
+}
+
+/// Group 73 of TEXT.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Vertical {
+    #[default]
+    Baseline,
+    Bottom,
+    Middle,
+    Top,
+}
+
+/// A text of several lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MText {
+    /// The string with its formatting codes, as it stands in the file.
+    pub value: String,
+    /// Insertion point.
+    pub anchor: Point,
+    /// Height of a line's letters in mm.
+    pub height: f64,
+    /// Which point of the text the anchor is.
+    pub attachment: Attachment,
+    /// How the rotation is written.
+    pub direction: Direction,
+    /// Longest piece in characters, the rest in chunks before it (group 3); `None`: 250 as the CADs do.
+    pub chunk: Option<usize>,
+    /// Width of the box (group 41), 0 for none.
+    pub width: f64,
+}
+
+/// Group 71 of MTEXT, 1 to 9 line by line from the upper left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Attachment {
+    TopLeft,
+    TopCentre,
+    TopRight,
+    MiddleLeft,
+    MiddleCentre,
+    MiddleRight,
+    BottomLeft,
+    BottomCentre,
+    BottomRight,
+}
+
+/// How the direction of an MTEXT stands in the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// Group 50, in degrees.
+    Rotation(f64),
+    /// Groups 11, 21, 31.
+    Vector(Point),
+}
+
+impl Direction {
+    /// The rotation in degrees.
+    pub fn degrees(self) -> f64 {
+        match self {
+            Self::Rotation(degrees) => degrees,
+            Self::Vector(vector) => Point::default().direction(vector),
+        }
+    }
+}
+
+/// A group code with its value, as they stand in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pair {
+    /// The group code.
+    pub code: i32,
+    /// The value, of any type.
+    pub value: String,
+}
+
+impl Pair {
+    /// A pair.
+    pub fn new(code: i32, value: impl Into<String>) -> Self {
+        Self { code, value: value.into() }
+    }
+}
+
+impl Arc {
+    /// The point at an angle in degrees.
+    pub fn point(&self, degrees: f64) -> Point {
+        self.centre.polar(self.radius, degrees)
+    }
+
+    /// The angle it covers, more than 0 and at most 360 degrees.
+    pub fn sweep(&self) -> f64 {
+        let sweep = (self.end - self.start).rem_euclid(360.0);
+        if sweep == 0.0 { 360.0 } else { sweep }
+    }
+
+    /// The arc of a bulge; `None` where it is straight or without length.
+    pub fn bulged(from: Point, to: Point, bulge: f64) -> Option<Self> {
+        let chord = from.distance(to);
+        if bulge == 0.0 || chord == 0.0 {
+            return None;
+        }
+        let radius = chord * (1.0 + bulge * bulge) / (4.0 * bulge.abs());
+        // From the chord's middle to the centre, to the left of the chord.
+        let offset = chord * (1.0 - bulge * bulge) / (4.0 * bulge);
+        let unit = (to - from) * (1.0 / chord);
+        let middle = (from + to) * 0.5;
+        let centre = Point::new(middle.x - unit.y * offset, middle.y + unit.x * offset).at(from.z);
+        let (start, end) = if bulge > 0.0 { (from, to) } else { (to, from) };
+        Some(Self { centre, radius, start: centre.direction(start), end: centre.direction(end) })
+    }
+}
+
+impl Polyline {
+    /// The pieces: from, to, bulge.
+    pub fn pieces(&self) -> impl Iterator<Item = (Point, Point, f64)> + '_ {
+        let next = self.vertices.iter().skip(1).chain(self.vertices.first().filter(|_| self.closed));
+        self.vertices.iter().zip(next).map(|(a, b)| (a.point, b.point, a.bulge))
+    }
+}
+
+impl Attachment {
+    /// The value of group 71.
+    pub fn number(self) -> i16 {
+        self as i16 + 1
+    }
+
+    /// From a row (0 top to 2 bottom) and a column (0 left to 2 right).
+    pub fn from_row_column(row: usize, column: usize) -> Self {
+        use Attachment::{
+            BottomCentre, BottomLeft, BottomRight, MiddleCentre, MiddleLeft, MiddleRight, TopCentre, TopLeft,
+            TopRight,
+        };
+        [
+            [TopLeft, TopCentre, TopRight],
+            [MiddleLeft, MiddleCentre, MiddleRight],
+            [BottomLeft, BottomCentre, BottomRight],
+        ][row.min(2)][column.min(2)]
+    }
+}

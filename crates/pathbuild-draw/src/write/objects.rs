@@ -1,0 +1,57 @@
+use crate::model::{Pair, Version};
+
+/// Handles of the objects that other sections refer to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Objects {
+    first: u64,
+}
+
+/// The objects every drawing of a CAD has. `#n` is the handle of object n, `#m` and `#p` the block records of model and paper space.
+const R2000: &str = include_str!("objects_r2000.txt");
+const R13: &str = include_str!("objects_r13.txt");
+
+/// How many handles the objects take.
+const COUNT: u64 = 16;
+const LAYOUTS: [u64; 2] = [4, 5];
+const PLOT_STYLE: u64 = 10;
+
+impl Objects {
+    /// The objects take their handles from here on.
+    pub(crate) fn from(first: u64) -> Self {
+        Self { first }
+    }
+
+    /// The first handle behind them.
+    pub(crate) fn end(self) -> u64 {
+        self.first + COUNT
+    }
+
+    pub(crate) fn layouts(self) -> [u64; 2] {
+        LAYOUTS.map(|number| self.first + number)
+    }
+
+    pub(crate) fn plot_style(self) -> u64 {
+        self.first + PLOT_STYLE
+    }
+
+    /// The section's pairs.
+    pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair> {
+        let text = if version >= Version::R2000 { R2000 } else { R13 };
+        let mut lines = text.lines();
+        let mut pairs = Vec::new();
+        while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
+            let code = code.trim().parse().unwrap_or_default();
+            pairs.push(Pair::new(code, self.resolve(value, spaces)));
+        }
+        pairs
+    }
+
+    fn resolve(self, value: &str, spaces: [u64; 2]) -> String {
+        match value.strip_prefix('#') {
+            Some("m") => format!("{:X}", spaces[0]),
+            Some("p") => format!("{:X}", spaces[1]),
+            Some(number) => format!("{:X}", self.first + number.parse::<u64>().unwrap_or_default()),
+            None => value.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Tests of the crate from outside.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod elements;
+mod errors;
+mod files;
+mod fixtures;
+mod placement;
+mod records;
