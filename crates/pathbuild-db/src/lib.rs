@@ -1,1 +1,25 @@
 //! The query database: inputs, queries, and the system they read from.
+//!
+//! A drawing is source text; each stage from it to the finished program is a memoized query, keyed by file, path and the values of the
+//! path's variables. This is the only crate with salsa's macros, and it does no IO but through [`System`]. (design: ARCHITECTURE.md)
+//!
+//! Rules that keep it right: rayon only outside queries, over clones of the [`Database`]; whoever asks from outside begins at a query
+//! keyed by an input ([`Target`], [`SourceFile`], [`Directory`]), since what is interned outside queries is never reclaimed;
+//! diagnostics are values of queries, and know elements by number, not by line: [`locate`] fills in lines and handles at the end.
+
+#![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
+
+mod database;
+mod inputs;
+mod queries;
+mod settings;
+pub mod system;
+
+pub use database::{Database, Db};
+pub use inputs::{Directory, Role, SourceFile, Target};
+pub use queries::{
+    Closure, Embedding, Found, Instance, NameKey, Outcome, Reached, chains, check_file, check_target,
+    closure, embeds, files_for, find_path, locate, name_table, path, path_names, program, raw_file, raw_path,
+};
+pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
+pub use system::System;

@@ -8,6 +8,13 @@ messages! {
         help_en: "check the name, and that the CAD has not locked the file",
         help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
     }
+    /// There is no such file.
+    MISSING: UnreadableFile {
+        en: "there is no such file",
+        de: "diese Datei gibt es nicht",
+        help_en: "check the name; relative names count from the working directory",
+        help_de: "den Namen prüfen; relative Namen zählen ab dem Arbeitsverzeichnis",
+    }
     /// A directory where a drawing was expected.
     IS_DIRECTORY: UnreadableFile {
         en: "this is a directory, not a drawing",

@@ -1,0 +1,103 @@
+//! The database: the system, and the inputs that stand for its files.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use salsa::Setter;
+
+use crate::inputs::{Directory, SourceFile};
+use crate::system::System;
+
+/// What queries may ask besides each other.
+#[salsa::db]
+pub trait Db: salsa::Database {
+    /// The outside world.
+    fn system(&self) -> &dyn System;
+
+    /// The input that stands for a file, there or not. The path must be normalised.
+    fn file(&self, path: &Utf8Path) -> SourceFile;
+
+    /// The input that stands for a directory, there or not. The path must be normalised.
+    fn directory(&self, path: &Utf8Path) -> Directory;
+}
+
+/// All queries' results. Clones share them; each thread needs its own.
+#[salsa::db]
+#[derive(Clone)]
+pub struct Database {
+    system: Arc<dyn System>,
+    inputs: Arc<Mutex<Inputs>>,
+    /// Last: it must be dropped after everything that its threads could still use.
+    storage: salsa::Storage<Self>,
+}
+
+/// The inputs by path. Only looked up, never iterated.
+#[derive(Default)]
+struct Inputs {
+    files: HashMap<Utf8PathBuf, SourceFile>,
+    directories: HashMap<Utf8PathBuf, Directory>,
+}
+
+impl Database {
+    /// A database without settings: [`Settings`](crate::Settings) must be made before the first query.
+    pub fn new(system: Arc<dyn System>) -> Self {
+        Self { system, inputs: Arc::default(), storage: salsa::Storage::default() }
+    }
+
+    /// A database that tells which queries run, for tests: the name of each query function as it is about to execute.
+    pub fn with_log(system: Arc<dyn System>, log: Arc<Mutex<Vec<String>>>) -> Self {
+        let listener = move |event: salsa::Event| {
+            if let salsa::EventKind::WillExecute { database_key } = event.kind {
+                log.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{database_key:?}"));
+            }
+        };
+        Self { system, inputs: Arc::default(), storage: salsa::Storage::new(Some(Box::new(listener))) }
+    }
+
+    /// Tells that a file may have changed, appeared or gone.
+    pub fn touch_file(&mut self, path: &Utf8Path) {
+        let file = self.file(path);
+        let next = file.revision(self) + 1;
+        file.set_revision(self).to(next);
+    }
+
+    /// Tells that a directory may hold other names.
+    pub fn touch_directory(&mut self, path: &Utf8Path) {
+        let directory = self.directory(path);
+        let next = directory.revision(self) + 1;
+        directory.set_revision(self).to(next);
+    }
+
+    fn inputs(&self) -> MutexGuard<'_, Inputs> {
+        // Nothing panics while holding the lock but an allocation that fails, after which the maps are still whole.
+        self.inputs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[salsa::db]
+impl salsa::Database for Database {}
+
+#[salsa::db]
+impl Db for Database {
+    fn system(&self) -> &dyn System {
+        &*self.system
+    }
+
+    fn file(&self, path: &Utf8Path) -> SourceFile {
+        let mut inputs = self.inputs();
+        *inputs.files.entry(path.to_owned()).or_insert_with(|| SourceFile::new(self, path.to_owned(), 0))
+    }
+
+    fn directory(&self, path: &Utf8Path) -> Directory {
+        let mut inputs = self.inputs();
+        *inputs.directories.entry(path.to_owned()).or_insert_with(|| Directory::new(self, path.to_owned(), 0))
+    }
+}
+
+impl fmt::Debug for Database {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Database").field("system", &self.system).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,23 @@
+//! The stages from a drawing to a program, each a memoized query. Who asks whom:
+//!
+//! ```text
+//! program, check_target -> closure -> embeds -> path, chains -> raw_path -> raw_file
+//!                                        \-> find_path -> files_for -> name_table
+//! ```
+
+mod embedding;
+mod hints;
+mod instance;
+mod joined;
+mod lookup;
+mod raw;
+mod reach;
+mod report;
+
+pub use embedding::{Embedding, Outcome, embeds};
+pub use instance::{Instance, chains, path};
+pub use joined::program;
+pub use lookup::{Found, files_for, find_path, name_table};
+pub use raw::{NameKey, path_names, raw_file, raw_path};
+pub use reach::{Closure, Reached, closure};
+pub use report::{check_file, check_target, locate};

@@ -1,0 +1,93 @@
+//! What helps with a path that does not go on: ends near by on other layers. Looked for only when it does not go on.
+
+use pathbuild_diagnostic::messages::walk as messages;
+use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Number, Point};
+use pathbuild_dxf::{Geometry, Options};
+use pathbuild_path::{Xy, on_circle};
+
+use super::instance::Instance;
+use crate::database::Db;
+use crate::inputs::SourceFile;
+use crate::settings::Settings;
+
+/// An end of a line or arc on any layer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct LayerEnd {
+    layer: Box<str>,
+    kind: EntityKind,
+    point: Point,
+}
+
+/// How far off an end on another layer is still worth naming, in mm.
+const WORTH_NAMING: f64 = 1.0;
+
+/// Adds to PB401 the nearest end on another layer: a line on the wrong layer is its second most usual cause.
+pub(super) fn with_other_layers(db: &dyn Db, instance: Instance<'_>, diagnostic: Diagnostic) -> Diagnostic {
+    if diagnostic.code() != Code::NothingContinues {
+        return diagnostic;
+    }
+    let Some(point) = diagnostic.place.point else { return diagnostic };
+    let own_path = instance.raw(db).map(|raw| raw.name.clone());
+    let pattern = &Settings::get(db).language(db).path_pattern;
+    let is_other = |end: &&LayerEnd| pattern.layer(&end.layer).map(|layer| layer.path) != own_path;
+    let distances =
+        all_ends(db, instance.file(db)).iter().filter(is_other).map(|end| (end, distance(end.point, point)));
+    let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
+    match nearest {
+        Some((end, distance)) if distance <= WORTH_NAMING => diagnostic.note(
+            &messages::END_ON_OTHER_LAYER,
+            vec![
+                ("layer", (&*end.layer).into()),
+                ("element", end.kind.name().into()),
+                ("point", end.point.into()),
+                ("distance", distance.into()),
+            ],
+        ),
+        _ => diagnostic,
+    }
+}
+
+/// The ends of all lines and arcs of a drawing, on whatever layer: the drawing is read once more for that.
+#[salsa::tracked]
+fn all_ends(db: &dyn Db, file: SourceFile) -> Vec<LayerEnd> {
+    file.revision(db);
+    let reading = Settings::get(db).reading(db);
+    let Ok(bytes) = db.system().read(file.path(db), reading.file_size) else { return Vec::new() };
+    let options = Options {
+        keep_layer: &|_| true,
+        units: reading.units,
+        approximate_curves: 0.0,
+        max_entities: reading.entities,
+        max_text: reading.text_length,
+    };
+    let drawing = pathbuild_dxf::read(&bytes, &options);
+    let mut ends = Vec::new();
+    for entity in &drawing.entities {
+        let layer = &drawing.layers[entity.layer as usize].name;
+        let mut add = |point: Xy| {
+            ends.push(LayerEnd {
+                layer: layer.clone(),
+                kind: entity.kind,
+                point: Point::new(point.x, point.y),
+            });
+        };
+        match &entity.geometry {
+            Geometry::Line(line) => {
+                add(Xy::new(line.start.x, line.start.y));
+                add(Xy::new(line.end.x, line.end.y));
+            }
+            Geometry::Arc(arc) => {
+                let centre = Xy::new(arc.centre.x, arc.centre.y);
+                add(on_circle(centre, arc.radius, arc.start_angle));
+                add(on_circle(centre, arc.radius, arc.end_angle));
+            }
+            Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => {}
+        }
+    }
+    ends
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    let difference = |Number(a): Number, Number(b): Number| a - b;
+    Xy::new(difference(a.x, b.x), difference(a.y, b.y)).coords.norm()
+}

@@ -1,0 +1,67 @@
+//! Paths with their variables bound, and what is done along them.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{Bindings, Path, RawPath, Walked};
+
+use super::raw::{NameKey, internal_error, raw_path};
+use crate::database::Db;
+use crate::inputs::SourceFile;
+use crate::settings::Settings;
+
+/// A path of a file with values for its variables. Made inside queries only.
+#[salsa::interned(debug)]
+pub struct Instance<'db> {
+    /// The drawing that defines it.
+    #[returns(copy)]
+    pub file: SourceFile,
+    /// The path.
+    #[returns(copy)]
+    pub name: NameKey<'db>,
+    /// The values.
+    #[returns(ref)]
+    pub bindings: Bindings,
+}
+
+impl<'db> Instance<'db> {
+    /// What is drawn. It is there wherever an instance was made; after an edit it may be gone.
+    pub fn raw(self, db: &'db dyn Db) -> Option<&'db RawPath> {
+        raw_path(db, self.file(db), self.name(db))
+    }
+}
+
+/// A path, and what is wrong with its drawing or its values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundPath {
+    /// The path, where nothing is an error.
+    pub path: Option<Path>,
+    /// What is wrong with the drawing alone or, where nothing is, with the values.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Binds and checks a path's parameters.
+#[salsa::tracked]
+pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
+    let Some(raw) = instance.raw(db) else { return BoundPath::default() };
+    let mut diagnostics = raw.diagnostics.clone();
+    if !raw.is_sound() {
+        return BoundPath { path: None, diagnostics };
+    }
+    let language = Settings::get(db).language(db);
+    let bind = || pathbuild_path::bind(raw, instance.bindings(db), language);
+    let (path, found) = catch_unwind(AssertUnwindSafe(bind))
+        .unwrap_or_else(|payload| (None, vec![internal_error(&*payload).in_path(raw.name.as_str())]));
+    diagnostics.extend(found);
+    BoundPath { path, diagnostics }
+}
+
+/// Walks along a path. Empty where there is no sound path.
+#[salsa::tracked]
+pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
+    let Some(path) = &path(db, instance).path else { return Walked::default() };
+    catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path))).unwrap_or_else(|payload| Walked {
+        items: Vec::new(),
+        diagnostics: vec![internal_error(&*payload).in_path(path.name.as_str())],
+    })
+}

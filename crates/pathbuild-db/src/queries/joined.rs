@@ -1,0 +1,56 @@
+//! The finished program of a target.
+
+use std::sync::Arc;
+
+use pathbuild_path::{Item, Path};
+use pathbuild_toolpath::{Parts, Program, fold};
+
+use super::embedding::{Outcome, embeds};
+use super::instance::{Instance, chains, path};
+use super::reach::closure;
+use crate::database::Db;
+use crate::inputs::Target;
+use crate::settings::Settings;
+
+/// Joins a path and all that it embeds into a program; `None` where any of them has errors. Programs are large and used once: only
+/// the last few are kept.
+#[salsa::tracked(lru = 16)]
+pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
+    let closure = closure(db, target);
+    if closure.has_errors() {
+        return None;
+    }
+    let drawing = target.file(db).path(db).file_name().unwrap_or_default();
+    let program = fold(&Embedded { db }, closure.root?, drawing, Settings::get(db).fold(db));
+    Some(Arc::new(program))
+}
+
+/// The paths of a closure without errors.
+struct Embedded<'db> {
+    db: &'db dyn Db,
+}
+
+impl<'db> Parts for Embedded<'db> {
+    type Id = Instance<'db>;
+
+    fn path(&self, id: Instance<'db>) -> &Path {
+        path(self.db, id).path.as_ref().expect("a path of a closure without errors is bound")
+    }
+
+    fn items(&self, id: Instance<'db>) -> &[Item] {
+        &chains(self.db, id).items
+    }
+
+    fn embedded(&self, id: Instance<'db>, segment: usize) -> Option<Instance<'db>> {
+        embeds(self.db, id).iter().find(|embedding| embedding.segment == segment).and_then(|embedding| {
+            match &embedding.outcome {
+                Outcome::Found { child, .. } => Some(*child),
+                _ => None,
+            }
+        })
+    }
+
+    fn checkpoint(&self) {
+        self.db.unwind_if_revision_cancelled();
+    }
+}

@@ -1,0 +1,119 @@
+//! Where paths are: file names to files. (spec/20-paths-and-files.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_path::{PathKey, PathName, RangeTable};
+
+use super::raw::{NameKey, raw_path};
+use crate::database::Db;
+use crate::inputs::{Directory, SourceFile};
+use crate::settings::Settings;
+
+/// The drawings of a directory by the path names in theirs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NameTable {
+    names: Vec<Box<str>>,
+    ranges: RangeTable,
+}
+
+/// Where a path is, or where it was looked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// The files that define it. One is right, none or several are errors.
+    pub files: Vec<SourceFile>,
+    /// The files that may hold it by their names.
+    pub searched: Vec<SourceFile>,
+    /// The directories that were looked through.
+    pub directories: Vec<Utf8PathBuf>,
+}
+
+impl NameTable {
+    /// Whether look-ups use an order; else each looks at every name.
+    pub fn is_sorted(&self) -> bool {
+        self.ranges.is_sorted()
+    }
+}
+
+/// The name ranges in a directory's file names. A directory that cannot be listed has none.
+#[salsa::tracked]
+pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
+    directory.revision(db);
+    let pattern = &Settings::get(db).lookup(db).file_pattern;
+    let listed = db.system().list(directory.path(db)).unwrap_or_default();
+    let drawings = listed.into_iter().filter(|entry| !entry.is_directory && is_drawing(&entry.name));
+    let names: Vec<Box<str>> = drawings.map(|entry| entry.name).collect();
+    let mut ranges = Vec::new();
+    for (number, name) in (0_u32..).zip(&names) {
+        let stem = &name[..name.len() - EXTENSION.len()];
+        ranges.extend(pattern.ranges(stem).into_iter().map(|range| (range, number)));
+    }
+    NameTable { names, ranges: RangeTable::new(ranges) }
+}
+
+/// The files of a directory that may hold a path by their names: unchanged by files that cannot.
+#[salsa::tracked]
+pub fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
+    let pattern = &Settings::get(db).language(db).path_pattern;
+    let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
+    let table = name_table(db, directory);
+    let files = table.ranges.files(&key);
+    files.into_iter().map(|file| db.file(&joined(directory.path(db), &table.names[file as usize]))).collect()
+}
+
+/// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
+#[salsa::tracked]
+pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
+    if raw_path(db, from, name).is_some() {
+        return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
+    }
+    let own = from.path(db).parent().unwrap_or(Utf8Path::new("")).to_owned();
+    let mut directories = vec![own];
+    for searched in &Settings::get(db).lookup(db).search {
+        if !directories.contains(searched) {
+            directories.push(searched.clone());
+        }
+    }
+    find_in(db, directories, name)
+}
+
+/// Where a path is in some directories, whose names must be normalised.
+pub(crate) fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'db>) -> Found {
+    let mut searched: Vec<SourceFile> = Vec::new();
+    for directory in &directories {
+        for file in files_for(db, db.directory(directory), name) {
+            if !searched.contains(file) {
+                searched.push(*file);
+            }
+        }
+    }
+    let mut files: Vec<SourceFile> =
+        searched.iter().copied().filter(|file| raw_path(db, *file, name).is_some()).collect();
+    if files.len() > 1 {
+        // The same file reached under two names is no duplicate.
+        let mut seen = Vec::new();
+        files.retain(|file| {
+            let canonical = db.system().canonical(file.path(db));
+            let is_new = !seen.contains(&canonical);
+            seen.push(canonical);
+            is_new
+        });
+    }
+    Found { files, searched, directories }
+}
+
+/// The names of paths in files that were searched, for proposing near ones.
+pub(crate) fn names_in(db: &dyn Db, files: &[SourceFile]) -> Vec<PathName> {
+    files.iter().flat_map(|file| super::raw::path_names(db, *file)).cloned().collect()
+}
+
+const EXTENSION: &str = ".dxf";
+
+/// `.dxf` counts in any case.
+fn is_drawing(name: &str) -> bool {
+    let bytes = name.as_bytes();
+    bytes.len() > EXTENSION.len()
+        && bytes[bytes.len() - EXTENSION.len()..].eq_ignore_ascii_case(EXTENSION.as_bytes())
+}
+
+fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
+    if directory.as_str().is_empty() { Utf8PathBuf::from(name) } else { directory.join(name) }
+}

@@ -1,0 +1,150 @@
+//! Reading drawings: a file to its raw paths.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_dxf::Options;
+use pathbuild_path::{PathName, RawPath, SourceMap};
+
+use crate::database::Db;
+use crate::inputs::SourceFile;
+use crate::settings::{Reading, Settings};
+use crate::system::ReadError;
+
+/// A path's name without regard to case, as a key.
+#[salsa::interned(debug)]
+pub struct NameKey<'db> {
+    /// Upper case.
+    #[returns(deref)]
+    pub folded: Box<str>,
+}
+
+impl<'db> NameKey<'db> {
+    /// The key of a name.
+    pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
+        Self::new(db, name.folded().into_boxed_str())
+    }
+}
+
+/// The paths of a file. That its parts are tracked structs keeps edits apart: what shifts lines and handles changes only `map`, what
+/// changes one path leaves the others as they were.
+#[derive(Clone, Debug, PartialEq, Eq, salsa::SalsaValue)]
+pub struct FileContents<'db> {
+    paths: Vec<PathEntry<'db>>,
+    report: FileReport<'db>,
+}
+
+/// A raw path, and beside it where its elements are in the file.
+#[salsa::tracked(debug)]
+pub struct PathEntry<'db> {
+    #[returns(deref)]
+    pub folded: Box<str>,
+    #[tracked]
+    #[returns(ref)]
+    pub raw: RawPath,
+    #[tracked]
+    #[returns(ref)]
+    pub map: SourceMap,
+}
+
+/// What is wrong with the file as a whole.
+#[salsa::tracked(debug)]
+pub struct FileReport<'db> {
+    #[tracked]
+    #[returns(ref)]
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a drawing.
+#[salsa::tracked]
+pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
+    // Asked for first: it stands for the bytes that are read behind salsa's back.
+    file.revision(db);
+    let settings = Settings::get(db);
+    let reading = settings.reading(db);
+    let read = match db.system().read(file.path(db), reading.file_size) {
+        Ok(bytes) => parse(&bytes, reading, settings.language(db)),
+        Err(error) => Err(unreadable(error, reading)),
+    };
+    let raw = read
+        .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![problem] });
+    let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
+    let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
+    let entry =
+        |(raw, map): (RawPath, SourceMap)| PathEntry::new(db, raw.name.folded().into_boxed_str(), raw, map);
+    FileContents {
+        paths: raw.paths.into_iter().map(entry).collect(),
+        report: FileReport::new(db, diagnostics),
+    }
+}
+
+/// The names of a file's paths, in order of first appearance: unchanged by edits that neither add nor remove a path.
+#[salsa::tracked]
+pub fn path_names(db: &dyn Db, file: SourceFile) -> Vec<PathName> {
+    raw_file(db, file).paths.iter().map(|entry| entry.raw(db).name.clone()).collect()
+}
+
+/// A path of a file: unchanged by edits of its siblings.
+#[salsa::tracked(returns(copy))]
+fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<PathEntry<'db>> {
+    let folded = name.folded(db);
+    raw_file(db, file).paths.iter().copied().find(|entry| entry.folded(db) == folded)
+}
+
+/// A raw path of a file.
+pub fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db RawPath> {
+    path_entry(db, file, name).map(|entry| entry.raw(db))
+}
+
+/// Fills in where the element of a diagnostic of that path is in the file.
+pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagnostic: &mut Diagnostic) {
+    let folded = path.folded();
+    // Not through an interned name: this is asked from outside queries.
+    if let Some(entry) = raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded) {
+        entry.map(db).locate(diagnostic);
+    }
+}
+
+/// What is wrong with the file as a whole.
+pub(super) fn file_diagnostics(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
+    raw_file(db, file).report.diagnostics(db)
+}
+
+/// A panic in here is a bug that one file shows: it must not keep the others from being read.
+fn parse(
+    bytes: &[u8],
+    reading: &Reading,
+    language: &pathbuild_path::Language,
+) -> Result<pathbuild_path::RawFile, Diagnostic> {
+    let read = || {
+        let options = Options {
+            keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
+            units: reading.units,
+            approximate_curves: reading.approximate_curves,
+            max_entities: reading.entities,
+            max_text: reading.text_length,
+        };
+        pathbuild_path::raw_file(&pathbuild_dxf::read(bytes, &options), language)
+    };
+    catch_unwind(AssertUnwindSafe(read)).map_err(|payload| internal_error(&*payload))
+}
+
+/// PB006 for a panic that is not salsa's own way of cancelling.
+pub(super) fn internal_error(payload: &(dyn std::any::Any + Send)) -> Diagnostic {
+    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+    Diagnostic::new(&messages::INTERNAL).with("reason", reason)
+}
+
+fn unreadable(error: ReadError, reading: &Reading) -> Diagnostic {
+    match error {
+        ReadError::Missing => Diagnostic::new(&messages::MISSING),
+        ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
+        ReadError::Other(reason) => Diagnostic::new(&messages::UNREADABLE).with("reason", &*reason),
+        ReadError::TooLarge { size } => Diagnostic::new(&messages::LIMIT)
+            .with("what", format!("the file's size of {size} bytes"))
+            .with("limit", format!("{} bytes", reading.file_size))
+            .with("key", "file-size"),
+    }
+}

@@ -1,0 +1,324 @@
+//! Everything that a target reaches through embeddings. The one place that walks the embedding: cycles, depth, limits, diagnostics and
+//! dependencies all come from here.
+
+use std::collections::{HashMap, HashSet};
+
+use pathbuild_diagnostic::messages::{files, subpaths as messages};
+use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
+use pathbuild_path::{Bindings, Path, PathName};
+use pathbuild_toolpath::own_moves;
+
+use super::embedding::{Embedding, Outcome, embeds};
+use super::hints::with_other_layers;
+use super::instance::{Instance, chains, path};
+use super::raw::{NameKey, raw_path};
+use crate::database::Db;
+use crate::inputs::{Role, SourceFile, Target};
+use crate::settings::Settings;
+
+/// What a target reaches, itself included.
+#[derive(Clone, Debug, Default, PartialEq, salsa::SalsaValue)]
+pub struct Closure<'db> {
+    /// The target's path with its values; `None` when the file has no such path.
+    pub root: Option<Instance<'db>>,
+    /// Every path, in the order in which it is reached first.
+    pub reached: Vec<Reached<'db>>,
+    /// What is wrong with any of them, each once.
+    pub diagnostics: Vec<Diagnostic>,
+    /// About how many moves the program comes to.
+    pub moves: u64,
+}
+
+/// A path that a target reaches.
+#[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
+pub struct Reached<'db> {
+    /// The path with its values.
+    pub instance: Instance<'db>,
+    /// How far below the target it is reached first.
+    pub depth: u32,
+}
+
+/// How deep embedding may be below the emitted path.
+const DEEPEST: u32 = 10;
+
+/// What a distinct embedded path counts for against the limit of moves: it costs that much to keep, however little it mills.
+const MOVES_PER_PATH: u64 = 500;
+
+/// Walks what a target embeds.
+#[salsa::tracked]
+pub fn closure<'db>(db: &'db dyn Db, target: Target) -> Closure<'db> {
+    let name = NameKey::of(db, &PathName::new(target.name(db)));
+    let file = target.file(db);
+    let Some(raw) = raw_path(db, file, name) else { return Closure::default() };
+    let bindings = match target.role(db) {
+        Role::Emitted => Bindings::default(),
+        Role::Checked => Bindings::check_values(raw),
+        Role::CheckedWith(bindings) => bindings.clone(),
+    };
+    let missing = if raw.is_sound() { raw.missing_values(&bindings) } else { Vec::new() };
+    let root = Instance::new(db, file, name, bindings);
+    let mut walk = Walk::new(db, target.role(db));
+    if missing.is_empty() {
+        walk.visit(root, 0);
+        walk.count(root);
+    } else {
+        walk.reached.push(Reached { instance: root, depth: 0 });
+        walk.report_all(root, missing);
+    }
+    Closure { root: Some(root), reached: walk.reached, diagnostics: walk.diagnostics, moves: walk.moves }
+}
+
+impl Closure<'_> {
+    /// Whether any path in it has errors.
+    pub fn has_errors(&self) -> bool {
+        self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The files that it was made from.
+    pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
+        let mut files: Vec<SourceFile> = Vec::new();
+        for reached in &self.reached {
+            let file = reached.instance.file(db);
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+}
+
+struct Walk<'db> {
+    db: &'db dyn Db,
+    is_emitted: bool,
+    sweep_height: f64,
+    limit: u64,
+    reached: Vec<Reached<'db>>,
+    diagnostics: Vec<Diagnostic>,
+    moves: u64,
+    /// Whether a path at a depth has errors, itself or below: the depth counts since it may be too deep there.
+    visited: HashMap<(Instance<'db>, u32), bool>,
+    seen: HashSet<Instance<'db>>,
+    /// The embeddings that lead to the path being visited.
+    stack: Vec<Frame<'db>>,
+    is_full: bool,
+}
+
+struct Frame<'db> {
+    instance: Instance<'db>,
+    name: PathName,
+    point: Point,
+}
+
+impl<'db> Walk<'db> {
+    fn new(db: &'db dyn Db, role: &Role) -> Self {
+        let settings = Settings::get(db);
+        Self {
+            db,
+            is_emitted: *role == Role::Emitted,
+            sweep_height: settings.fold(db).sweep_height,
+            limit: settings.limits(db).moves,
+            reached: Vec::new(),
+            diagnostics: Vec::new(),
+            moves: 0,
+            visited: HashMap::new(),
+            seen: HashSet::new(),
+            stack: Vec::new(),
+            is_full: false,
+        }
+    }
+
+    /// Visits a path and what it embeds; whether there are errors in any of them.
+    fn visit(&mut self, instance: Instance<'db>, depth: u32) -> bool {
+        if let Some(has_errors) = self.visited.get(&(instance, depth)) {
+            return *has_errors;
+        }
+        self.db.unwind_if_revision_cancelled();
+        if self.seen.insert(instance) {
+            self.reached.push(Reached { instance, depth });
+        }
+        if self.is_crowded(instance) {
+            return true;
+        }
+        let has_errors = self.visit_stages(instance, depth);
+        self.visited.insert((instance, depth), has_errors);
+        has_errors
+    }
+
+    /// The stages of one path: each is gone into only when those before found no error.
+    fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
+        let bound = path(self.db, instance);
+        let mut has_errors = self.report_all(instance, bound.diagnostics.clone());
+        let Some(path) = &bound.path else { return true };
+        let sweep_height = if depth == 0 && self.is_emitted {
+            path.emitted_sweep_height(self.sweep_height)
+        } else {
+            path.embedded_sweep_height()
+        };
+        has_errors |= self.report_all(instance, path.check_sweep_height(sweep_height));
+        if has_errors {
+            return true;
+        }
+        let walked = chains(self.db, instance).diagnostics.clone();
+        let walked = walked.into_iter().map(|found| with_other_layers(self.db, instance, found)).collect();
+        has_errors |= self.report_all(instance, walked);
+        for embedding in embeds(self.db, instance) {
+            has_errors |= self.visit_embedding(instance, path, embedding, depth);
+        }
+        has_errors
+    }
+
+    fn visit_embedding(
+        &mut self,
+        instance: Instance<'db>,
+        path: &Path,
+        embedding: &Embedding<'db>,
+        depth: u32,
+    ) -> bool {
+        self.report_all(instance, embedding.warnings.clone());
+        let segment = &path.segments[embedding.segment];
+        let frame = Frame { instance, name: path.name.clone(), point: segment.origin.point };
+        match &embedding.outcome {
+            Outcome::Refused(problem) => self.report_all(instance, vec![problem.clone()]),
+            _ if depth >= DEEPEST => {
+                let problem = self.too_deep(&frame, embedding);
+                self.report_all(instance, vec![segment.origin.at(problem)])
+            }
+            Outcome::NotFound(problem) => self.report_all(instance, vec![problem.clone()]),
+            Outcome::Unbound(problems) => self.report_all(instance, problems.clone()),
+            Outcome::Found { child, .. } if self.is_open(*child, instance) => {
+                let problem = self.cycle(&frame, *child);
+                self.report_all(instance, vec![segment.origin.at(problem)])
+            }
+            Outcome::Found { child, problems } => {
+                let misfits = self.report_all(instance, problems.clone());
+                self.stack.push(frame);
+                let has_errors = self.visit(*child, depth + 1);
+                self.stack.pop();
+                if has_errors {
+                    let problem = Diagnostic::new(&messages::HAS_ERRORS)
+                        .with("name", self.name_of(*child))
+                        .with("file", child.file(self.db).path(self.db).as_str())
+                        .in_path(path.name.as_str());
+                    self.report_all(instance, vec![segment.origin.at(problem)]);
+                }
+                misfits || has_errors
+            }
+        }
+    }
+
+    /// Whether a path is being visited: to embed it once more would never end.
+    fn is_open(&self, child: Instance<'db>, visiting: Instance<'db>) -> bool {
+        child == visiting || self.stack.iter().any(|frame| frame.instance == child)
+    }
+
+    fn cycle(&self, frame: &Frame<'db>, child: Instance<'db>) -> Diagnostic {
+        let open = self.stack.iter().skip_while(|open| open.instance != child);
+        let mut names: Vec<String> = open.map(|open| open.name.to_string()).collect();
+        names.push(frame.name.to_string());
+        names.push(self.name_of(child));
+        Diagnostic::new(&messages::CYCLE)
+            .with("name", self.name_of(child))
+            .with("chain", names.join(" > "))
+            .in_path(frame.name.as_str())
+    }
+
+    fn too_deep(&self, frame: &Frame<'db>, embedding: &Embedding<'db>) -> Diagnostic {
+        let mut names: Vec<String> = self.stack.iter().map(|open| open.name.to_string()).collect();
+        names.push(frame.name.to_string());
+        let name = match &embedding.outcome {
+            Outcome::Found { child, .. } => self.name_of(*child),
+            _ => "?".to_owned(),
+        };
+        Diagnostic::new(&messages::TOO_DEEP)
+            .with("name", name)
+            .with("limit", u64::from(DEEPEST))
+            .with("chain", names.join(" > "))
+            .in_path(frame.name.as_str())
+    }
+
+    fn name_of(&self, instance: Instance<'db>) -> String {
+        instance
+            .raw(self.db)
+            .map_or_else(|| instance.name(self.db).folded(self.db).to_owned(), |raw| raw.name.to_string())
+    }
+
+    /// Reports what is found in a path, each once; whether there are errors.
+    fn report_all(&mut self, instance: Instance<'db>, found: Vec<Diagnostic>) -> bool {
+        let has_errors = found.iter().any(Diagnostic::is_error);
+        for mut diagnostic in found {
+            diagnostic.file.get_or_insert_with(|| instance.file(self.db).path(self.db).clone());
+            let is_same = |known: &Diagnostic| {
+                known.message == diagnostic.message
+                    && known.place == diagnostic.place
+                    && known.path == diagnostic.path
+                    && known.file == diagnostic.file
+                    && known.arguments == diagnostic.arguments
+                    && known.text == diagnostic.text
+            };
+            if !self.diagnostics.iter().any(is_same) {
+                diagnostic.trace = self.trace();
+                self.diagnostics.push(diagnostic);
+            }
+        }
+        has_errors
+    }
+
+    fn trace(&self) -> Vec<TraceStep> {
+        let step = |frame: &Frame<'db>| TraceStep {
+            file: frame.instance.file(self.db).path(self.db).clone(),
+            path: frame.name.as_str().into(),
+            point: frame.point,
+        };
+        self.stack.iter().map(step).collect()
+    }
+
+    /// Whether there are more distinct paths than can be meant; said once.
+    fn is_crowded(&mut self, instance: Instance<'db>) -> bool {
+        if (self.reached.len() as u64).saturating_mul(MOVES_PER_PATH) <= self.limit {
+            return false;
+        }
+        if !std::mem::replace(&mut self.is_full, true) {
+            self.report_limit(instance, "the number of embedded paths");
+        }
+        true
+    }
+
+    /// Counts the moves that the program comes to, before anybody makes them.
+    fn count(&mut self, root: Instance<'db>) {
+        if self.diagnostics.iter().any(Diagnostic::is_error) {
+            return;
+        }
+        self.moves = self.moves_of(root, &mut HashMap::new());
+        if self.moves > self.limit {
+            self.report_limit(root, "the number of moves that this path comes to");
+        }
+    }
+
+    fn moves_of(&self, instance: Instance<'db>, known: &mut HashMap<Instance<'db>, u64>) -> u64 {
+        if let Some(moves) = known.get(&instance) {
+            return *moves;
+        }
+        let own = match &path(self.db, instance).path {
+            Some(path) => own_moves(path, &chains(self.db, instance).items),
+            None => 0,
+        };
+        let embedded = embeds(self.db, instance).iter().filter_map(|embedding| match &embedding.outcome {
+            Outcome::Found { child, .. } => Some(*child),
+            _ => None,
+        });
+        let moves = embedded.fold(own, |sum, child| sum.saturating_add(self.moves_of(child, known)));
+        known.insert(instance, moves);
+        moves
+    }
+
+    fn report_limit(&mut self, instance: Instance<'db>, what: &'static str) {
+        let mut problem = Diagnostic::new(&files::LIMIT)
+            .with("what", what)
+            .with("limit", self.limit)
+            .with("key", "embedding-moves");
+        if let Some(path) = &path(self.db, instance).path {
+            problem = path.start_origin.at(problem.in_path(path.name.as_str()));
+        }
+        self.report_all(instance, vec![problem]);
+    }
+}

@@ -1,0 +1,113 @@
+//! What the configuration and the options say, one field for each consumer, so that a changed feed does not read drawings again.
+//! (spec/06-configuration.md)
+
+use std::sync::Arc;
+
+use camino::Utf8PathBuf;
+use pathbuild_dxf::Units;
+use pathbuild_path::{FilePattern, Language, PathName};
+use pathbuild_toolpath::FoldOptions;
+use regex::Regex;
+
+/// The settings of a run.
+#[salsa::input(singleton, debug)]
+pub struct Settings {
+    /// How drawings are read.
+    #[returns(ref)]
+    pub reading: Reading,
+    /// What the drawing language needs to know.
+    #[returns(ref)]
+    pub language: Arc<Language>,
+    /// Where embedded paths are looked for.
+    #[returns(ref)]
+    pub lookup: Lookup,
+    /// Which paths may embed which.
+    #[returns(ref)]
+    pub restrictions: Vec<Restriction>,
+    /// What holds where a drawing gives no F or S.
+    #[returns(copy)]
+    pub fold: FoldOptions,
+    /// What is refused as too much.
+    #[returns(copy)]
+    pub limits: Limits,
+}
+
+/// How drawings are read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// What $INSUNITS means.
+    pub units: Units,
+    /// Tolerance for ELLIPSE and SPLINE in mm; 0: left out.
+    pub approximate_curves: f64,
+    /// Largest file in bytes.
+    pub file_size: u64,
+    /// Most entities.
+    pub entities: usize,
+    /// Longest text in bytes.
+    pub text_length: usize,
+}
+
+/// Where embedded paths are looked for.
+#[derive(Clone, Debug)]
+pub struct Lookup {
+    /// What file names say about paths.
+    pub file_pattern: FilePattern,
+    /// Directories beyond the drawing's own, in order.
+    pub search: Vec<Utf8PathBuf>,
+}
+
+/// `--restrict PARENT:CHILD`: paths whose name matches PARENT may embed only those that match CHILD.
+#[derive(Clone, Debug)]
+pub struct Restriction {
+    /// Searched in the embedding path's name.
+    pub parent: Regex,
+    /// Searched in the embedded path's name.
+    pub child: Regex,
+}
+
+/// What is refused as too much: PB005.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most moves of a program.
+    pub moves: u64,
+}
+
+impl Restriction {
+    /// A rule as it is written; split at the first colon.
+    ///
+    /// # Errors
+    /// When there is no colon, or a side is no regular expression; with the reason.
+    pub fn parse(rule: &str) -> Result<Self, String> {
+        let (parent, child) = rule.split_once(':').ok_or("there is no \":\" in it")?;
+        let compile = |pattern: &str| Regex::new(pattern).map_err(|error| error.to_string());
+        Ok(Self { parent: compile(parent)?, child: compile(child)? })
+    }
+
+    /// Whether the rule is about what this path embeds.
+    pub fn concerns(&self, parent: &PathName) -> bool {
+        parent.is_match(&self.parent)
+    }
+
+    /// Whether it lets this path be embedded.
+    pub fn allows(&self, child: &PathName) -> bool {
+        child.is_match(&self.child)
+    }
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Self {
+            units: Units::Header,
+            approximate_curves: 0.0,
+            file_size: 256 << 20,
+            entities: 2_000_000,
+            text_length: 65_536,
+        }
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { moves: 50_000_000 }
+    }
+}

@@ -1,0 +1,85 @@
+//! The outside world, as the queries see it: one trait, so that tests run in memory and every file that a result depends on is known.
+
+mod memory;
+mod os;
+
+use std::fmt::Debug;
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+pub use memory::MemorySystem;
+pub use os::OsSystem;
+
+/// Reading, listing and writing files.
+pub trait System: Debug + Send + Sync {
+    /// The bytes of a file.
+    ///
+    /// # Errors
+    /// When there is no such regular file, it cannot be read, or it has more bytes than `limit`.
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
+
+    /// The names in a directory, sorted; of those that are no UTF-8 there is a lossy spelling, which no file has.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError>;
+
+    /// What is under a name.
+    fn kind(&self, path: &Utf8Path) -> Kind;
+
+    /// The one name of a file that can be reached under several.
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf;
+
+    /// Writes a file whole or not at all, and only if what is there differs.
+    ///
+    /// # Errors
+    /// The reason why it cannot be written; nothing is left under the name that was not there before.
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>>;
+
+    /// Removes a file; that there is none is no error.
+    ///
+    /// # Errors
+    /// The reason why it cannot be removed.
+    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>>;
+}
+
+/// A name in a directory.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Entry {
+    pub name: Box<str>,
+    pub is_directory: bool,
+}
+
+/// What is under a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Kind {
+    File,
+    Directory,
+    Missing,
+}
+
+/// What writing did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Written {
+    Changed,
+    Unchanged,
+}
+
+/// Why something cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ReadError {
+    /// There is nothing under that name.
+    Missing,
+    /// A directory where a file was asked for.
+    IsDirectory,
+    /// More bytes than the limit.
+    TooLarge {
+        /// How many there are.
+        size: u64,
+    },
+    /// The system's reason.
+    Other(Box<str>),
+}

@@ -1,0 +1,74 @@
+//! Files in memory, for tests and for drawings that are not saved yet.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::{Entry, Kind, ReadError, System, Written};
+
+/// Files by path. Directories are there as soon as a file is in them.
+#[derive(Debug, Default)]
+pub struct MemorySystem {
+    files: Mutex<BTreeMap<Utf8PathBuf, Vec<u8>>>,
+}
+
+impl MemorySystem {
+    /// Puts a file there, or other bytes into it.
+    pub fn put(&self, path: impl Into<Utf8PathBuf>, bytes: impl Into<Vec<u8>>) {
+        self.files().insert(path.into(), bytes.into());
+    }
+
+    fn files(&self) -> MutexGuard<'_, BTreeMap<Utf8PathBuf, Vec<u8>>> {
+        // The map is whole even if a test panicked while holding it.
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl System for MemorySystem {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let files = self.files();
+        let bytes = files.get(path).ok_or(ReadError::Missing)?;
+        let size = bytes.len() as u64;
+        if size > limit { Err(ReadError::TooLarge { size }) } else { Ok(bytes.clone()) }
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+        let files = self.files();
+        let inside = files.keys().filter_map(|path| path.strip_prefix(directory).ok());
+        let mut entries: Vec<Entry> = inside
+            .filter_map(|rest| {
+                let name = rest.components().next()?.as_str();
+                Some(Entry { name: name.into(), is_directory: rest.components().count() > 1 })
+            })
+            .collect();
+        entries.sort();
+        entries.dedup();
+        Ok(entries)
+    }
+
+    fn kind(&self, path: &Utf8Path) -> Kind {
+        let files = self.files();
+        if files.contains_key(path) {
+            Kind::File
+        } else if path.as_str().is_empty() || files.keys().any(|file| file.starts_with(path)) {
+            Kind::Directory
+        } else {
+            Kind::Missing
+        }
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        path.to_owned()
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+        let before = self.files().insert(path.to_owned(), bytes.to_vec());
+        Ok(if before.as_deref() == Some(bytes) { Written::Unchanged } else { Written::Changed })
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+        self.files().remove(path);
+        Ok(())
+    }
+}

@@ -1,0 +1,132 @@
+//! The files of the operating system. The one place of the program that does IO on drawings and programs.
+#![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
+
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::{Entry, Kind, ReadError, System, Written};
+
+/// Paths are relative to the working directory of the process.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OsSystem;
+
+impl System for OsSystem {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let mut file = File::open(path)?;
+        let size = regular_size(&file.metadata()?)?;
+        if size > limit {
+            return Err(ReadError::TooLarge { size });
+        }
+        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0) + 1);
+        // A file may grow between the question for its size and the last byte.
+        let read = Read::by_ref(&mut file).take(limit.saturating_add(1)).read_to_end(&mut bytes)? as u64;
+        if read > limit { Err(ReadError::TooLarge { size: read }) } else { Ok(bytes) }
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+        let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
+        let mut entries = Vec::new();
+        for entry in fs::read_dir(directory)? {
+            let entry = entry?;
+            let kind = entry.file_type()?;
+            // A link is what it leads to; one that leads nowhere is a file that cannot be read.
+            let is_directory = kind.is_dir()
+                || (kind.is_symlink() && fs::metadata(entry.path()).is_ok_and(|data| data.is_dir()));
+            let name = entry.file_name().to_string_lossy().into();
+            entries.push(Entry { name, is_directory });
+        }
+        entries.sort();
+        Ok(entries)
+    }
+
+    fn kind(&self, path: &Utf8Path) -> Kind {
+        let path = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
+        match fs::metadata(path) {
+            Ok(data) if data.is_dir() => Kind::Directory,
+            Ok(_) => Kind::File,
+            Err(_) => Kind::Missing,
+        }
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned())
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+        if fs::read(path).is_ok_and(|present| present == bytes) {
+            return Ok(Written::Unchanged);
+        }
+        write_beside(path, bytes).map_err(|error| reason(&error))?;
+        Ok(Written::Changed)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(reason(&error)),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::NotFound => Self::Missing,
+            ErrorKind::IsADirectory => Self::IsDirectory,
+            _ => Self::Other(reason(&error)),
+        }
+    }
+}
+
+/// The size of a regular file. Pipes and devices are refused: reading them may never end.
+fn regular_size(data: &Metadata) -> Result<u64, ReadError> {
+    if data.is_dir() {
+        return Err(ReadError::IsDirectory);
+    }
+    if !data.is_file() {
+        return Err(ReadError::Other("it is not a regular file".into()));
+    }
+    Ok(data.len())
+}
+
+/// Writes a temporary file in the same directory and renames it, so that nobody ever sees half a program.
+fn write_beside(path: &Utf8Path, bytes: &[u8]) -> io::Result<()> {
+    if let Some(parent) = path.parent().filter(|parent| !parent.as_str().is_empty()) {
+        fs::create_dir_all(parent)?;
+    }
+    if fs::metadata(path).is_ok_and(|data| data.is_dir()) {
+        return Err(io::Error::new(ErrorKind::IsADirectory, "a directory has that name"));
+    }
+    let (temporary, mut file) = temporary(path)?;
+    let written = file.write_all(bytes).and_then(|()| file.flush());
+    drop(file);
+    let renamed = written.and_then(|()| fs::rename(&temporary, path));
+    if renamed.is_err() {
+        // Best effort: the error that is reported is the one that came first.
+        _ = fs::remove_file(&temporary);
+    }
+    renamed
+}
+
+/// A new file beside `path`, under a name that no other run of the program has taken.
+fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
+    let name = path.file_name().unwrap_or("output");
+    for attempt in 0..1000_u32 {
+        let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&candidate) {
+            Ok(file) => return Ok((candidate, file)),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::Error::new(ErrorKind::AlreadyExists, "too many temporary files beside it"))
+}
+
+/// The system's words without the number that follows them.
+fn reason(error: &io::Error) -> Box<str> {
+    let text = error.to_string();
+    let end = text.find(" (os error").unwrap_or(text.len());
+    text[..end].to_lowercase().into()
+}
