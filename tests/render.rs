@@ -110,3 +110,125 @@ fn json_spans_count_characters() {
     let object: serde_json::Value = serde_json::from_str(line).unwrap();
     assert_eq!(object["span"], serde_json::json!([9, 11]));
 }
+
+/// So many errors, in places of their own.
+fn many(count: u32) -> Findings {
+    let error =
+        |line| Diagnostic::new(&files::EMPTY_FILE).in_file(Utf8Path::new("/work/a.dxf")).at_line(line, None);
+    let mut all: Vec<_> = (1..=count).map(error).collect();
+    all[0].severity = pathbuild_diagnostic::Severity::Warning;
+    Findings::new(all)
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn sarif_is_what_its_schema_says() {
+    let text = shown(Format::Sarif, Lang::En);
+    assert_snapshot!(text.replace(env!("CARGO_PKG_VERSION"), "VERSION"));
+    let schema = json(include_str!("schemas/sarif-2.1.0.json"));
+    let errors: Vec<_> = jsonschema::validator_for(&schema)
+        .unwrap()
+        .iter_errors(&json(&text))
+        .map(|it| it.to_string())
+        .collect();
+    assert_eq!(errors, Vec::<String>::new());
+    let empty = render(
+        Format::Sarif,
+        &Findings::default(),
+        &View { lang: Lang::De, color: false, width: None, base: "/".into() },
+    );
+    assert!(jsonschema::is_valid(&schema, &json(&empty)));
+}
+
+#[test]
+fn sarif_has_no_more_results_than_github_takes_and_says_so() {
+    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+    // Counted in the text: to parse so much takes a debug build many seconds.
+    let shown = |count| render(Format::Sarif, &many(count), &view);
+    let count = |text: &str, part| text.matches(part).count();
+    let inside = shown(25_000);
+    assert_eq!((count(&inside, "\"ruleId\""), count(&inside, "\"level\": \"warning\"")), (25_000, 1));
+    assert!(!inside.contains("toolExecutionNotifications"));
+    let outside = shown(25_001);
+    assert_eq!(
+        (count(&outside, "\"ruleId\""), count(&outside, "\"level\": \"error\"")),
+        (25_000, 25_001),
+        "warnings go first"
+    );
+    assert!(outside.contains("\"text\": \"1 further results are left out\""));
+}
+
+#[test]
+fn github_annotations_are_commands_of_a_workflow() {
+    assert_snapshot!(shown(Format::Github, Lang::En));
+}
+
+#[test]
+fn github_gets_ten_annotations_of_a_severity_and_the_rest_as_lines() {
+    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+    let text = render(Format::Github, &many(12), &view);
+    let starts = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
+    assert_eq!(
+        (starts("::error "), starts("::warning "), starts("a.dxf:12: error[PB002]"), text.lines().count()),
+        (10, 1, 1, 12)
+    );
+}
+
+/// GitLab's page on code quality: these keys, severities out of five, fingerprints that differ, relative names, lines from 1.
+#[test]
+fn gitlab_issues_have_what_gitlab_wants() {
+    let text = shown(Format::Gitlab, Lang::En);
+    assert_snapshot!(text);
+    let issues = json(&text);
+    let issues = issues.as_array().unwrap();
+    let mut fingerprints = std::collections::BTreeSet::new();
+    for issue in issues {
+        assert!(
+            ["info", "minor", "major", "critical", "blocker"].contains(&issue["severity"].as_str().unwrap())
+        );
+        assert!(
+            !issue["description"].as_str().unwrap().is_empty()
+                && !issue["check_name"].as_str().unwrap().is_empty()
+        );
+        let path = issue["location"]["path"].as_str().unwrap();
+        assert!(!path.is_empty() && !path.starts_with(['/', '\\']) && !path.starts_with("./"), "{path}");
+        assert!(issue["location"]["lines"]["begin"].as_u64().unwrap() >= 1);
+        assert!(fingerprints.insert(issue["fingerprint"].as_str().unwrap()));
+    }
+    assert_eq!(issues.len(), findings().diagnostics.len());
+}
+
+/// What the schemas in use (Jenkins, Maven Surefire) agree on.
+#[test]
+fn junit_is_xml_with_counts_that_are_right() {
+    let text = shown(Format::Junit, Lang::En);
+    assert_snapshot!(text);
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.tag_name().name(), "testsuites");
+    let number =
+        |node: roxmltree::Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
+    let named = |node: roxmltree::Node<'_, '_>, name: &str| {
+        node.descendants().filter(|it| it.has_tag_name(name)).count() as f64
+    };
+    for node in
+        root.descendants().filter(|node| node.has_tag_name("testsuites") || node.has_tag_name("testsuite"))
+    {
+        assert_eq!(number(node, "tests"), named(node, "testcase"));
+        assert_eq!(number(node, "failures"), named(node, "failure"));
+        assert!(node.attribute("name").is_some() && number(node, "time") >= 0.0);
+    }
+    for case in root.descendants().filter(|node| node.has_tag_name("testcase")) {
+        assert!(case.parent().unwrap().has_tag_name("testsuite"));
+        assert!(case.attribute("name").is_some() && case.attribute("classname").is_some());
+        let children: Vec<_> =
+            case.children().filter(roxmltree::Node::is_element).map(|it| it.tag_name().name()).collect();
+        assert!(
+            matches!(&children[..], [] | ["failure"] | ["system-out"] | ["failure", "system-out"]),
+            "{children:?}"
+        );
+    }
+}

@@ -33,6 +33,14 @@ impl Context {
         self.settings.general.lang.value
     }
 
+    /// One of two phrases.
+    pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
+        match self.lang() {
+            Lang::En => en,
+            Lang::De => de,
+        }
+    }
+
     /// Shows findings on stderr, as every command but `check` does.
     pub fn show(&self, findings: &Findings) {
         self.show_on(Stream::Stderr, findings);

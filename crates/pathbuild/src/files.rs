@@ -5,7 +5,7 @@
 use std::fs;
 use std::io::{self, Write};
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
@@ -26,6 +26,23 @@ pub(crate) fn read(file: &Utf8Path) -> io::Result<String> {
 pub(crate) fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     let written = fs::File::create_new(file).and_then(|mut new| new.write_all(text.as_bytes()));
     written.map_err(|reason| cannot_write(file, &reason))
+}
+
+/// Writes a file whole or not at all: beside it first, then under its name. What is no file, such as a device, is written to as it is.
+///
+/// # Errors
+/// A diagnostic that says why it cannot be written.
+pub(crate) fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+    let beside = Utf8PathBuf::from(format!("{file}.{}.tmp", std::process::id()));
+    if file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir()) {
+        return fs::write(file, text).map_err(|reason| cannot_write(file, &reason));
+    }
+    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, file));
+    written.map_err(|reason| {
+        // It may not even have been made.
+        _ = fs::remove_file(&beside);
+        cannot_write(file, &reason)
+    })
 }
 
 fn cannot_write(file: &Utf8Path, reason: &io::Error) -> Box<Diagnostic> {

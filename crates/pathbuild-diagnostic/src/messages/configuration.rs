@@ -111,6 +111,20 @@ messages! {
         help_en: "run once for each, or name the configuration that is meant with --config",
         help_de: "für jedes einen eigenen Lauf machen, oder die gemeinte Konfiguration mit --config nennen",
     }
+    /// A baseline that is not there.
+    BASELINE_UNREADABLE: InvalidConfiguration {
+        en: "cannot read the baseline: {reason}",
+        de: "die Liste bekannter Meldungen ist nicht lesbar: {reason}",
+        help_en: "check the name; --update-baseline writes a new one",
+        help_de: "den Namen prüfen; --update-baseline schreibt eine neue",
+    }
+    /// A line of a baseline that is none.
+    BASELINE_LINE: InvalidConfiguration {
+        en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
+        de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
+        help_en: "remove it, or write the file anew with --update-baseline",
+        help_de: "die Zeile entfernen, oder die Datei mit --update-baseline neu schreiben",
+    }
 }
 
 /// What a value must be, in every language.

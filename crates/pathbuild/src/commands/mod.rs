@@ -21,9 +21,6 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
 
 /// Formats of graphs are for commands that print graphs.
 fn format_refusal(format: Format, command: &Command) -> Option<String> {
-    if matches!(format, Format::Sarif | Format::Github | Format::Gitlab | Format::Junit) {
-        return Some("this --format is not built yet".to_owned());
-    }
     let prints_graph = matches!(command, Command::Graph(_) | Command::Deps(_) | Command::Rdeps(_));
     let is_wrong = !format.shows_diagnostics() && !prints_graph;
     is_wrong.then(|| {

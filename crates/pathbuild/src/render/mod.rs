@@ -2,13 +2,18 @@
 
 mod concise;
 mod full;
+mod github;
+mod gitlab;
 mod json;
+mod junit;
 mod place;
+mod sarif;
 mod view;
 
 use crate::args::Format;
 use crate::report::Findings;
 
+pub(crate) use concise::line as render_line;
 pub use view::View;
 
 /// The findings in a format. A format of graphs shows no diagnostics and falls back on [`Format::Full`].
@@ -16,6 +21,10 @@ pub fn render(format: Format, findings: &Findings, view: &View) -> String {
     match format {
         Format::Concise => concise::render(findings, view),
         Format::Json => json::render(findings, view),
-        _ => full::render(findings, view),
+        Format::Sarif => sarif::render(findings, view),
+        Format::Github => github::render(findings, view),
+        Format::Gitlab => gitlab::render(findings, view),
+        Format::Junit => junit::render(findings, view),
+        Format::Full | Format::Dot | Format::Mermaid => full::render(findings, view),
     }
 }

@@ -39,7 +39,7 @@ impl View {
 
 /// Text from a drawing as it may be shown on a terminal: control characters, which could move the cursor or worse, are replaced.
 pub(super) fn harmless(text: &str) -> Cow<'_, str> {
-    let is_harmful = |c: char| c.is_control() && c != '\n' && c != '\t';
+    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
     if text.contains(is_harmful) { text.replace(is_harmful, "\u{fffd}").into() } else { text.into() }
 }
 

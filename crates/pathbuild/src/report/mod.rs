@@ -1,6 +1,16 @@
 //! What a run found, made ready to be shown: severities applied, each finding once, in an order that does not depend on threads.
 //! (spec/05-command-line.md, spec/80-diagnostics.md)
 
+mod baseline;
+mod conclude;
 mod findings;
+mod fingerprint;
+mod judge;
+mod summary;
 
+pub use baseline::Baseline;
+pub use conclude::{Checked, conclude};
 pub use findings::{CheckedFile, CheckedPath, Findings};
+pub use fingerprint::Fingerprint;
+pub use judge::judge;
+pub use summary::summary;

@@ -1,0 +1,56 @@
+//! Annotations of a GitHub workflow: `::error file=...,line=...::message`.
+//!
+//! GitHub shows ten errors and ten warnings of a step and drops the others, so those are written as plain lines of the log; errors of
+//! the whole run come first.
+
+use pathbuild_diagnostic::{Diagnostic, Severity};
+
+use super::view::harmless;
+use super::{View, concise, place};
+use crate::report::Findings;
+
+/// How many of a severity GitHub shows for a step.
+const SHOWN: usize = 10;
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    let of = |severity| findings.diagnostics.iter().filter(move |it| it.severity == severity);
+    let annotations =
+        [Severity::Error, Severity::Warning].into_iter().flat_map(|severity| of(severity).take(SHOWN));
+    let lines =
+        [Severity::Error, Severity::Warning].into_iter().flat_map(|severity| of(severity).skip(SHOWN));
+    let annotations = annotations.map(|diagnostic| annotation(diagnostic, view));
+    annotations.chain(lines.map(|diagnostic| concise::line(diagnostic, view))).collect()
+}
+
+fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
+    let command = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    let mut properties = Vec::new();
+    if let Some(file) = view.file(diagnostic) {
+        properties.push(format!("file={}", property(&file)));
+        properties.push(format!("line={}", diagnostic.place.line.unwrap_or(1)));
+        properties.extend(diagnostic.place.column.map(|column| format!("col={column}")));
+    }
+    properties
+        .push(format!("title={}", property(&format!("{} {}", diagnostic.code(), diagnostic.code().name()))));
+    let element = place::element(diagnostic, view);
+    let text = [
+        Some(diagnostic.text(view.lang)),
+        diagnostic.help(view.lang),
+        (!element.is_empty()).then_some(element),
+    ];
+    let text = text.into_iter().flatten().collect::<Vec<_>>().join("\n");
+    format!("::{command} {}::{}\n", properties.join(","), data(&text))
+}
+
+/// Text after the second `::`.
+fn data(text: &str) -> String {
+    harmless(text).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// The value of a property.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

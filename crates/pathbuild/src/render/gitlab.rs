@@ -1,0 +1,33 @@
+//! GitLab code quality: a JSON list. What belongs to no file, such as an option's value, is put at the project itself, `.`, because
+//! GitLab wants a place.
+
+use pathbuild_diagnostic::{Diagnostic, Severity};
+use serde_json::{Value as Json, json};
+
+use super::{View, place};
+use crate::report::{Findings, Fingerprint};
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    let fingerprints = Fingerprint::of(&findings.diagnostics);
+    let issues =
+        findings.diagnostics.iter().zip(fingerprints).map(|(diagnostic, it)| issue(diagnostic, it, view));
+    format!("{:#}\n", issues.collect::<Json>())
+}
+
+fn issue(diagnostic: &Diagnostic, fingerprint: Fingerprint, view: &View) -> Json {
+    let element = place::element(diagnostic, view);
+    let element = if element.is_empty() { element } else { format!(" ({element})") };
+    json!({
+        "description": format!("{}: {}{element}", diagnostic.code(), diagnostic.text(view.lang)),
+        "check_name": diagnostic.code().name(),
+        "fingerprint": fingerprint.to_string(),
+        "severity": match diagnostic.severity {
+            Severity::Error => "major",
+            Severity::Warning => "minor",
+        },
+        "location": {
+            "path": view.file(diagnostic).map_or_else(|| ".".to_owned(), Into::into),
+            "lines": { "begin": diagnostic.place.line.unwrap_or(1) },
+        },
+    })
+}

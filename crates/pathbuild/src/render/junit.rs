@@ -1,0 +1,123 @@
+//! `JUnit` XML: a suite for each drawing, a test case for each of its paths, which fails when the path has errors. Errors of the file
+//! itself fail a case named after the file. Warnings are output of their case.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+
+use super::{View, concise};
+use crate::report::Findings;
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    let suites = suites(findings);
+    let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+    let all = || suites.values().flat_map(BTreeMap::values);
+    _ = writeln!(text, "<testsuites name=\"pathbuild\"{}>", totals(all()));
+    for (file, cases) in &suites {
+        let name = file.map_or_else(|| "pathbuild".into(), |file| view.name(file));
+        _ = writeln!(text, "  <testsuite name=\"{}\"{}>", escaped(&name), totals(cases.values()));
+        for (path, case) in cases {
+            write_case(&mut text, path.unwrap_or(&name), &name, case, view);
+        }
+        text.push_str("  </testsuite>\n");
+    }
+    text.push_str("</testsuites>\n");
+    text
+}
+
+type Suites<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, Case<'a>>>;
+
+#[derive(Default)]
+struct Case<'a> {
+    seconds: f64,
+    errors: Vec<&'a Diagnostic>,
+    warnings: Vec<&'a Diagnostic>,
+}
+
+/// Every path that was checked, and every file or path that something is wrong with.
+fn suites(findings: &Findings) -> Suites<'_> {
+    let mut suites = Suites::new();
+    for file in &findings.checked {
+        let suite = suites.entry(Some(&file.file)).or_default();
+        for path in &file.paths {
+            suite.entry(Some(&path.name)).or_default().seconds = path.time.unwrap_or_default().as_secs_f64();
+        }
+    }
+    for diagnostic in &findings.diagnostics {
+        let suite = suites.entry(diagnostic.file.as_deref()).or_default();
+        let case = suite.entry(diagnostic.path.as_deref()).or_default();
+        if diagnostic.is_error() { case.errors.push(diagnostic) } else { case.warnings.push(diagnostic) }
+    }
+    suites.retain(|_, cases| !cases.is_empty());
+    suites
+}
+
+fn totals<'a, 'b: 'a>(cases: impl Iterator<Item = &'a Case<'b>>) -> String {
+    let (mut tests, mut failures, mut seconds) = (0, 0, 0.0);
+    for case in cases {
+        tests += 1;
+        failures += usize::from(!case.errors.is_empty());
+        seconds += case.seconds;
+    }
+    format!(" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" time=\"{seconds:.3}\"")
+}
+
+fn write_case(text: &mut String, name: &str, file: &str, case: &Case<'_>, view: &View) {
+    let seconds = case.seconds;
+    let (name, file) = (escaped(name), escaped(file));
+    _ = write!(
+        text,
+        "    <testcase name=\"{name}\" classname=\"{file}\" file=\"{file}\" time=\"{seconds:.3}\""
+    );
+    if case.errors.is_empty() && case.warnings.is_empty() {
+        text.push_str("/>\n");
+        return;
+    }
+    text.push_str(">\n");
+    if let [first, others @ ..] = &*case.errors {
+        let more = if others.is_empty() { String::new() } else { format!(" (+{})", others.len()) };
+        let message = escaped(&format!("{}{more}", first.text(view.lang))).into_owned();
+        _ = writeln!(
+            text,
+            "      <failure type=\"{}\" message=\"{message}\">{}</failure>",
+            first.code(),
+            lines(&case.errors, view)
+        );
+    }
+    if !case.warnings.is_empty() {
+        _ = writeln!(text, "      <system-out>{}</system-out>", lines(&case.warnings, view));
+    }
+    text.push_str("    </testcase>\n");
+}
+
+fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
+    let lines: String = diagnostics.iter().map(|diagnostic| concise::line(diagnostic, view)).collect();
+    escaped(lines.trim_end()).into_owned()
+}
+
+/// Text in XML 1.0, which has no way to write most control characters.
+fn escaped(text: &str) -> std::borrow::Cow<'_, str> {
+    let is_plain = |c: char| {
+        !matches!(c, '&' | '<' | '>' | '"' | '\'' | '\n' | '\t' | '\u{fffe}' | '\u{ffff}') && !c.is_control()
+    };
+    if text.chars().all(is_plain) {
+        return text.into();
+    }
+    let mut escaped = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&apos;"),
+            '\n' => escaped.push_str("&#10;"),
+            '\t' => escaped.push_str("&#9;"),
+            c if is_plain(c) => escaped.push(c),
+            _ => escaped.push('\u{fffd}'),
+        }
+    }
+    escaped.into()
+}

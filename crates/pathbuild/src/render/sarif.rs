@@ -1,0 +1,137 @@
+//! SARIF 2.1.0, as GitHub code scanning and others read it: names of files relative to the source root, the path as a logical
+//! location, place and handle as properties.
+
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::{Code, Diagnostic, Severity, page};
+use serde_json::{Value as Json, json};
+
+use super::{View, place};
+use crate::report::{Findings, Fingerprint};
+
+/// GitHub refuses a run with more.
+const MOST_RESULTS: usize = 25_000;
+
+pub(super) fn render(findings: &Findings, view: &View) -> String {
+    let rules: Vec<Code> =
+        findings.diagnostics.iter().map(Diagnostic::code).collect::<BTreeSet<_>>().into_iter().collect();
+    let fingerprints = Fingerprint::of(&findings.diagnostics);
+    let mut results: Vec<_> = findings.diagnostics.iter().zip(fingerprints).collect();
+    let left_out = results.len().saturating_sub(MOST_RESULTS);
+    if left_out > 0 {
+        results.sort_by_key(|(diagnostic, _)| diagnostic.severity);
+        results.truncate(MOST_RESULTS);
+    }
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": {
+                "name": "pathbuild",
+                "version": env!("CARGO_PKG_VERSION"),
+                "rules": rules.iter().map(|code| rule(*code, view)).collect::<Vec<_>>(),
+            } },
+            "columnKind": "unicodeCodePoints",
+            "invocations": [invocation(left_out, view)],
+            "results": results.into_iter().map(|(diagnostic, it)| result(diagnostic, it, &rules, view)).collect::<Vec<_>>(),
+        }],
+    });
+    format!("{log:#}\n")
+}
+
+fn rule(code: Code, view: &View) -> Json {
+    let mut rule = json!({
+        "id": code.to_string(),
+        "name": code.name(),
+        "shortDescription": { "text": code.name().replace('-', " ") },
+        "defaultConfiguration": { "level": level(code.severity()) },
+    });
+    if let Some(page) = page(code, view.lang) {
+        rule["help"] = json!({ "text": page, "markdown": page });
+    }
+    rule
+}
+
+fn invocation(left_out: usize, view: &View) -> Json {
+    let mut invocation = json!({ "executionSuccessful": true });
+    if left_out > 0 {
+        let text = view.choose("{n} further results are left out", "{n} weitere Ergebnisse sind weggelassen");
+        let text = text.replace("{n}", &left_out.to_string());
+        invocation["toolExecutionNotifications"] =
+            json!([{ "level": "warning", "message": { "text": text } }]);
+    }
+    invocation
+}
+
+fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], view: &View) -> Json {
+    let at = &diagnostic.place;
+    json!({
+        "ruleId": diagnostic.code().to_string(),
+        "ruleIndex": rules.binary_search(&diagnostic.code()).unwrap_or_default(),
+        "level": level(diagnostic.severity),
+        "message": { "text": message(diagnostic, view) },
+        "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
+        "relatedLocations": diagnostic.trace.iter().map(|step| json!({
+            "message": { "text": place::embedding(step, view) },
+            "physicalLocation": { "artifactLocation": artifact(&view.name(&step.file)) },
+        })).collect::<Vec<_>>(),
+        "partialFingerprints": { "pathbuild/v1": fingerprint.to_string() },
+        "properties": {
+            "layer": at.layer,
+            "handle": at.handle.map(|handle| handle.to_string()),
+            "entity": at.entity.map(pathbuild_diagnostic::EntityKind::name),
+            "x": at.point.map(|point| point.x.0),
+            "y": at.point.map(|point| point.y.0),
+        },
+    })
+}
+
+/// The message, its help, and the place, which no reader of SARIF shows otherwise.
+fn message(diagnostic: &Diagnostic, view: &View) -> String {
+    let element = place::element(diagnostic, view);
+    let parts = [
+        Some(diagnostic.text(view.lang)),
+        diagnostic.help(view.lang),
+        (!element.is_empty()).then_some(element),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
+}
+
+fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {
+    let file = view.file(diagnostic)?;
+    let mut region = json!({ "startLine": diagnostic.place.line.unwrap_or(1) });
+    if let Some(column) = diagnostic.place.column {
+        region["startColumn"] = json!(column);
+    }
+    let mut location =
+        json!({ "physicalLocation": { "artifactLocation": artifact(&file), "region": region } });
+    if let Some(path) = &diagnostic.path {
+        location["logicalLocations"] = json!([{ "name": path, "kind": "function" }]);
+    }
+    Some(location)
+}
+
+fn artifact(file: &str) -> Json {
+    match file.strip_prefix('/') {
+        Some(_) => json!({ "uri": format!("file://{}", encoded(file)) }),
+        None => json!({ "uri": encoded(file), "uriBaseId": "%SRCROOT%" }),
+    }
+}
+
+/// A name of a file as part of a URI: every byte but those that need no escape is written as %XX.
+fn encoded(name: &str) -> String {
+    let encode = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' | b'~' => {
+            char::from(byte).to_string()
+        }
+        _ => format!("%{byte:02X}"),
+    };
+    name.bytes().map(encode).collect()
+}
+
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    }
+}

@@ -1,0 +1,111 @@
+//! Known findings: a text file with one line each, which a person can read, merge and shorten. Only the fingerprint at the beginning
+//! of a line counts; what follows says what it was. Empty lines and lines that begin with `#` are remarks.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Diagnostic, TextFault};
+
+use super::{Findings, Fingerprint};
+use crate::files;
+use crate::render::{View, render_line};
+
+/// The findings that are known and not to be reported.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Baseline {
+    fingerprints: BTreeSet<String>,
+}
+
+/// Findings without the known ones.
+pub(super) struct Compared {
+    /// What is not known.
+    pub(super) new: Findings,
+    /// How many are known.
+    pub(super) known: usize,
+    /// How many entries no longer stand for anything.
+    pub(super) gone: usize,
+}
+
+impl Baseline {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
+        let text = files::read(file).map_err(|reason| {
+            vec![
+                Diagnostic::new(&messages::BASELINE_UNREADABLE)
+                    .in_file(file)
+                    .with("reason", reason.to_string()),
+            ]
+        })?;
+        Self::parse(file, &text)
+    }
+
+    /// The text of a file that makes all these findings known.
+    pub fn text(findings: &Findings, view: &View) -> String {
+        let mut text = HEAD.to_owned();
+        for (diagnostic, fingerprint) in
+            findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics))
+        {
+            _ = write!(text, "{fingerprint} {}", render_line(diagnostic, view));
+        }
+        text
+    }
+
+    pub(super) fn compare(&self, findings: Findings) -> Compared {
+        let fingerprints = Fingerprint::of(&findings.diagnostics);
+        let found = findings.diagnostics.len();
+        let is_new =
+            |(_, fingerprint): &(_, Fingerprint)| !self.fingerprints.contains(&fingerprint.to_string());
+        let new: Vec<_> = findings
+            .diagnostics
+            .into_iter()
+            .zip(fingerprints)
+            .filter(is_new)
+            .map(|(diagnostic, _)| diagnostic)
+            .collect();
+        let known = found - new.len();
+        Compared {
+            known,
+            gone: self.fingerprints.len() - known,
+            new: Findings { diagnostics: new, checked: findings.checked },
+        }
+    }
+
+    fn parse(file: &Utf8Path, text: &str) -> Result<Self, Vec<Diagnostic>> {
+        let mut baseline = Self::default();
+        let mut faults = Vec::new();
+        for (number, line) in
+            (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'))
+        {
+            match fingerprint(line) {
+                Some(fingerprint) => _ = baseline.fingerprints.insert(fingerprint.to_owned()),
+                None => faults.push(fault(file, number, line)),
+            }
+        }
+        if faults.is_empty() { Ok(baseline) } else { Err(faults) }
+    }
+}
+
+const HEAD: &str = "\
+# Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` writes this file anew.
+# The fingerprint at the beginning of a line counts; the rest says what it was.
+";
+
+fn fingerprint(line: &str) -> Option<&str> {
+    let word = line.split_whitespace().next()?;
+    let is_hexadecimal = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+    (word.len() == 32 && line.starts_with(word) && word.chars().all(is_hexadecimal)).then_some(word)
+}
+
+fn fault(file: &Utf8Path, number: u32, line: &str) -> Diagnostic {
+    let word =
+        line.len() - line.trim_start().len() + line.split_whitespace().next().unwrap_or_default().len();
+    Diagnostic::new(&messages::BASELINE_LINE)
+        .in_file(file)
+        .at_line(number, Some(1))
+        .with_text(TextFault::new(line, 0..word))
+}

@@ -1,0 +1,86 @@
+use std::time::Duration;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+
+use super::baseline::Compared;
+use super::{Baseline, CheckedFile, Findings, judge, summary};
+use crate::args::{CheckArgs, ReportFile};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::files;
+use crate::render::{View, render};
+
+/// What a check did.
+#[derive(Clone, Debug, Default)]
+pub struct Checked {
+    /// Everything that was found, in any order and as often as it was met.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What was looked at, in order of name.
+    pub files: Vec<CheckedFile>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// Ends a check: severities and baseline applied, findings shown, reports written, the summary, the exit status.
+pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitStatus {
+    let diagnostics = judge(checked.diagnostics, &context.settings);
+    let findings = Findings { checked: checked.files, ..Findings::new(diagnostics) };
+    match &args.baseline {
+        Some(file) if args.update_baseline => {
+            update(context, &context.working_directory.join(file), &findings)
+        }
+        Some(file) => match Baseline::read(&context.working_directory.join(file)) {
+            Ok(baseline) => deliver(context, args, &baseline.compare(findings), checked.time),
+            Err(faults) => context.refuse(faults),
+        },
+        None => deliver(context, args, &Compared { new: findings, known: 0, gone: 0 }, checked.time),
+    }
+}
+
+fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Duration) -> ExitStatus {
+    let findings = &compared.new;
+    context.show_as_result(findings);
+    let failed = write_reports(context, &args.report, findings);
+    if compared.gone > 0 {
+        let phrase = context.choose(
+            "entries of the baseline are no longer found",
+            "bekannte Meldungen treten nicht mehr auf",
+        );
+        context.printer.detail(format_args!("{} {phrase}", compared.gone));
+    }
+    context.printer.status(summary(findings, compared.known, time, context.lang()));
+    let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
+    let status = if is_wrong { ExitStatus::Errors } else { ExitStatus::Success };
+    if failed.is_empty() { status } else { context.fail(failed) }
+}
+
+fn write_reports(context: &Context, reports: &[ReportFile], findings: &Findings) -> Vec<Diagnostic> {
+    let view = plain_view(context, context.lang());
+    let write = |report: &ReportFile| {
+        let file = context.working_directory.join(&report.file);
+        files::replace(&file, &render(report.format, findings, &view)).err().map(|fault| *fault)
+    };
+    reports.iter().filter_map(write).collect()
+}
+
+fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
+    // In English, so that the file does not change with the language of who writes it.
+    let text = Baseline::text(findings, &plain_view(context, Lang::En));
+    match files::replace(file, &text) {
+        Ok(()) => {
+            let (name, count) = (file.file_name().unwrap_or_default(), findings.diagnostics.len());
+            context.printer.status(format_args!(
+                "{name}: {count} {}",
+                context.choose("known findings", "bekannte Meldungen")
+            ));
+            ExitStatus::Success
+        }
+        Err(fault) => context.fail(vec![*fault]),
+    }
+}
+
+/// The view of somebody who reads a file.
+fn plain_view(context: &Context, lang: Lang) -> View {
+    View { lang, color: false, width: None, base: context.working_directory.clone() }
+}

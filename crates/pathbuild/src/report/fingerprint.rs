@@ -1,0 +1,65 @@
+//! What makes a finding the same finding in another run.
+//!
+//! Hashed are: the code, the *name* of the file without its directories, the path (without regard to case),
+//! the type of the entity, its place to the micrometre, and the faulty characters of its text. So a fingerprint survives when
+//! files are moved, when lines and handles shift, when the CAD renumbers everything, in any language, and when a severity is
+//! changed. It does not survive when the element itself moves in the drawing: then it is worth another look.
+//! Findings that agree in all this are told apart by their number.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use pathbuild_diagnostic::Diagnostic;
+
+/// 128 bits that stay the same as long as the finding does. Shown as 32 hexadecimal digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Fingerprint(u128);
+
+impl Fingerprint {
+    /// Those of findings that stand in their order.
+    pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
+        let mut met: BTreeMap<u128, u32> = BTreeMap::new();
+        let mut fingerprint = |diagnostic| {
+            let hash = hash(diagnostic);
+            let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
+            Self(hash.and(&number.to_le_bytes()).0)
+        };
+        diagnostics.iter().map(&mut fingerprint).collect()
+    }
+}
+
+impl fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:032x}", self.0)
+    }
+}
+
+fn hash(diagnostic: &Diagnostic) -> Hash {
+    let place = &diagnostic.place;
+    let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
+    let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
+    Hash::NEW
+        .and(diagnostic.code().to_string().as_bytes())
+        .and(diagnostic.file.as_ref().and_then(|file| file.file_name()).unwrap_or_default().as_bytes())
+        .and(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
+        .and(place.entity.map_or("", |entity| entity.name()).as_bytes())
+        .and(point.unwrap_or_default().as_bytes())
+        .and(fault.unwrap_or_default().as_bytes())
+}
+
+/// FNV-1a of 128 bits: it must only be the same everywhere and for ever.
+#[derive(Clone, Copy)]
+struct Hash(u128);
+
+impl Hash {
+    const NEW: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+
+    /// The bytes, and a separator that no text contains.
+    fn and(self, bytes: &[u8]) -> Self {
+        bytes
+            .iter()
+            .chain(&[0xff])
+            .fold(self, |hash, byte| Self((hash.0 ^ u128::from(*byte)).wrapping_mul(Self::PRIME)))
+    }
+}

@@ -1,0 +1,101 @@
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use pathbuild_diagnostic::Lang;
+
+use super::Findings;
+
+/// The line that a check ends with: `2,014 paths in 812 drawings: 3 errors in 2 of them, 14 warnings (0.4 s)`. The second number of
+/// errors is that of drawings with errors; `known` is how many findings a baseline held back.
+pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
+    let words = match lang {
+        Lang::En => &EN,
+        Lang::De => &DE,
+    };
+    let paths = findings.checked.iter().map(|file| file.paths.len()).sum();
+    let drawings = findings.checked.len();
+    let errors = match findings.errors() {
+        0 => words.no_errors.to_owned(),
+        errors => format!(
+            "{} {} {} {}",
+            words.count(errors, words.errors),
+            words.within,
+            words.number(erroneous(findings)),
+            words.of_them
+        ),
+    };
+    let warnings = match findings.warnings() {
+        0 => words.no_warnings.to_owned(),
+        warnings => words.count(warnings, words.warnings),
+    };
+    let known = if known == 0 { String::new() } else { format!(", {} {}", words.number(known), words.known) };
+    let seconds = format!("{:.1}", time.as_secs_f64()).replace('.', words.point);
+    let [paths, drawings] = [words.count(paths, words.paths), words.count(drawings, words.drawings)];
+    format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
+}
+
+/// How many drawings have errors.
+fn erroneous(findings: &Findings) -> usize {
+    let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
+    errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()
+}
+
+struct Words {
+    paths: [&'static str; 2],
+    drawings: [&'static str; 2],
+    errors: [&'static str; 2],
+    warnings: [&'static str; 2],
+    no_errors: &'static str,
+    no_warnings: &'static str,
+    within: &'static str,
+    of_them: &'static str,
+    known: &'static str,
+    thousands: &'static str,
+    point: &'static str,
+}
+
+const EN: Words = Words {
+    paths: ["path", "paths"],
+    drawings: ["drawing", "drawings"],
+    errors: ["error", "errors"],
+    warnings: ["warning", "warnings"],
+    no_errors: "no errors",
+    no_warnings: "no warnings",
+    within: "in",
+    of_them: "of them",
+    known: "known",
+    thousands: ",",
+    point: ".",
+};
+
+const DE: Words = Words {
+    paths: ["Pfad", "Pfade"],
+    drawings: ["Zeichnung", "Zeichnungen"],
+    errors: ["Fehler", "Fehler"],
+    warnings: ["Warnung", "Warnungen"],
+    no_errors: "keine Fehler",
+    no_warnings: "keine Warnungen",
+    within: "in",
+    of_them: "davon",
+    known: "bekannt",
+    thousands: ".",
+    point: ",",
+};
+
+impl Words {
+    fn count(&self, count: usize, [one, many]: [&str; 2]) -> String {
+        format!("{} {}", self.number(count), if count == 1 { one } else { many })
+    }
+
+    fn number(&self, number: usize) -> String {
+        let digits = number.to_string();
+        let mut grouped = String::new();
+        for (index, digit) in digits.chars().enumerate() {
+            if index > 0 && (digits.len() - index).is_multiple_of(3) {
+                grouped.push_str(self.thousands);
+            }
+            grouped.push(digit);
+        }
+        grouped
+    }
+}

@@ -1,0 +1,178 @@
+//! What is done with findings before they are shown: once each, in order, judged, compared with a baseline, counted.
+//! (spec/05-command-line.md, spec/80-diagnostics.md)
+
+use std::time::Duration;
+
+use camino::Utf8Path;
+use pathbuild::args::{CommonArgs, Inputs};
+use pathbuild::config;
+use pathbuild::report::{CheckedFile, CheckedPath, Findings, Fingerprint, judge, summary};
+use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::{
+    Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
+};
+
+fn diagnostic() -> Diagnostic {
+    Diagnostic::new(&files::NOT_DXF)
+        .with("found", "x")
+        .in_file(Utf8Path::new("/work/parts/2913.dxf"))
+        .in_path("2913.1P")
+        .at_element(ElementId(3), EntityKind::Line, "2913.1P", Point::new(1.0, 2.0))
+        .with_text(TextFault::new("B5 T5", 0..2))
+}
+
+fn located(mut diagnostic: Diagnostic, line: u32) -> Diagnostic {
+    diagnostic.locate(line, Some(Handle(1)));
+    diagnostic
+}
+
+fn fingerprint(diagnostic: Diagnostic) -> Fingerprint {
+    Fingerprint::of(&[diagnostic])[0]
+}
+
+#[test]
+fn the_same_finding_is_reported_once_however_it_was_met() {
+    let traced = |path: &str| {
+        let mut traced = diagnostic();
+        traced.trace =
+            vec![TraceStep { file: "/work/8001.dxf".into(), path: path.into(), point: Point::new(0.0, 0.0) }];
+        traced
+    };
+    assert_eq!(Findings::new(vec![traced("8001.1P"), diagnostic(), traced("8001.2P")]).diagnostics.len(), 1);
+    assert_eq!(Findings::new(vec![diagnostic().with("found", "y"), diagnostic()]).diagnostics.len(), 2);
+    assert_eq!(
+        Findings::new(vec![diagnostic(), diagnostic().at_point(Point::new(1.0, 2.001))]).diagnostics.len(),
+        2
+    );
+}
+
+#[test]
+fn the_order_is_file_path_place_whatever_came_first() {
+    let sorted = vec![
+        diagnostic().in_file(Utf8Path::new("/work/a.dxf")).in_path("9999.9Z"),
+        located(diagnostic().in_path("2913.0P"), 90),
+        located(diagnostic(), 7),
+        located(diagnostic(), 70),
+    ];
+    let mut shuffled = sorted.clone();
+    shuffled.reverse();
+    shuffled.swap(0, 2);
+    assert_eq!(Findings::new(shuffled).diagnostics, sorted);
+}
+
+#[test]
+fn a_fingerprint_survives_what_does_not_change_the_finding() {
+    let original = fingerprint(located(diagnostic(), 10));
+    assert_eq!(fingerprint(located(diagnostic(), 20)), original, "lines shift");
+    assert_eq!(
+        fingerprint(diagnostic().in_file(Utf8Path::new("/elsewhere/2913.dxf"))),
+        original,
+        "the file is moved"
+    );
+    assert_eq!(fingerprint(diagnostic().in_path("2913.1p")), original, "case of the path's name");
+    assert_eq!(
+        fingerprint(diagnostic().at_point(Point::new(1.0004, 2.0))),
+        original,
+        "less than a micrometre"
+    );
+    assert_eq!(
+        fingerprint(diagnostic().with_text(TextFault::new("B5 T7", 0..2))),
+        original,
+        "another parameter changes"
+    );
+    let mut lowered = diagnostic();
+    lowered.severity = Severity::Warning;
+    assert_eq!(fingerprint(lowered), original, "the severity is changed");
+}
+
+#[test]
+fn a_fingerprint_changes_with_the_finding() {
+    let original = fingerprint(diagnostic());
+    assert_ne!(fingerprint(diagnostic().in_file(Utf8Path::new("/work/parts/2914.dxf"))), original);
+    assert_ne!(fingerprint(diagnostic().in_path("2913.2P")), original);
+    assert_ne!(fingerprint(diagnostic().at_point(Point::new(1.002, 2.0))), original);
+    assert_ne!(fingerprint(diagnostic().with_text(TextFault::new("B6 T5", 0..2))), original);
+    assert_ne!(fingerprint(Diagnostic { message: &files::LIMIT, ..diagnostic() }), original);
+}
+
+#[test]
+fn findings_that_look_alike_have_fingerprints_of_their_own() {
+    let all =
+        Fingerprint::of(&[located(diagnostic(), 1), located(diagnostic(), 2), located(diagnostic(), 3)]);
+    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
+    assert_eq!(all[0], fingerprint(diagnostic()), "one more does not change the first");
+}
+
+/// Fingerprints stand in files of users, so they are for ever.
+#[test]
+fn a_fingerprint_is_the_same_in_every_version() {
+    assert_eq!(fingerprint(diagnostic()).to_string(), "5de19581b4c0da5ba455d08b2bcd2ebf");
+}
+
+#[test]
+fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_file() {
+    let place = tempfile::TempDir::new().unwrap();
+    let directory = Utf8Path::from_path(place.path()).unwrap();
+    let text = "[severity]\nPB007 = \"error\"\nPB008 = \"ignore\"\n\
+        [[severity-in]]\nfiles = [\"old/**\"]\nPB007 = \"ignore\"\nPB112 = \"error\"\n\
+        [[severity-in]]\nfiles = [\"old/new/*.dxf\"]\nPB007 = \"warning\"\n";
+    #[expect(clippy::disallowed_methods, reason = "a test's own file")]
+    std::fs::write(directory.join("pathbuild.toml"), text).unwrap();
+    let (settings, faults) = config::load(&CommonArgs::default(), &Inputs::default(), directory);
+    assert_eq!(faults, []);
+    let judged = |message, file: &str| {
+        let diagnostic = Diagnostic::new(message).in_file(&directory.join(file));
+        judge(vec![diagnostic], &settings).first().map(|diagnostic| diagnostic.severity)
+    };
+    let end = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 7).unwrap();
+    let encoding = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 8).unwrap();
+    assert_eq!(judged(end, "a.dxf"), Some(Severity::Error));
+    assert_eq!(judged(end, "old/a.dxf"), None);
+    assert_eq!(judged(end, "OLD/x/a.dxf"), None);
+    assert_eq!(judged(end, "old/new/a.dxf"), Some(Severity::Warning));
+    assert_eq!(judged(end, "old/new/x/a.dxf"), None);
+    assert_eq!(judged(encoding, "old/new/a.dxf"), None);
+    assert_eq!(judged(&files::EMPTY_FILE, "a.dxf"), Some(Severity::Error));
+    assert_eq!(judge(vec![Diagnostic::new(end)], &settings)[0].severity, Severity::Error, "without a file");
+}
+
+#[test]
+fn the_summary_counts_and_agrees_in_number() {
+    let path = || CheckedPath { name: "1234.1P".into(), time: None };
+    let file = |paths: usize| CheckedFile {
+        file: "a.dxf".into(),
+        paths: std::iter::repeat_with(path).take(paths).collect(),
+    };
+    let of = |diagnostics: Vec<Diagnostic>, checked: Vec<CheckedFile>| Findings {
+        checked,
+        ..Findings::new(diagnostics)
+    };
+    let warning = |line| {
+        let mut warning = located(diagnostic(), line);
+        warning.severity = Severity::Warning;
+        warning
+    };
+    let time = Duration::from_millis(449);
+    let none = of(vec![], vec![]);
+    assert_eq!(summary(&none, 0, time, Lang::En), "0 paths in 0 drawings: no errors, no warnings (0.4 s)");
+    let one = of(vec![located(diagnostic(), 1), warning(2)], vec![file(1)]);
+    assert_eq!(
+        summary(&one, 1, time, Lang::En),
+        "1 path in 1 drawing: 1 error in 1 of them, 1 warning, 1 known (0.4 s)"
+    );
+    assert_eq!(
+        summary(&one, 0, time, Lang::De),
+        "1 Pfad in 1 Zeichnung: 1 Fehler in 1 davon, 1 Warnung (0,4 s)"
+    );
+    let other = diagnostic().in_file(Utf8Path::new("/work/b.dxf"));
+    let errors = vec![located(diagnostic(), 1), located(diagnostic(), 2), other, warning(3), warning(4)];
+    let many = of(errors, vec![file(1_000), file(1_014)]);
+    assert_eq!(
+        summary(&many, 0, time, Lang::En),
+        "2,014 paths in 2 drawings: 3 errors in 2 of them, 2 warnings (0.4 s)"
+    );
+    assert_eq!(
+        summary(&many, 0, time, Lang::De),
+        "2.014 Pfade in 2 Zeichnungen: 3 Fehler in 2 davon, 2 Warnungen (0,4 s)"
+    );
+}
