@@ -73,14 +73,12 @@ pub struct Limits {
 }
 
 impl Restriction {
-    /// A rule as it is written; split at the first colon.
+    /// A rule of two regular expressions.
     ///
     /// # Errors
-    /// When there is no colon, or a side is no regular expression; with the reason.
-    pub fn parse(rule: &str) -> Result<Self, String> {
-        let (parent, child) = rule.split_once(':').ok_or("there is no \":\" in it")?;
-        let compile = |pattern: &str| Regex::new(pattern).map_err(|error| error.to_string());
-        Ok(Self { parent: compile(parent)?, child: compile(child)? })
+    /// When one of them is none.
+    pub fn new(parent: &str, child: &str) -> Result<Self, regex::Error> {
+        Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
     }
 
     /// Whether the rule is about what this path embeds.

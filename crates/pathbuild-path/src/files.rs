@@ -29,6 +29,12 @@ struct FilePart(Vec<Box<str>>);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathKey(Vec<Box<str>>);
 
+impl Default for FilePattern {
+    fn default() -> Self {
+        Self::new(Self::DEFAULT).expect("the default pattern is a regular expression")
+    }
+}
+
 impl FilePattern {
     /// The default: `1234` or `1234.5`.
     pub const DEFAULT: &str = "([0-9]{4})(?:[.]([0-9]+))?";

@@ -24,6 +24,12 @@ pub struct PathLayer {
     pub tilde: bool,
 }
 
+impl Default for PathPattern {
+    fn default() -> Self {
+        Self::new(Self::DEFAULT).expect("the default pattern is a regular expression")
+    }
+}
+
 impl PathPattern {
     /// The default: `2913.2P`.
     pub const DEFAULT: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";

@@ -233,9 +233,21 @@ impl Path {
         self.sweep_height.unwrap_or(self.thickness + self.tool)
     }
 
-    /// S of the path where it is emitted: its own, else the option's.
-    pub fn emitted_sweep_height(&self, option: f64) -> f64 {
-        self.sweep_height.unwrap_or(option)
+    /// S of the path where it is emitted: its own, else the option's; `None` where neither says.
+    pub fn emitted_sweep_height(&self, option: Option<f64>) -> Option<f64> {
+        self.sweep_height.or(option)
+    }
+
+    /// Whether anything in it is milled at the feed of the options.
+    pub fn needs_feed(&self) -> bool {
+        self.feed.is_none()
+            && self.segments.iter().any(|segment| match &segment.kind {
+                // Coming down to a chain's edge is reckoned with the path's feed, whatever its segments say.
+                SegmentKind::Cut(_) => true,
+                SegmentKind::Hole(hole) => hole.feed.is_none(),
+                SegmentKind::Helix(helix) => helix.feed.is_none(),
+                SegmentKind::Sweep(_) | SegmentKind::Subpath(_) => false,
+            })
     }
 
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with

@@ -21,6 +21,9 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     for path in without_elements {
         diagnostics.extend(path.orphans());
     }
+    for path in &mut collected {
+        path.assign_texts();
+    }
     let starts = starts(&collected);
     let paths = collected.into_iter().map(|path| path.finish(&starts)).collect();
     RawFile { paths, diagnostics }

@@ -25,20 +25,21 @@ pub trait Parts {
 }
 
 /// What the options say where the drawing says nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FoldOptions {
-    /// --feed: F in mm/min.
-    pub feed: f64,
-    /// --sweep-height: S of the emitted path in mm.
-    pub sweep_height: f64,
+    /// --feed: F in mm/min. Paths that need it must not be folded without it.
+    pub feed: Option<f64>,
+    /// --sweep-height: S of the emitted path in mm; likewise.
+    pub sweep_height: Option<f64>,
 }
 
 /// Makes the program of a path. Every path in it must be free of errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions) -> Program {
     let path = parts.path(root);
-    let sweep_height = path.emitted_sweep_height(options.sweep_height);
+    let sweep_height = path.emitted_sweep_height(options.sweep_height).unwrap_or_default();
     let mut program = Program {
         path: path.name.as_str().into(),
+        output_suffix: path.output_suffix.clone(),
         drawing: drawing.into(),
         tool: path.tool,
         sweep_height,
@@ -47,7 +48,7 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
     };
     let mut fold = Fold {
         parts,
-        feed: options.feed,
+        feed: options.feed.unwrap_or_default(),
         tip: Tip { at: Xy::origin(), z: program.start_height() },
         steps: Vec::new(),
         names: Names::default(),

@@ -83,7 +83,14 @@ impl<P: Parts> Fold<'_, P> {
 
     fn half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
         let height = Height { z, at: circle.centre };
-        let half = Move::Arc { feed: circle.feed, clockwise: true, centre: Xy::new(0.0, j), to, z: height };
+        let half = Move::Arc {
+            feed: circle.feed,
+            clockwise: true,
+            centre: Xy::new(0.0, j),
+            to,
+            z: height,
+            is_spiral: true,
+        };
         let count = Count { class: Class::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
         self.step(half, count, Tip { at: to, z });
     }

@@ -32,7 +32,7 @@ impl<P: Parts> Fold<'_, P> {
             Curve::Line(_) => Move::Line { feed, to, z },
             Curve::Arc(arc) => {
                 let centre = (arc.centre - arc.start).into();
-                Move::Arc { feed, clockwise: arc.clockwise, centre, to, z }
+                Move::Arc { feed, clockwise: arc.clockwise, centre, to, z, is_spiral: false }
             }
         };
         self.step(to, count, tip);

@@ -9,6 +9,8 @@ use pathbuild_path::Xy;
 pub struct Program {
     /// The emitted path's name, as the drawing spells its layer, with points.
     pub path: Box<str>,
+    /// R: what is added to the names of its files.
+    pub output_suffix: Box<str>,
     /// The drawing's file name, without directory.
     pub drawing: Box<str>,
     /// Cutter diameter O in mm.
@@ -67,8 +69,9 @@ pub enum Move {
     Drill { z: Height },
     /// `G01 F X Y Z`.
     Line { feed: f64, to: Xy, z: Height },
-    /// `G02`/`G03 F I J X Y Z`; `centre` is relative to where the arc begins, as I and J are.
-    Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height },
+    /// `G02`/`G03 F I J X Y Z`; `centre` is relative to where the arc begins, as I and J are. `is_spiral`: a half circle of a helical
+    /// circle, which the native dialect writes with a plain `I0`.
+    Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
 /// A height, and the point whose measured material height corrects it in programs with probes. (spec/60-gcode.md, `Z<expr(z, xy)>`)

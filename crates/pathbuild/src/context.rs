@@ -64,6 +64,19 @@ impl Context {
         ExitStatus::Errors
     }
 
+    /// Refuses to run without anything to work on.
+    pub fn nothing_named(&self, command: &str) -> ExitStatus {
+        self.usage(&format!(
+            "nothing to {command}: name drawings, paths or directories, or set `library` in pathbuild.toml"
+        ))
+    }
+
+    /// Says what is wrong with the command line.
+    pub fn usage(&self, reason: &str) -> ExitStatus {
+        self.printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
+        ExitStatus::Usage
+    }
+
     /// The view of somebody who looks at that stream.
     pub fn view(&self, stream: Stream) -> View {
         View {

@@ -10,6 +10,7 @@ mod files;
 pub mod printer;
 pub mod render;
 pub mod report;
+pub mod session;
 mod usage;
 
 use std::ffi::OsString;

@@ -12,12 +12,13 @@ use crate::database::Db;
 use crate::inputs::Target;
 use crate::settings::Settings;
 
-/// Joins a path and all that it embeds into a program; `None` where any of them has errors. Programs are large and used once: only
+/// Joins a path and all that it embeds into a program; `None` where any of them has errors or an option
+/// is missing. Programs are large and used once: only
 /// the last few are kept.
 #[salsa::tracked(lru = 16)]
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);
-    if closure.has_errors() {
+    if closure.has_errors() || !closure.missing_options.is_empty() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();

@@ -75,8 +75,19 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
     find_in(db, directories, name)
 }
 
+/// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would
+/// reclaim there.)
+pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
+    let pattern = &Settings::get(db).language(db).path_pattern;
+    let Some(key) = PathKey::new(name.as_str(), pattern) else { return Vec::new() };
+    let table = name_table(db, directory);
+    let files = table.ranges.files(&key).into_iter();
+    let files = files.map(|file| db.file(&joined(directory.path(db), &table.names[file as usize])));
+    files.filter(|file| super::raw::path_names(db, *file).contains(name)).collect()
+}
+
 /// Where a path is in some directories, whose names must be normalised.
-pub(crate) fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'db>) -> Found {
+fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'db>) -> Found {
     let mut searched: Vec<SourceFile> = Vec::new();
     for directory in &directories {
         for file in files_for(db, db.directory(directory), name) {
@@ -101,7 +112,7 @@ pub(crate) fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name:
 }
 
 /// The names of paths in files that were searched, for proposing near ones.
-pub(crate) fn names_in(db: &dyn Db, files: &[SourceFile]) -> Vec<PathName> {
+pub(super) fn names_in(db: &dyn Db, files: &[SourceFile]) -> Vec<PathName> {
     files.iter().flat_map(|file| super::raw::path_names(db, *file)).cloned().collect()
 }
 

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, Path, PathName};
-use pathbuild_toolpath::own_moves;
+use pathbuild_toolpath::{FoldOptions, own_moves};
 
 use super::embedding::{Embedding, Outcome, embeds};
 use super::hints::with_other_layers;
@@ -27,6 +27,17 @@ pub struct Closure<'db> {
     pub diagnostics: Vec<Diagnostic>,
     /// About how many moves the program comes to.
     pub moves: u64,
+    /// Values of the options that the program cannot be made without, and that are not given.
+    pub missing_options: Vec<MissingOption>,
+}
+
+/// An option that must be given because a path does not say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MissingOption {
+    /// `--feed`.
+    Feed,
+    /// `--sweep-height`.
+    SweepHeight,
 }
 
 /// A path that a target reaches.
@@ -65,7 +76,13 @@ pub fn closure<'db>(db: &'db dyn Db, target: Target) -> Closure<'db> {
         walk.reached.push(Reached { instance: root, depth: 0 });
         walk.report_all(root, missing);
     }
-    Closure { root: Some(root), reached: walk.reached, diagnostics: walk.diagnostics, moves: walk.moves }
+    Closure {
+        root: Some(root),
+        reached: walk.reached,
+        diagnostics: walk.diagnostics,
+        moves: walk.moves,
+        missing_options: walk.missing_options,
+    }
 }
 
 impl Closure<'_> {
@@ -90,7 +107,8 @@ impl Closure<'_> {
 struct Walk<'db> {
     db: &'db dyn Db,
     is_emitted: bool,
-    sweep_height: f64,
+    options: FoldOptions,
+    missing_options: Vec<MissingOption>,
     limit: u64,
     reached: Vec<Reached<'db>>,
     diagnostics: Vec<Diagnostic>,
@@ -115,7 +133,8 @@ impl<'db> Walk<'db> {
         Self {
             db,
             is_emitted: *role == Role::Emitted,
-            sweep_height: settings.fold(db).sweep_height,
+            options: settings.fold(db),
+            missing_options: Vec::new(),
             limit: settings.limits(db).moves,
             reached: Vec::new(),
             diagnostics: Vec::new(),
@@ -149,12 +168,9 @@ impl<'db> Walk<'db> {
         let bound = path(self.db, instance);
         let mut has_errors = self.report_all(instance, bound.diagnostics.clone());
         let Some(path) = &bound.path else { return true };
-        let sweep_height = if depth == 0 && self.is_emitted {
-            path.emitted_sweep_height(self.sweep_height)
-        } else {
-            path.embedded_sweep_height()
-        };
-        has_errors |= self.report_all(instance, path.check_sweep_height(sweep_height));
+        if let Some(sweep_height) = self.sweep_height_of(path, depth) {
+            has_errors |= self.report_all(instance, path.check_sweep_height(sweep_height));
+        }
         if has_errors {
             return true;
         }
@@ -165,6 +181,30 @@ impl<'db> Walk<'db> {
             has_errors |= self.visit_embedding(instance, path, embedding, depth);
         }
         has_errors
+    }
+
+    /// S of a path in its role; `None` where nobody says, which is noted.
+    fn sweep_height_of(&mut self, path: &Path, depth: u32) -> Option<f64> {
+        if !self.is_emitted {
+            return Some(path.embedded_sweep_height());
+        }
+        if path.needs_feed() && self.options.feed.is_none() {
+            self.miss(MissingOption::Feed);
+        }
+        if depth > 0 {
+            return Some(path.embedded_sweep_height());
+        }
+        let sweep_height = path.emitted_sweep_height(self.options.sweep_height);
+        if sweep_height.is_none() {
+            self.miss(MissingOption::SweepHeight);
+        }
+        sweep_height
+    }
+
+    fn miss(&mut self, option: MissingOption) {
+        if !self.missing_options.contains(&option) {
+            self.missing_options.push(option);
+        }
     }
 
     fn visit_embedding(

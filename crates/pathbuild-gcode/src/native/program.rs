@@ -97,10 +97,14 @@ impl Writer<'_> {
                 self.xy(*to);
                 self.z(z);
             }
-            Move::Arc { feed, clockwise, centre, to, z } => {
+            Move::Arc { feed, clockwise, centre, to, z, is_spiral } => {
                 self.text.push_str(if *clockwise { "G02" } else { "G03" });
                 self.word('F', *feed);
-                self.word('I', centre.x);
+                if *is_spiral {
+                    self.text.push_str(" I0");
+                } else {
+                    self.word('I', centre.x);
+                }
                 self.word('J', centre.y);
                 self.xy(*to);
                 self.z(z);

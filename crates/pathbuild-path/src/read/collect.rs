@@ -129,9 +129,8 @@ impl Collected {
         diagnostics
     }
 
-    /// Assigns texts and checks what needs no values.
+    /// Checks what needs no values.
     pub(crate) fn finish(mut self, starts: &Starts) -> (RawPath, SourceMap) {
-        self.sort_elements();
         self.check_markers();
         self.check_parameters(starts);
         (self.raw, self.map)
@@ -296,8 +295,8 @@ impl Collected {
         self.texts.add_candidate(entity.layer, &origin.layer, candidate, owner);
     }
 
-    /// Puts the elements into the order of segments, after their texts are assigned by file order.
-    fn sort_elements(&mut self) {
+    /// Gives each text to its element, then puts the elements into the order of segments.
+    pub(crate) fn assign_texts(&mut self) {
         let texts = std::mem::take(&mut self.texts);
         // A broken entity may be what the text belongs to.
         let is_blamed_on_text = !self.has_broken_entity;

@@ -1,6 +1,8 @@
 //! One module for each command: `run(&Context, &Args) -> ExitStatus`.
 
+pub mod check;
 pub mod config;
+pub mod emit;
 pub mod init;
 
 use crate::args::{Command, Format};
@@ -13,6 +15,8 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         return refuse(context, &refusal);
     }
     match command {
+        Command::Check(args) => check::run(context, args),
+        Command::Emit(args) => emit::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -23,6 +23,13 @@ pub(crate) trait Choice: Copy + PartialEq + 'static {
     const ALL: &[(&str, Self)];
 }
 
+impl LineType {
+    /// The usual name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, it)| *it == self).map_or("", |(name, _)| name)
+    }
+}
+
 impl Choice for Lang {
     const ALL: &[(&str, Self)] = &[("en", Self::En), ("de", Self::De)];
 }

@@ -1,0 +1,66 @@
+//! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
+
+mod library;
+mod outputs;
+mod resolve;
+mod settings;
+mod work;
+
+use std::sync::Arc;
+
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::OsSystem;
+use pathbuild_db::{Database, Db, SourceFile};
+
+use crate::context::Context;
+
+pub use outputs::{Output, outputs};
+pub use resolve::{Wanted, WantedPath};
+pub use work::CheckedTarget;
+
+/// A database with the run's settings.
+#[derive(Debug)]
+pub struct Session<'a> {
+    db: Database,
+    context: &'a Context,
+}
+
+impl<'a> Session<'a> {
+    /// A session over the files of the operating system.
+    pub fn new(context: &'a Context) -> Self {
+        let db = Database::new(Arc::new(OsSystem));
+        settings::apply(&db, context);
+        Self { db, context }
+    }
+
+    /// The database.
+    pub fn db(&self) -> &Database {
+        &self.db
+    }
+
+    fn file(&self, path: &Utf8Path) -> SourceFile {
+        self.db.file(&self.normal(path))
+    }
+
+    /// The one spelling of a path: relative to the working directory where it lies below it, without `.` and `x/..`.
+    fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
+        normal(path, &self.context.working_directory)
+    }
+}
+
+fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
+    let relative = path.strip_prefix(working_directory).unwrap_or(path);
+    let mut normal = Utf8PathBuf::new();
+    for component in relative.components() {
+        match component {
+            Utf8Component::CurDir => {}
+            Utf8Component::ParentDir
+                if matches!(normal.components().next_back(), Some(Utf8Component::Normal(_))) =>
+            {
+                normal.pop();
+            }
+            other => normal.push(other),
+        }
+    }
+    normal
+}

@@ -1,0 +1,164 @@
+//! Which drawings and paths the arguments mean. (spec/05-command-line.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, SourceFile, holders, path_names};
+use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_path::PathName;
+
+use super::{Session, library};
+use crate::args::{Input, Inputs};
+
+/// What arguments come to.
+#[derive(Debug, Default)]
+pub struct Wanted {
+    /// Drawings that were named, or lie in directories that were.
+    pub drawings: Vec<WantedDrawing>,
+    /// Paths that were named.
+    pub paths: Vec<WantedPath>,
+    /// Names that mean nothing, or too much.
+    pub problems: Vec<Diagnostic>,
+}
+
+/// A drawing that was asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct WantedDrawing {
+    /// The drawing.
+    pub file: SourceFile,
+    /// Whether it was named itself, not the directory that it lies in.
+    pub is_named: bool,
+}
+
+/// A path that was asked for by its name.
+#[derive(Clone, Debug)]
+pub struct WantedPath {
+    /// The drawing that defines it.
+    pub file: SourceFile,
+    /// As the drawing spells it.
+    pub name: PathName,
+}
+
+impl Session<'_> {
+    /// What the arguments mean; without any, the library.
+    pub fn wanted(&self, inputs: &Inputs) -> Wanted {
+        let mut wanted = Wanted::default();
+        for input in inputs.iter() {
+            match input {
+                Input::Place(place) => self.add_place(place, &mut wanted),
+                Input::Name(name) => self.add_name(name, &mut wanted),
+            }
+        }
+        if inputs.inputs.is_empty() {
+            for drawing in self.library() {
+                wanted.add_drawing(self.file(&drawing), false);
+            }
+        }
+        wanted
+    }
+
+    /// Whether the configuration says what to do without arguments.
+    pub fn has_library(&self) -> bool {
+        !self.context.settings.general.library.value.is_empty()
+    }
+
+    /// The drawings of the configured library.
+    pub fn library(&self) -> Vec<Utf8PathBuf> {
+        let directories = self.context.settings.general.library.value.iter();
+        directories.flat_map(|directory| library::drawings(&self.normal(directory))).collect()
+    }
+
+    fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
+        let normal = self.normal(place);
+        let is_directory = self.db.system().kind(&normal) == Kind::Directory;
+        if is_directory && !library::is_drawing(&normal) {
+            for drawing in library::drawings(&normal) {
+                wanted.add_drawing(self.file(&drawing), false);
+            }
+        } else {
+            wanted.add_drawing(self.db.file(&normal), true);
+        }
+    }
+
+    fn add_name(&self, name: &str, wanted: &mut Wanted) {
+        let directories = self.directories();
+        match self.definitions(&PathName::new(name), &directories).as_slice() {
+            [] => match self.drawing_of_name(name, &directories) {
+                Some(drawing) => wanted.add_drawing(drawing, true),
+                None => wanted.problems.push(nowhere(name, &directories)),
+            },
+            [file] => {
+                let spelt = path_names(&self.db, *file).iter().find(|known| **known == PathName::new(name));
+                let name = spelt.cloned().unwrap_or_else(|| PathName::new(name));
+                wanted.paths.push(WantedPath { file: *file, name });
+            }
+            [first, second, ..] => {
+                let problem = Diagnostic::new(&subpaths::DEFINED_TWICE)
+                    .with("name", name)
+                    .with("first", first.path(&self.db).as_str())
+                    .with("second", second.path(&self.db).as_str());
+                wanted.problems.push(problem.in_file(first.path(&self.db)));
+            }
+        }
+    }
+
+    /// Where names are looked for: the working directory, the search directories, the library and what is below it.
+    fn directories(&self) -> Vec<Utf8PathBuf> {
+        let general = &self.context.settings.general;
+        let mut directories = vec![Utf8PathBuf::new()];
+        let searched = general.search.value.iter().map(|directory| self.normal(directory));
+        let library =
+            self.library().into_iter().filter_map(|drawing| drawing.parent().map(Utf8Path::to_owned));
+        for directory in searched.chain(library.map(|directory| self.normal(&directory))) {
+            if !directories.contains(&directory) {
+                directories.push(directory);
+            }
+        }
+        directories
+    }
+
+    /// The files that define a path, each once.
+    fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
+        let mut files: Vec<SourceFile> = Vec::new();
+        let mut seen = Vec::new();
+        for directory in directories {
+            for file in holders(&self.db, self.db.directory(directory), name) {
+                let canonical = self.db.system().canonical(file.path(&self.db));
+                if !seen.contains(&canonical) {
+                    seen.push(canonical);
+                    files.push(file);
+                }
+            }
+        }
+        files
+    }
+
+    fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
+        directories.iter().find_map(|directory| {
+            let in_any_case = |entry: &pathbuild_db::system::Entry| {
+                Utf8Path::new(&*entry.name).file_stem() == Some(name)
+                    && library::is_drawing(Utf8Path::new(&*entry.name))
+            };
+            let listed = self.db.system().list(directory).ok()?;
+            let entry = listed.into_iter().find(in_any_case)?;
+            Some(self.file(&directory.join(&*entry.name)))
+        })
+    }
+}
+
+impl Wanted {
+    fn add_drawing(&mut self, file: SourceFile, is_named: bool) {
+        match self.drawings.iter_mut().find(|known| known.file == file) {
+            Some(known) => known.is_named |= is_named,
+            None => self.drawings.push(WantedDrawing { file, is_named }),
+        }
+    }
+}
+
+fn nowhere(name: &str, directories: &[Utf8PathBuf]) -> Diagnostic {
+    let shown = |directory: &Utf8PathBuf| {
+        if directory.as_str().is_empty() { ".".to_owned() } else { directory.to_string() }
+    };
+    let directories: Value = directories.iter().map(shown).collect();
+    Diagnostic::new(&messages::NO_SUCH_PATH).with("name", name).with("directories", directories)
+}

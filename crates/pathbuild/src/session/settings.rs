@@ -1,0 +1,56 @@
+//! The configuration as the database takes it.
+
+use std::sync::Arc;
+
+use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
+use pathbuild_dxf::Units;
+use pathbuild_path::{FilePattern, Language, LineType, LineTypeAliases, PathPattern};
+use pathbuild_toolpath::FoldOptions;
+
+use super::normal;
+use crate::config::types;
+use crate::context::Context;
+
+/// Makes the database's settings. The configuration has been read without faults, so its patterns compile.
+pub(super) fn apply(db: &Database, context: &Context) {
+    let general = &context.settings.general;
+    let limits = &context.settings.limits;
+    let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    let reading = Reading {
+        units: match general.units.value {
+            types::Units::Header => Units::Header,
+            types::Units::Drawing => Units::Drawing,
+            types::Units::Millimetres => Units::Millimetres,
+        },
+        approximate_curves: general.approximate_curves.value,
+        file_size: limits.file_size.value,
+        entities: count(limits.entities.value),
+        text_length: count(limits.text_length.value),
+    };
+    let language = Language {
+        path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
+        line_types: aliases(context),
+        text_limit: reading.text_length,
+    };
+    let search = general.search.value.iter();
+    let lookup = Lookup {
+        file_pattern: FilePattern::new(&general.file_pattern.value).unwrap_or_default(),
+        search: search.map(|directory| normal(directory, &context.working_directory)).collect(),
+    };
+    let rules = general.restrict.value.iter();
+    let restrictions = rules.filter_map(|rule| Restriction::new(&rule.parent, &rule.child).ok()).collect();
+    let fold = FoldOptions { feed: general.feed.value, sweep_height: general.sweep_height.value };
+    let limits = Limits { moves: limits.embedding_moves.value };
+    _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
+}
+
+fn aliases(context: &Context) -> LineTypeAliases {
+    let mut aliases = LineTypeAliases::default();
+    for alias in &context.settings.tables.line_types.value {
+        let name = types::LineType::name(alias.means);
+        if let Some((_, line_type)) = LineType::NAMES.iter().find(|(known, _)| *known == name) {
+            aliases.insert(&alias.name, *line_type);
+        }
+    }
+    aliases
+}

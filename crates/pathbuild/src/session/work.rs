@@ -1,0 +1,83 @@
+//! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
+
+use std::sync::Arc;
+
+use pathbuild_db::{Database, MissingOption, Role, SourceFile, Target, closure, locate, path_names, program};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_toolpath::Program;
+use rayon::prelude::*;
+
+use super::{Session, WantedPath};
+
+/// What came of a target.
+#[derive(Debug)]
+pub struct CheckedTarget {
+    /// What was asked for.
+    pub target: Target,
+    /// What is wrong with it and all it embeds, located.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The drawings that it was made from, its own first.
+    pub files: Vec<SourceFile>,
+    /// Options that it needs and that nobody gave.
+    pub missing_options: Vec<MissingOption>,
+    /// Its program, where it was asked for and nothing is wrong.
+    pub program: Option<Arc<Program>>,
+}
+
+/// Stacks of worker threads: queries call each other once for each level of embedding.
+const STACK_SIZE: usize = 16 << 20;
+
+impl Session<'_> {
+    /// A target for each path of a file.
+    pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
+        let names = path_names(&self.db, file).iter();
+        names.map(|name| Target::new(&self.db, file, name.as_str().into(), role.clone())).collect()
+    }
+
+    /// The target for a path that was named.
+    pub fn target(&self, path: &WantedPath, role: Role) -> Target {
+        Target::new(&self.db, path.file, path.name.as_str().into(), role)
+    }
+
+    /// Reads files ahead, on all cores.
+    pub fn read_ahead(&self, files: &[SourceFile]) {
+        self.spread(files, |db, file| {
+            path_names(db, *file);
+        });
+    }
+
+    /// Checks targets; the order of the results is that of the targets.
+    pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
+        self.spread(targets, |db, target| check(db, *target, false))
+    }
+
+    /// Checks targets and makes the programs of those that are right.
+    pub fn make(&self, targets: &[Target]) -> Vec<CheckedTarget> {
+        self.spread(targets, |db, target| check(db, *target, true))
+    }
+
+    /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
+    /// longer than most paths.
+    fn spread<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Database, &T) -> R + Sync) -> Vec<R> {
+        if items.len() <= 1 || self.context.jobs == Some(1) {
+            return items.iter().map(|item| work(&self.db, item)).collect();
+        }
+        let threads = usize::from(self.context.jobs.unwrap_or(0));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build();
+        let Ok(pool) = pool else { return items.iter().map(|item| work(&self.db, item)).collect() };
+        let db = self.db.clone();
+        pool.install(|| items.par_iter().map_with(db, |db, item| work(db, item)).collect())
+    }
+}
+
+fn check(db: &Database, target: Target, is_made: bool) -> CheckedTarget {
+    let reached = closure(db, target);
+    let located = reached.diagnostics.iter().map(|diagnostic| locate(db, diagnostic.clone()));
+    CheckedTarget {
+        target,
+        diagnostics: located.collect(),
+        files: reached.files(db),
+        missing_options: reached.missing_options.clone(),
+        program: if is_made { program(db, target).clone() } else { None },
+    }
+}
