@@ -60,9 +60,7 @@ impl BarPlan {
     }
 
     fn piece(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
-        if to > from {
-            self.pieces.push(Piece { from, to, starts_low, ends_low });
-        }
+        self.pieces.push(Piece { from, to, starts_low, ends_low });
     }
 
     /// The sections along a curve, in order from its start, low parts at `low` and bars at `high`.

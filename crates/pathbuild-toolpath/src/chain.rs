@@ -153,7 +153,7 @@ impl Strand<'_> {
 }
 
 /// Depths from the first down to the bottom, by subtracting again and again.
-pub(crate) fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
+fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
     let mut depths = Vec::new();
     let mut z = first;
     while at_least(z, bottom) {

@@ -6,7 +6,6 @@ use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
 use crate::bars::BarPlan;
-use crate::chain::depths;
 use crate::fold::{Fold, Parts, Place, Tip};
 use crate::program::{Class, Count, ElementKind, Height, Move};
 
@@ -54,9 +53,9 @@ impl<P: Parts> Fold<'_, P> {
         self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
         self.question(helix.comment.as_deref());
         self.sweep(circle.low(), circle.radius);
-        let done = self.spiral(&circle, place.surface, helix.infeed, bottom);
+        let mut done = self.spiral(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
-            self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
+            done = self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
         }
         if !at_least(place.path.tool, helix.radius) {
             self.lift_corrected_at(place.sweep_height, circle.centre, place.sweep_height - done);
@@ -95,7 +94,7 @@ impl<P: Parts> Fold<'_, P> {
         self.step(half, count, Tip { at: to, z });
     }
 
-    /// Below D, full circles with bars, pass by pass down to B.
+    /// Below D, full circles with bars, pass by pass down to B. Gives the depth of the last.
     fn circles_with_bars(
         &mut self,
         place: &Place<'_>,
@@ -103,17 +102,18 @@ impl<P: Parts> Fold<'_, P> {
         (done, infeed): (f64, f64),
         depth: f64,
         bars: &Bars,
-    ) {
+    ) -> f64 {
         let length = 2.0 * PI * circle.radius;
-        let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return };
+        let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
-        for z in depths(done - infeed, infeed, low) {
+        let mut z = done;
+        while above(z, low) {
             self.checkpoint();
-            if above(high, z) {
-                for section in plan.sections(&circle.curve(), z.max(low), high) {
-                    self.mill(&section, place.surface, circle.feed);
-                }
+            z = (z - infeed).max(low);
+            for section in plan.sections(&circle.curve(), z, high) {
+                self.mill(&section, place.surface, circle.feed);
             }
         }
+        z
     }
 }

@@ -28,7 +28,8 @@ pub struct Header {
 
 /// Writes a program. Lines end with LF.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
-    let mut writer = Writer { program, options, text: String::with_capacity(64 * program.steps.len() + 512) };
+    let text = String::with_capacity(64 * program.steps.len() + 512);
+    let mut writer = Writer { program, options, text, at: Xy::origin() };
     writer.line("%");
     writer.header(header);
     writer.line("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1");
@@ -36,7 +37,7 @@ pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> St
     writer.line("G00 X0.000 Y0.000");
     for step in &program.steps {
         match step {
-            Step::Move { to, .. } => writer.step(to),
+            Step::Move { to, count } => writer.step(to, count.length),
             Step::Comment(said) => writer.said(said),
         }
     }
@@ -52,6 +53,8 @@ struct Writer<'a> {
     program: &'a Program,
     options: &'a WriteOptions,
     text: String,
+    /// Where the tool is.
+    at: Xy,
 }
 
 impl Writer<'_> {
@@ -77,11 +80,11 @@ impl Writer<'_> {
         }
     }
 
-    fn step(&mut self, to: &Move) {
-        match to {
+    fn step(&mut self, to: &Move, length: f64) {
+        match *to {
             Move::Sweep { to } => {
                 self.text.push_str("G00");
-                self.xy(*to);
+                self.xy(to);
             }
             Move::Lift { z } => {
                 self.text.push_str("G00");
@@ -93,20 +96,20 @@ impl Writer<'_> {
             }
             Move::Line { feed, to, z } => {
                 self.text.push_str("G01");
-                self.word('F', *feed);
-                self.xy(*to);
+                self.word('F', feed);
+                self.xy(to);
                 self.z(z);
             }
             Move::Arc { feed, clockwise, centre, to, z, is_spiral } => {
-                self.text.push_str(if *clockwise { "G02" } else { "G03" });
-                self.word('F', *feed);
-                if *is_spiral {
+                self.text.push_str(if clockwise { "G02" } else { "G03" });
+                self.word('F', feed);
+                if is_spiral {
                     self.text.push_str(" I0");
                 } else {
                     self.word('I', centre.x);
                 }
                 self.word('J', centre.y);
-                self.xy(*to);
+                self.xy(no_full_circle(self.at, to, centre, clockwise, length));
                 self.z(z);
             }
         }
@@ -120,11 +123,12 @@ impl Writer<'_> {
     }
 
     fn xy(&mut self, to: Xy) {
+        self.at = to;
         self.word('X', to.x);
         self.word('Y', to.y);
     }
 
-    fn z(&mut self, height: &Height) {
+    fn z(&mut self, height: Height) {
         self.word('Z', height.z);
         push_formula(&mut self.text, &self.program.probes, height.z, height.at);
     }
@@ -161,3 +165,21 @@ impl Writer<'_> {
         }
     }
 }
+
+/// Where an arc is said to end. An arc so short that its end is printed like its beginning would be a full circle to every controller,
+/// and would cut off the bar that it stands beside; it is said to end one unit of the last digit further on.
+fn no_full_circle(from: Xy, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
+    let is_short = length < std::f64::consts::PI * centre.coords.norm();
+    if !is_short || (f3(from.x), f3(from.y)) != (f3(to.x), f3(to.y)) {
+        return to;
+    }
+    let (ahead_x, ahead_y) = if clockwise { (-centre.y, centre.x) } else { (centre.y, -centre.x) };
+    if ahead_x.abs() > ahead_y.abs() {
+        Xy::new(to.x + LAST_DIGIT.copysign(ahead_x), to.y)
+    } else {
+        Xy::new(to.x, to.y + LAST_DIGIT.copysign(ahead_y))
+    }
+}
+
+/// One unit of the last printed digit, in mm.
+const LAST_DIGIT: f64 = 0.001;

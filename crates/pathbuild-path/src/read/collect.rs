@@ -24,8 +24,8 @@ pub(crate) struct Collected {
     pub(crate) raw: RawPath,
     pub(crate) map: SourceMap,
     pub(crate) texts: Texts,
-    /// Entities that are themselves at fault: what only follows from them is not reported.
-    pub(crate) has_faulty_circle: bool,
+    /// A broken entity may be the marker, or the element of a text, that is missing: what may only follow from it is not reported.
+    pub(crate) has_broken_circle: bool,
     pub(crate) has_broken_entity: bool,
     has_elements: bool,
 }
@@ -107,7 +107,7 @@ impl Collected {
             raw,
             map: SourceMap::default(),
             texts: Texts::default(),
-            has_faulty_circle: false,
+            has_broken_circle: false,
             has_broken_entity: false,
             has_elements: false,
         }
@@ -171,7 +171,7 @@ impl Collected {
     fn add_fault(&mut self, diagnostic: &Diagnostic) {
         self.has_elements = true;
         self.has_broken_entity = true;
-        self.has_faulty_circle |=
+        self.has_broken_circle |=
             matches!(diagnostic.place.entity, Some(EntityKind::Circle | EntityKind::Other) | None);
         self.add_located(diagnostic);
     }
@@ -222,7 +222,6 @@ impl Collected {
         let shape = Shape::Circle { centre, radius };
         let line_type = LineType::of(&entity.line_type, &language.line_types);
         let Some(meaning) = line_type.map(|line_type| circle_meaning(line_type, radius)) else {
-            self.has_faulty_circle = true;
             return self.add_unknown(entity, &origin, shape, false);
         };
         let marker = |origin| Marker { origin, at: centre, text: None };
@@ -238,7 +237,6 @@ impl Collected {
             }
             CircleMeaning::UnknownLineType => self.add_unknown(entity, &origin, shape, true),
             CircleMeaning::UnknownDiameter => {
-                self.has_faulty_circle = true;
                 let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
                     .with("line_type", &*entity.line_type)
                     .with("diameter", 2.0 * radius);
@@ -316,9 +314,9 @@ impl Collected {
         });
     }
 
-    /// A marker that is missing because its circle is wrong is not reported twice.
+    /// A marker that is missing because its circle is broken is not reported twice.
     fn check_markers(&mut self) {
-        if self.has_faulty_circle {
+        if self.has_broken_circle {
             return;
         }
         let missing = |message| {

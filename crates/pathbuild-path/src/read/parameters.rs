@@ -14,12 +14,13 @@ use crate::text::{ParameterText, Piece};
 
 impl Collected {
     pub(crate) fn check_parameters(&mut self, starts: &Starts) {
-        let Some(start) = self.raw.start.clone() else { return self.check_elements(None) };
+        // Without the path's parameters it is not known what most elements are, so their letters are not judged.
+        let Some(start) = self.raw.start.clone() else { return };
         let Some(text) = self.raw.text_of(start.text).cloned() else {
             if !self.has_broken_entity {
                 self.report(start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS)));
             }
-            return self.check_elements(None);
+            return;
         };
         let parameters_at = match text.piece(Letter::At) {
             None => Ok((self.raw.name.clone(), (text, start.origin))),
@@ -31,7 +32,7 @@ impl Collected {
                 self.raw.parameters = parameters;
                 self.raw.parameters_at = Some((name, origin));
             }
-            Err(problem) => self.report(problem),
+            Err(problem) => return self.report(problem),
         }
         for problem in self.raw.parameters.problems(ElementClass::PathStart) {
             self.report(self.raw.at_parameters(problem));
