@@ -109,6 +109,23 @@ codes! {
     605 ProbeValuesPresent "probe-values-present" Error "PB605: _Z.txt with values would be overwritten";
     606 OutsideProbes "outside-probes" Warning "PB606: milling outside the hull of the probes";
     607 OddProbe "odd-probe" Warning "PB607: a probe that does not fit its neighbours";
+    750 InvalidPost "invalid-post" Error "PB750: a post-processor definition is broken, or an option in it is wrong";
+    751 UnknownMacro "unknown-macro" Error "PB751: a macro or variable that nobody defines";
+    752 DoubtfulPost "doubtful-post" Warning "PB752: an element or line of a definition that is not understood and left out";
+    753 EndlessMacro "endless-macro" Error "PB753: macros that contain each other, or come to too much text";
+    754 MissingPostValue "missing-post-value" Error "PB754: a post asks for a value that the program does not have";
+    755 LostDrilling "lost-drilling" Error "PB755: a hole that the post would not drill";
+    756 RoundedArc "rounded-arc" Error "PB756: an arc whose rounded numbers are no circle any more";
+    757 FlattenedArc "flattened-arc" Warning "PB757: an arc that the post turns into a line far from it";
+    758 UnreadableLine "unreadable-line" Warning "PB758: a line of the post's output that is no G-code";
+    759 InvalidControlText "invalid-control-text" Error "PB759: a control text is broken, or cannot be worked out";
+    760 DoubtfulControlText "doubtful-control-text" Warning "PB760: a control text does what was hardly meant";
+    761 InjectedFile "injected-file" Error "PB761: a file that a control text inserts is missing or lies elsewhere";
+    762 RejectedWord "rejected-word" Error "PB762: the output has words or characters that the target's dialect rejects";
+    763 LineTooLong "line-too-long" Error "PB763: a line of the output is longer than the target's dialect accepts";
+    764 UnknownTool "unknown-tool" Warning "PB764: the tool table has no cutter for a path";
+    765 NothingToPost "nothing-to-post" Error "PB765: a program that a post cannot write: empty, or with numbers that are none";
+    766 UnknownPost "unknown-post" Error "PB766: no post-processor of that name";
 }
 
 impl Code {

@@ -2,3 +2,4 @@
 //! spec/90-gcode-import.md)
 
 pub mod native;
+pub mod post;

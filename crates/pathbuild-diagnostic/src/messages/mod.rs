@@ -24,6 +24,7 @@ pub mod files;
 pub mod gcode;
 pub mod outputs;
 pub mod parameters;
+pub mod posts;
 pub mod probes;
 pub mod reading;
 pub mod subpaths;
@@ -44,6 +45,7 @@ pub fn all() -> impl Iterator<Item = &'static crate::Message> {
         outputs::ALL,
         probes::ALL,
         gcode::ALL,
+        posts::ALL,
     ]
     .into_iter()
     .flatten()

@@ -1,0 +1,63 @@
+//! CamBam post-processor definitions (.cbpp): named templates with macros, and options. (reference/cambam.md)
+//!
+//! A [`Definition`] is read once; a `Plan` brings it together with a program and checks every macro; a `Writer` expands the
+//! templates line by line and reads every line back, because what it writes next depends on what the machine knows.
+
+mod circular;
+mod command;
+mod cycles;
+mod definition;
+mod lines;
+mod machine;
+mod macros;
+mod moves;
+mod options;
+mod plan;
+mod section;
+mod template;
+mod values;
+mod words;
+mod writer;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+
+pub(super) use definition::Definition;
+use macros::{Macro, State};
+use plan::Plan;
+use template::Template;
+use writer::Writer;
+
+use super::PostOptions;
+use super::job::Job;
+
+/// Writes a job that has operations.
+pub(super) fn write(
+    definition: &Definition,
+    file: &Utf8Path,
+    job: &Job,
+    options: &PostOptions,
+) -> Result<Written, Vec<Diagnostic>> {
+    let plan = Plan::new(definition, file, job, options)?;
+    let one = |error: Box<Diagnostic>| vec![*error];
+    let post_build = command::post_build(definition, file, job, options).map_err(one)?;
+    let (text, warnings) = Writer::new(&plan).run().map_err(one)?;
+    Ok(Written { text, warnings, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+}
+
+/// What the engine wrote.
+pub(super) struct Written {
+    pub(super) text: String,
+    /// What is doubtful in it.
+    pub(super) warnings: Vec<Diagnostic>,
+    /// The definition's own command.
+    pub(super) post_build: Option<Vec<String>>,
+    /// The program says what the coolant does, and the definition has no macro for that.
+    pub(super) leaves_out_coolant: bool,
+}
+
+fn leaves_out_coolant(plan: &Plan<'_>) -> bool {
+    let writes_it =
+        || plan.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::State(State::Coolant));
+    plan.job.operations.iter().any(|operation| operation.coolant.is_some()) && !writes_it()
+}

@@ -1,0 +1,125 @@
+//! Templates: literal text with `{$name}` and `{$name(argument, ...)}` in it.
+
+use super::macros::{Macro, MacroArguments};
+use super::section::Section;
+
+/// A text with macros, and where its file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Template {
+    /// The section it is the text of.
+    pub(super) section: Section,
+    /// Literal text and macros in order.
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// A part of a template.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Piece {
+    /// Stands as it is; may hold line feeds.
+    Text(Box<str>),
+    /// Stands for something.
+    Macro {
+        /// For what.
+        what: Macro,
+        /// 1-based line of the definition's file; 0 in built-in texts and those of the configuration.
+        line: u32,
+    },
+}
+
+/// Why a text is no template.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TemplateError {
+    /// 1-based line of the definition's file.
+    pub(super) line: u32,
+    /// What is wrong there.
+    pub(super) fault: Fault,
+}
+
+/// What can be wrong in a template.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Fault {
+    /// `{$` without `}`.
+    Unclosed,
+    /// The macro and its arguments do not go together.
+    Arguments(MacroArguments),
+}
+
+impl Template {
+    /// Reads a text that begins in `line` of its file. All that is wrong in it is reported.
+    pub(super) fn parse(section: Section, text: &str, line: u32) -> Result<Self, Vec<TemplateError>> {
+        let mut parser = Parser { pieces: Vec::new(), errors: Vec::new(), line };
+        parser.run(text);
+        let Parser { pieces, errors, .. } = parser;
+        if errors.is_empty() { Ok(Self { section, pieces }) } else { Err(errors) }
+    }
+
+    /// Whether nothing at all can come out.
+    pub(super) fn is_blank(&self) -> bool {
+        self.pieces.iter().all(|piece| matches!(piece, Piece::Text(text) if text.trim().is_empty()))
+    }
+
+    /// The macros in it, with their lines.
+    pub(super) fn macros(&self) -> impl Iterator<Item = (&Macro, u32)> {
+        self.pieces.iter().filter_map(|piece| match piece {
+            Piece::Macro { what, line } => Some((what, *line)),
+            Piece::Text(_) => None,
+        })
+    }
+}
+
+struct Parser {
+    pieces: Vec<Piece>,
+    errors: Vec<TemplateError>,
+    line: u32,
+}
+
+impl Parser {
+    fn run(&mut self, mut text: &str) {
+        while let Some((before, call, after)) = next_call(text) {
+            self.literal(before);
+            match call {
+                Some(call) => self.call(call),
+                None => self.errors.push(TemplateError { line: self.line, fault: Fault::Unclosed }),
+            }
+            text = after;
+        }
+        self.literal(text);
+    }
+
+    fn literal(&mut self, text: &str) {
+        if text.is_empty() {
+            return;
+        }
+        self.count_lines(text);
+        self.pieces.push(Piece::Text(text.into()));
+    }
+
+    fn call(&mut self, call: &str) {
+        let line = self.line;
+        match Macro::parse(call) {
+            Ok(what) => self.pieces.push(Piece::Macro { what, line }),
+            Err(error) => self.errors.push(TemplateError { line, fault: Fault::Arguments(error) }),
+        }
+        self.count_lines(call);
+    }
+
+    fn count_lines(&mut self, text: &str) {
+        let lines = text.bytes().filter(|&byte| byte == b'\n').count();
+        self.line += u32::try_from(lines).unwrap_or(0);
+    }
+}
+
+/// The text before the next macro, the macro without its frame, and the text after it; no macro when it is not closed.
+///
+/// CamBam's manual also spells one macro without a frame: `$set(z,5.5)`.
+fn next_call(text: &str) -> Option<(&str, Option<&str>, &str)> {
+    let (start, inner, close) = text.match_indices('$').find_map(|(at, _)| {
+        let framed = text[..at].ends_with('{').then(|| (at - 1, at + 1, '}'));
+        framed.or_else(|| text[at..].starts_with("$set(").then_some((at, at + 1, ')')))
+    })?;
+    let before = &text[..start];
+    let Some(length) = text[inner..].find(close) else { return Some((before, None, "")) };
+    let end = inner + length;
+    let call = &text[inner..if close == ')' { end + 1 } else { end }];
+    Some((before, Some(call), &text[end + 1..]))
+}

@@ -1,0 +1,103 @@
+//! Drilled holes as moves, for controls without cycles.
+
+use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
+
+use super::job::{Hole, HoleKind, Position, Step};
+
+/// A hole with more pecks is a slip of the pen.
+const MOST_PECKS: usize = 1_000;
+/// How far above the bottom reached so far the tool changes from rapid to feed, mm.
+const PECK_GAP: f64 = 0.25;
+
+/// The moves of a hole: over it at its level, down, and up to its exit.
+pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
+    let [x, y] = hole.at;
+    let to = |z| Position::from([x, y, z]);
+    let mut steps = vec![Step::Rapid { to: to(hole.level) }];
+    if hole.retract < hole.level {
+        steps.push(Step::Rapid { to: to(hole.retract) });
+    }
+    let depths = depths(hole)?;
+    for (index, &depth) in depths.iter().enumerate() {
+        if index > 0 {
+            let reached = depths[index - 1];
+            let gap = PECK_GAP.min((reached - depth) / 2.0);
+            steps.push(Step::Rapid { to: to(hole.retract) });
+            steps.push(Step::Rapid { to: to((reached + gap).min(hole.retract)) });
+        }
+        steps.push(Step::Feed { to: to(depth), feed: hole.feed });
+    }
+    if let HoleKind::Dwell { seconds } = hole.kind {
+        steps.push(Step::Dwell { seconds });
+    }
+    steps.push(Step::Rapid { to: to(hole.exit) });
+    Ok(steps)
+}
+
+/// The depths to which the tool goes one after the other; the last is the bottom.
+fn depths(hole: &Hole) -> Result<Vec<f64>, Box<Diagnostic>> {
+    let HoleKind::Peck { depth } = hole.kind else { return Ok(vec![hole.bottom]) };
+    let mut depths = Vec::new();
+    let mut z = hole.retract - depth;
+    while z > hole.bottom {
+        if depths.len() == MOST_PECKS || depth <= 0.0 {
+            let place = Point::new(hole.at[0], hole.at[1]);
+            let diagnostic =
+                Diagnostic::new(&posts::TOO_MANY_PECKS).with("limit", MOST_PECKS).with("place", place);
+            return Err(Box::new(diagnostic));
+        }
+        depths.push(z);
+        z -= depth;
+    }
+    depths.push(hole.bottom);
+    Ok(depths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn heights(kind: HoleKind) -> Vec<f64> {
+        let hole = Hole {
+            at: [1.0, 2.0],
+            level: 20.0,
+            retract: 10.0,
+            bottom: 4.0,
+            exit: 20.0,
+            feed: Some(60.0),
+            kind,
+        };
+        let z = |step: &Step| match step {
+            Step::Rapid { to } | Step::Feed { to, .. } => to.z,
+            _ => None,
+        };
+        moves(&hole).unwrap().iter().filter_map(z).collect()
+    }
+
+    #[test]
+    fn a_plain_hole_is_drilled_in_one_go() {
+        assert_eq!(heights(HoleKind::Plain), [20.0, 10.0, 4.0, 20.0]);
+    }
+
+    #[test]
+    fn pecks_leave_the_hole_and_come_back_just_above_where_they_were() {
+        let expected = [20.0, 10.0, 7.0, 10.0, 7.25, 4.0, 20.0];
+        assert_eq!(heights(HoleKind::Peck { depth: 3.0 }), expected, "exactly two goes");
+        assert_eq!(heights(HoleKind::Peck { depth: 2.9 }).len(), 10, "a third for the rest");
+    }
+
+    #[test]
+    fn endless_pecks_are_refused() {
+        let hole = |bottom: f64| Hole {
+            at: [0.0, 0.0],
+            level: 1.0,
+            retract: 0.0,
+            bottom,
+            exit: 1.0,
+            feed: None,
+            kind: HoleKind::Peck { depth: 1.0 },
+        };
+        assert!(moves(&hole(-1001.0)).is_ok());
+        assert!(moves(&hole(-1002.0)).is_err());
+    }
+}

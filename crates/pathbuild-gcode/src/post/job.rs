@@ -1,0 +1,408 @@
+//! The program as a post-processor reads it: operations in order, each with its tool, spindle, feeds, heights and moves.
+//!
+//! Lengths are millimetres and feeds mm/min throughout; a post converts when [`Job::units`] or its own definition says inches.
+//! (spec/85-post-processors.md)
+
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+/// A program to be written by a post.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Job {
+    /// What the program is called: `{$cbfile.name}`, `~PrgName~`.
+    pub name: Box<str>,
+    /// The drawing it was made from, without directory; empty when it was read from a program.
+    pub drawing: Box<str>,
+    /// The unit of the numbers that are written.
+    pub units: Units,
+    /// The operations in order. A job without any is not written.
+    pub operations: Vec<Operation>,
+    /// Custom text for the head and foot of the file; may use the post's macros.
+    pub texts: Texts,
+    /// The raw material, where it is known.
+    pub stock: Option<Stock>,
+}
+
+impl Job {
+    /// A job that can be written has operations, and every number in it is one.
+    pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
+        if self.operations.is_empty() {
+            return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
+        }
+        match self.operations.iter().find(|operation| !operation.is_finite()) {
+            Some(broken) => {
+                Err(Box::new(Diagnostic::new(&posts::JOB_NOT_FINITE).with("operation", &*broken.name)))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The tools in order of first use, each once.
+    pub fn tools(&self) -> Vec<&Tool> {
+        let mut tools: Vec<&Tool> = Vec::new();
+        for operation in &self.operations {
+            if !tools.iter().any(|tool| tool.index == operation.tool.index) {
+                tools.push(&operation.tool);
+            }
+        }
+        tools
+    }
+}
+
+/// The unit that a program is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Units {
+    #[default]
+    Millimetres,
+    Inches,
+}
+
+/// Custom text before and after something.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Texts {
+    pub header: Box<str>,
+    pub footer: Box<str>,
+}
+
+/// The raw material as a block: its lower left corner, and its size, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "coordinates")]
+pub struct Stock {
+    pub corner: [f64; 3],
+    pub size: [f64; 3],
+}
+
+/// What one embedded path does, between two changes of anything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operation {
+    /// The path's name.
+    pub name: Box<str>,
+    /// The emitted path's name.
+    pub part: Box<str>,
+    /// The cutter.
+    pub tool: Tool,
+    /// What the spindle is to do; `None` when nobody says.
+    pub spindle: Option<Spindle>,
+    /// Spindle speed in 1/min, where it is known.
+    pub speed: Option<f64>,
+    /// What the coolant is to do; `None` when nobody says.
+    pub coolant: Option<Coolant>,
+    /// Feed in the plane, mm/min, where the operation has one.
+    pub cut_feed: Option<f64>,
+    /// Feed downwards, mm/min, where the operation has one.
+    pub plunge_feed: Option<f64>,
+    /// The height (S) at which the tool is above everything, mm.
+    pub clearance: f64,
+    /// The height down to which rapids go (R of a drilling cycle), mm.
+    pub retract: f64,
+    /// Upper face (T) of the material, mm.
+    pub surface: f64,
+    /// The deepest point, mm, where there is one.
+    pub target_depth: Option<f64>,
+    /// The infeed, mm, where it is known.
+    pub depth_increment: Option<f64>,
+    /// Free text.
+    pub tag: Box<str>,
+    /// Custom text; may use the post's macros.
+    pub texts: Texts,
+    /// The plane of the arcs.
+    pub plane: Plane,
+    /// How corners are taken.
+    pub velocity: VelocityMode,
+    /// Where the tool must be when the steps begin.
+    pub entry: Entry,
+    /// The moves.
+    pub steps: Vec<Step>,
+}
+
+impl Operation {
+    /// An operation without moves, everything else unknown or zero.
+    pub fn new(name: &str, tool: Tool) -> Self {
+        Self {
+            name: name.into(),
+            part: name.into(),
+            tool,
+            spindle: None,
+            speed: None,
+            coolant: None,
+            cut_feed: None,
+            plunge_feed: None,
+            clearance: 0.0,
+            retract: 0.0,
+            surface: 0.0,
+            target_depth: None,
+            depth_increment: None,
+            tag: "".into(),
+            texts: Texts::default(),
+            plane: Plane::default(),
+            velocity: VelocityMode::default(),
+            entry: Entry::default(),
+            steps: Vec::new(),
+        }
+    }
+}
+
+impl Operation {
+    /// Where the first move leads, as far as it says.
+    pub fn first_point(&self) -> Position {
+        let target = |step: &Step| match step {
+            Step::Rapid { to } | Step::Feed { to, .. } | Step::Probe { to, .. } => Some(*to),
+            Step::Arc(arc) => Some(arc.to.into()),
+            Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].into()),
+            Step::Dwell { .. } | Step::Comment(_) => None,
+        };
+        self.steps.iter().find_map(target).unwrap_or_default()
+    }
+
+    fn is_finite(&self) -> bool {
+        let heights = [self.clearance, self.retract, self.surface, self.tool.diameter, self.tool.radius];
+        let known = [self.speed, self.cut_feed, self.plunge_feed, self.target_depth, self.depth_increment];
+        heights.iter().chain(known.iter().flatten()).all(|number| number.is_finite())
+            && self.steps.iter().all(Step::is_finite)
+    }
+
+    /// The holes in it.
+    pub fn holes(&self) -> impl Iterator<Item = &Hole> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Hole(hole) => Some(hole),
+            _ => None,
+        })
+    }
+}
+
+/// A cutter. Tools with the same index are the same tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// The number in T words.
+    pub index: u32,
+    /// O in mm.
+    pub diameter: f64,
+    /// The name in the tool table.
+    pub name: Box<str>,
+    /// The corner's radius in mm: 0 for an end mill, half the diameter for a ball.
+    pub radius: f64,
+    /// Length in mm, where it is known.
+    pub length: Option<f64>,
+    /// The shape's name.
+    pub profile: Box<str>,
+    /// A remark of the tool table.
+    pub comment: Box<str>,
+    /// Angle of a V cutter in degrees, where it is one.
+    pub vee_angle: Option<f64>,
+}
+
+impl Tool {
+    /// An end mill of which no more is known.
+    pub fn new(index: u32, diameter: f64, name: &str) -> Self {
+        Self {
+            index,
+            diameter,
+            name: name.into(),
+            radius: 0.0,
+            length: None,
+            profile: "EndMill".into(),
+            comment: "".into(),
+            vee_angle: None,
+        }
+    }
+}
+
+/// What a spindle does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Spindle {
+    Clockwise,
+    CounterClockwise,
+    Off,
+}
+
+/// What the coolant does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Coolant {
+    Flood,
+    Mist,
+    Off,
+}
+
+/// The plane in which arcs lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Plane {
+    #[default]
+    Xy,
+    Xz,
+    Yz,
+}
+
+impl Plane {
+    /// The two axes of the plane, in the order that makes a counter-clockwise turn positive, and the one across it; 0 is X.
+    pub fn axes(self) -> [usize; 3] {
+        match self {
+            Self::Xy => [0, 1, 2],
+            Self::Xz => [2, 0, 1],
+            Self::Yz => [1, 2, 0],
+        }
+    }
+}
+
+/// Whether the machine stops at corners or rounds them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum VelocityMode {
+    ExactStop,
+    #[default]
+    ConstantVelocity,
+}
+
+/// Where an operation begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Entry {
+    /// At the clearance plane, wherever the tool is in the plane.
+    #[default]
+    Clearance,
+    /// Exactly there, which may be deep in the material (sweepless milling): the tool is there already unless it was changed.
+    At([f64; 3]),
+}
+
+/// Absolute coordinates in mm. Those that are not known, because nobody has said them yet, are `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[expect(missing_docs, reason = "coordinates")]
+pub struct Position {
+    pub x: Option<f64>,
+    pub y: Option<f64>,
+    pub z: Option<f64>,
+}
+
+impl Position {
+    /// X, Y, Z.
+    pub fn axes(self) -> [Option<f64>; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl From<[f64; 3]> for Position {
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self { x: Some(x), y: Some(y), z: Some(z) }
+    }
+}
+
+impl From<[Option<f64>; 3]> for Position {
+    fn from([x, y, z]: [Option<f64>; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+/// One thing that the machine does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// As fast as the machine can.
+    Rapid {
+        /// Where to.
+        to: Position,
+    },
+    /// Straight, cutting.
+    Feed {
+        /// Where to.
+        to: Position,
+        /// mm/min; `None` when the program that was read never said.
+        feed: Option<f64>,
+    },
+    /// Along a circle or helix.
+    Arc(Arc),
+    /// A hole, however it is drilled.
+    Hole(Hole),
+    /// Standing still.
+    Dwell {
+        /// For how long.
+        seconds: f64,
+    },
+    /// Straight until the probe closes.
+    Probe {
+        /// Where to at the furthest.
+        to: Position,
+        /// mm/min.
+        feed: Option<f64>,
+    },
+    /// A remark for whoever stands at the machine.
+    Comment(Box<str>),
+}
+
+/// A circular move in the operation's plane, or a helix across it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Seen from the positive end of the axis across the plane.
+    pub clockwise: bool,
+    /// Where it begins: where the tool is.
+    pub from: [f64; 3],
+    /// Absolute; the coordinate across the plane means nothing.
+    pub centre: [f64; 3],
+    /// Where it ends. The same point of the plane as `from` is a full circle.
+    pub to: [f64; 3],
+    /// mm/min; `None` when the program that was read never said.
+    pub feed: Option<f64>,
+}
+
+/// A drilled hole: from wherever the tool is, over it, down, and up again to `exit`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// X and Y in mm.
+    pub at: [f64; 2],
+    /// The height from which the tool comes, at which it also goes from hole to hole, mm.
+    pub level: f64,
+    /// The height down to which it goes by rapid, mm.
+    pub retract: f64,
+    /// Z of the bottom, mm.
+    pub bottom: f64,
+    /// The height to which it is lifted afterwards, mm.
+    pub exit: f64,
+    /// mm/min.
+    pub feed: Option<f64>,
+    /// How the bottom is reached.
+    pub kind: HoleKind,
+}
+
+/// How a hole is drilled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HoleKind {
+    /// In one go.
+    Plain,
+    /// In one go, then waiting there.
+    Dwell {
+        /// For how long.
+        seconds: f64,
+    },
+    /// Lifting the tool out of the hole again and again.
+    Peck {
+        /// Depth of one go, mm, greater than 0.
+        depth: f64,
+    },
+}
+
+impl Step {
+    fn is_finite(&self) -> bool {
+        let position = |to: &Position| to.axes().into_iter().flatten().all(f64::is_finite);
+        let all = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+        let feed = |feed: &Option<f64>| feed.is_none_or(f64::is_finite);
+        match self {
+            Self::Rapid { to } => position(to),
+            Self::Feed { to, feed: f } | Self::Probe { to, feed: f } => position(to) && feed(f),
+            Self::Arc(arc) => all(&arc.from) && all(&arc.centre) && all(&arc.to) && feed(&arc.feed),
+            Self::Hole(hole) => hole.is_finite(),
+            Self::Dwell { seconds } => seconds.is_finite(),
+            Self::Comment(_) => true,
+        }
+    }
+}
+
+impl Hole {
+    fn is_finite(&self) -> bool {
+        let kind = match self.kind {
+            HoleKind::Plain => 0.0,
+            HoleKind::Dwell { seconds: number } | HoleKind::Peck { depth: number } => number,
+        };
+        let numbers = [self.at[0], self.at[1], self.level, self.retract, self.bottom, self.exit, kind];
+        numbers.into_iter().chain(self.feed).all(f64::is_finite)
+    }
+}

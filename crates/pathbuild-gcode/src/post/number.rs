@@ -1,0 +1,193 @@
+//! Numbers as text: patterns of `0` and `#` as .NET knows them, rounding half away from zero.
+
+use std::str::FromStr;
+
+/// A pattern such as `0.0###`: `0` is a digit that is always shown, `#` one that is shown when it is needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NumberFormat {
+    /// Digits before the point that are always shown.
+    whole: usize,
+    /// Digits after the point that are always shown.
+    least: usize,
+    /// Digits after the point at most.
+    most: usize,
+}
+
+/// More digits than any control reads, and than an `f64` has.
+const MOST_DIGITS: usize = 15;
+
+impl NumberFormat {
+    /// At least one digit before the point, `least` to `most` after it.
+    pub(crate) const fn decimals(least: usize, most: usize) -> Self {
+        Self { whole: 1, least, most }
+    }
+
+    /// The number as text; never `-0`.
+    pub(crate) fn format(self, value: f64) -> String {
+        let digits = Digits::of(value).round(self.most);
+        let mut text = String::new();
+        if value < 0.0 && !digits.is_zero() {
+            text.push('-');
+        }
+        digits.push_whole(self.whole, &mut text);
+        digits.push_decimals(self.least, self.most, &mut text);
+        if text.is_empty() || text == "-" {
+            text.push('0');
+        }
+        text
+    }
+
+    /// The number that the text stands for.
+    pub(crate) fn round(self, value: f64) -> f64 {
+        self.format(value).parse().unwrap_or(value)
+    }
+}
+
+impl FromStr for NumberFormat {
+    type Err = ();
+
+    fn from_str(pattern: &str) -> Result<Self, ()> {
+        let (whole, decimals) = pattern.split_once('.').unwrap_or((pattern, ""));
+        let is_pattern =
+            |part: &str| part.len() <= MOST_DIGITS && part.chars().all(|c| matches!(c, '0' | '#'));
+        if pattern.is_empty() || !is_pattern(whole) || !is_pattern(decimals) {
+            return Err(());
+        }
+        Ok(Self {
+            whole: whole.find('0').map_or(0, |first| whole.len() - first),
+            least: decimals.rfind('0').map_or(0, |last| last + 1),
+            most: decimals.len(),
+        })
+    }
+}
+
+/// A decimal number: its digits, and how many of them stand before the point (negative: zeros follow the point).
+///
+/// It has fifteen significant digits, so that what was meant as a tie (1.0005) is one, and the noise of a conversion between
+/// inches and millimetres is gone.
+struct Digits {
+    digits: Vec<u8>,
+    point: i32,
+}
+
+impl Digits {
+    fn of(value: f64) -> Self {
+        let text = format!("{:.14e}", value.abs());
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let digits = mantissa.bytes().filter(u8::is_ascii_digit).map(|digit| digit - b'0').collect();
+        Self { digits, point: exponent.parse::<i32>().unwrap_or(0) + 1 }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.digits.iter().all(|&digit| digit == 0)
+    }
+
+    fn round(mut self, decimals: usize) -> Self {
+        let kept = self.point.saturating_add(i32::try_from(decimals).unwrap_or(i32::MAX));
+        let Ok(kept) = usize::try_from(kept) else { return Self { digits: Vec::new(), point: 1 } };
+        if kept >= self.digits.len() {
+            return self;
+        }
+        let up = self.digits[kept] >= 5;
+        self.digits.truncate(kept);
+        if up {
+            self.increment();
+        }
+        self
+    }
+
+    fn increment(&mut self) {
+        for digit in self.digits.iter_mut().rev() {
+            if *digit < 9 {
+                *digit += 1;
+                return;
+            }
+            *digit = 0;
+        }
+        self.digits.insert(0, 1);
+        self.point += 1;
+    }
+
+    /// The digit with the value 10 to the power of `place`.
+    fn at(&self, place: i32) -> char {
+        let index = usize::try_from(self.point - 1 - place).ok();
+        let digit = index.and_then(|index| self.digits.get(index)).copied().unwrap_or(0);
+        char::from(b'0' + digit)
+    }
+
+    fn push_whole(&self, least: usize, text: &mut String) {
+        let least = i32::try_from(least).unwrap_or(0);
+        let needed = if self.is_zero() { 0 } else { self.point.max(0) };
+        text.extend((0..needed.max(least)).rev().map(|place| self.at(place)));
+    }
+
+    fn push_decimals(&self, least: usize, most: usize, text: &mut String) {
+        let places = 1..=i32::try_from(most).unwrap_or(0);
+        let decimals: String = places.map(|place| self.at(-place)).collect();
+        let needed = decimals.trim_end_matches('0').len().max(least);
+        if needed > 0 {
+            text.push('.');
+            text.push_str(&decimals[..needed]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn format(pattern: &str, value: f64) -> String {
+        pattern.parse::<NumberFormat>().unwrap().format(value)
+    }
+
+    #[test]
+    fn decimals_are_rounded_not_cut() {
+        assert_eq!(format("0.0###", 5.669_873), "5.6699");
+        assert_eq!(format("0.0###", 5.0), "5.0");
+        assert_eq!(format("0.0###", 9.999_96), "10.0");
+    }
+
+    #[test]
+    fn ties_go_away_from_zero() {
+        assert_eq!(format("0.00", 1.375), "1.38");
+        assert_eq!(format("0.00", -1.375), "-1.38");
+        assert_eq!(format("0.000", 1.0005), "1.001", "although its binary value is below the tie");
+        assert_eq!(format("0.000", 1.000_499), "1.000");
+    }
+
+    #[test]
+    fn zero_is_never_negative() {
+        assert_eq!(format("0.0###", -0.000_01), "0.0");
+        assert_eq!(format("0.0###", -0.0), "0.0");
+        assert_eq!(format("0.0###", -0.000_05), "-0.0001");
+    }
+
+    #[test]
+    fn zeros_of_the_pattern_are_always_shown() {
+        assert_eq!(format("0000", 40.0), "0040");
+        assert_eq!(format("0000.00", 1.5), "0001.50");
+        assert_eq!(format("0", 12345.0), "12345");
+    }
+
+    #[test]
+    fn sharps_are_shown_when_needed() {
+        assert_eq!(format("#.#0", 0.5), ".50");
+        assert_eq!(format("#.#0", 12.345), "12.35");
+        assert_eq!(format("#.##", 0.0), "0", "a word without a number would be worse");
+        assert_eq!(format("#.##", -0.25), "-.25");
+    }
+
+    #[test]
+    fn large_and_tiny_numbers_keep_their_magnitude() {
+        assert_eq!(format("0.0", 1e20), "100000000000000000000.0");
+        assert_eq!(format("0.0##", 1e-30), "0.0");
+        assert_eq!(format("0.0##", 0.000_5), "0.001");
+    }
+
+    #[test]
+    fn a_pattern_of_anything_else_is_refused() {
+        for pattern in ["", "0,0", "0.0.0", "+0.0", "0.0000000000000000"] {
+            assert_eq!(pattern.parse::<NumberFormat>(), Err(()), "{pattern}");
+        }
+    }
+}
