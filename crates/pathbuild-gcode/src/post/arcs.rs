@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::job::{Arc, Plane};
+use super::job::Plane;
+use super::step::Arc;
 
 /// An arc is cut into at most so many chords.
 pub(crate) const MOST_CHORDS: usize = 100_000;

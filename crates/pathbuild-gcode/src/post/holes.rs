@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 
-use super::job::{Hole, HoleKind, Position, Step};
+use super::step::{Hole, HoleKind, Position, Step};
 
 /// A hole with more pecks is a slip of the pen.
 const MOST_PECKS: usize = 1_000;

@@ -5,19 +5,19 @@
 
 mod arcs;
 mod cambam;
+mod from_program;
 mod holes;
 mod job;
 mod number;
+mod step;
 mod suggest;
 mod tools;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Note, Value, messages::posts};
 
-pub use job::{
-    Arc, Coolant, Entry, Hole, HoleKind, Job, Operation, Plane, Position, Spindle, Step, Stock, Texts, Tool,
-    Units, VelocityMode,
-};
+pub use job::{Coolant, Entry, Job, Operation, Plane, Spindle, Stock, Texts, Tool, Units, VelocityMode};
+pub use step::{Arc, Hole, HoleKind, Position, Step};
 pub use tools::{ToolEntry, ToolTable};
 
 /// A definition that was read, ready to write programs.

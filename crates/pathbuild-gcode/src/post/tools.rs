@@ -1,5 +1,7 @@
 //! The tool table: which cutter, spindle and coolant a program with a given O runs with. (`[tool.NAME]` in pathbuild.toml)
 
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_path::approx::near;
 use regex::Regex;
 
 use super::job::{Coolant, Spindle, Tool};
@@ -14,10 +16,14 @@ pub struct ToolTable {
 /// One tool of the configuration.
 #[derive(Clone, Debug)]
 pub struct ToolEntry {
-    /// The cutter.
-    pub tool: Tool,
+    /// The name of its table.
+    pub name: Box<str>,
+    /// O in mm.
+    pub diameter: f64,
     /// Which paths it is for, where several cutters have one diameter (S and T cutters): found anywhere in the path's name, so `T$`.
     pub paths: Option<Regex>,
+    /// The number in T words; without one the next that is free, in order of use.
+    pub index: Option<u32>,
     /// What the spindle does; `None` when the machine's operator sees to it.
     pub spindle: Option<Spindle>,
     /// Spindle speed in 1/min.
@@ -26,16 +32,96 @@ pub struct ToolEntry {
     pub coolant: Option<Coolant>,
 }
 
+/// A cutter with what goes with it.
+#[derive(Clone, Debug)]
+pub(super) struct Fitted {
+    pub(super) tool: Tool,
+    pub(super) spindle: Option<Spindle>,
+    pub(super) speed: Option<f64>,
+    pub(super) coolant: Option<Coolant>,
+}
+
+/// Gives every path its cutter; cutters without a number get one.
+pub(super) struct Fitter<'a> {
+    table: &'a ToolTable,
+    fitted: Vec<(Key, Tool)>,
+    pub(super) warnings: Vec<Diagnostic>,
+}
+
+/// What makes two cutters the same: an entry of the table, or a diameter that is in none.
+#[derive(Clone, Copy, Debug)]
+enum Key {
+    Entry(usize),
+    Diameter(f64),
+}
+
 impl ToolTable {
     /// The tool for a path milled with the cutter diameter O. An entry that names paths wins over one that does not.
     pub fn find(&self, path: &str, diameter: f64) -> Option<&ToolEntry> {
-        let fitting = || self.entries.iter().filter(|entry| near(entry.tool.diameter, diameter));
-        let named = |entry: &&ToolEntry| entry.paths.as_ref().is_some_and(|paths| paths.is_match(path));
-        fitting().find(named).or_else(|| fitting().find(|entry| entry.paths.is_none()))
+        self.position(path, diameter).map(|index| &self.entries[index])
+    }
+
+    fn position(&self, path: &str, diameter: f64) -> Option<usize> {
+        let fits = |entry: &ToolEntry| near(entry.diameter, diameter);
+        let is_named = |entry: &ToolEntry| entry.paths.as_ref().is_some_and(|paths| paths.is_match(path));
+        let named = self.entries.iter().position(|entry| fits(entry) && is_named(entry));
+        named.or_else(|| self.entries.iter().position(|entry| fits(entry) && entry.paths.is_none()))
     }
 }
 
-/// `near()` of spec/00-overview.md.
-pub(super) fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-6 * (a.abs().max(b.abs()) + 0.001)
+impl<'a> Fitter<'a> {
+    pub(super) fn new(table: &'a ToolTable) -> Self {
+        Self { table, fitted: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// The cutter of a path.
+    pub(super) fn fit(&mut self, path: &str, diameter: f64) -> Fitted {
+        let position = self.table.position(path, diameter);
+        let entry = position.map(|index| &self.table.entries[index]);
+        let key = position.map_or(Key::Diameter(diameter), Key::Entry);
+        let tool = match self.fitted.iter().find(|(known, _)| known.is(key)) {
+            Some((_, tool)) => tool.clone(),
+            None => self.add(key, entry, path, diameter),
+        };
+        Fitted {
+            tool,
+            spindle: entry.and_then(|entry| entry.spindle),
+            speed: entry.and_then(|entry| entry.speed),
+            coolant: entry.and_then(|entry| entry.coolant),
+        }
+    }
+
+    fn add(&mut self, key: Key, entry: Option<&ToolEntry>, path: &str, diameter: f64) -> Tool {
+        let index = entry.and_then(|entry| entry.index).unwrap_or_else(|| self.free_index());
+        if entry.is_none() && !self.table.entries.is_empty() {
+            let warning = Diagnostic::new(&posts::TOOL_UNKNOWN).with("diameter", diameter).in_path(path);
+            self.warnings.push(warning.with("path", path).with("index", u64::from(index)));
+        }
+        let name = entry.map_or_else(
+            || format!("{} mm", pathbuild_diagnostic::Number(diameter)),
+            |entry| entry.name.to_string(),
+        );
+        let tool = Tool::new(index, diameter, &name);
+        self.fitted.push((key, tool.clone()));
+        tool
+    }
+
+    /// The least number that neither the table nor a cutter so far has.
+    fn free_index(&self) -> u32 {
+        let is_free = |index: &u32| {
+            self.table.entries.iter().all(|entry| entry.index != Some(*index))
+                && self.fitted.iter().all(|(_, tool)| tool.index != *index)
+        };
+        (1..=u32::MAX).find(is_free).unwrap_or(0)
+    }
+}
+
+impl Key {
+    fn is(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Entry(a), Self::Entry(b)) => a == b,
+            (Self::Diameter(a), Self::Diameter(b)) => near(a, b),
+            _ => false,
+        }
+    }
 }

@@ -4,11 +4,14 @@ use std::f64::consts::PI;
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 
-use super::macros::{Macro, Register, Value};
+use super::macros::{Macro, Value};
+use super::move_values::ArcValues;
+use super::registers::Register;
 use super::section::Section;
-use super::writer::{ArcValues, Writer, Written};
+use super::writer::{Writer, Written};
 use crate::post::arcs::{MOST_CHORDS, Polar, pieces};
-use crate::post::job::{Arc, Plane, Units};
+use crate::post::job::{Plane, Units};
+use crate::post::step::Arc;
 
 const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
 

@@ -1,12 +1,13 @@
 //! Canned drilling cycles.
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
+use pathbuild_path::approx::{at_least, near};
 
-use super::macros::Register;
+use super::move_values::MoveValues;
+use super::registers::Register;
 use super::section::Section;
-use super::writer::{MoveValues, Writer, Written};
-use crate::post::job::{Hole, HoleKind, Step};
-use crate::post::tools::near;
+use super::writer::{Writer, Written};
+use crate::post::step::{Hole, HoleKind, Step};
 
 impl<'a> Writer<'a> {
     /// The holes at the beginning of some steps as one group; returns the steps after it.
@@ -71,13 +72,18 @@ impl<'a> Writer<'a> {
     }
 }
 
+/// Whether a hole can be a canned cycle, which ends at the height where it began.
+pub(super) fn can_be_canned(hole: &Hole) -> bool {
+    at_least(hole.exit, hole.level)
+}
+
 /// How many steps belong to one group: holes between which the tool stays at one level, and remarks among them.
 fn group_length(steps: &[Step]) -> usize {
     let mut length = 0;
     let mut level = None;
     for (index, step) in steps.iter().enumerate() {
         match step {
-            Step::Hole(hole) if level.is_none_or(|level| near(level, hole.level)) => {
+            Step::Hole(hole) if can_be_canned(hole) && level.is_none_or(|level| near(level, hole.level)) => {
                 level = Some(hole.exit);
                 length = index + 1;
             }

@@ -4,7 +4,8 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::macros::{Macro, MacroArguments};
+use super::macros::Macro;
+use super::names::MacroArguments;
 use super::options::{Options, Refusal};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};

@@ -1,6 +1,6 @@
 //! The state of the machine as the lines written so far leave it.
 
-use super::macros::{Code, Register};
+use super::registers::{Code, Register};
 use super::words::{Word, Words};
 use crate::post::job::{Coolant, Plane, Spindle, VelocityMode};
 use crate::post::number::NumberFormat;

@@ -1,11 +1,15 @@
 //! The moves of an operation: entry, rapids, feeds, dwells, probes.
 
-use super::macros::{Argument, Register};
+use super::cycles::can_be_canned;
+use super::macros::Argument;
+use super::move_values::MoveValues;
+use super::registers::Register;
 use super::section::Section;
 use super::values::plain;
-use super::writer::{MoveValues, Writer, Written};
+use super::writer::{Writer, Written};
 use crate::post::holes;
-use crate::post::job::{Entry, Step};
+use crate::post::job::Entry;
+use crate::post::step::Step;
 
 impl Writer<'_> {
     /// The present operation's moves.
@@ -18,7 +22,7 @@ impl Writer<'_> {
         let mut rest = steps.as_slice();
         while let Some((step, after)) = rest.split_first() {
             rest = match step {
-                Step::Hole(_) if self.plan.options.cycles => self.cycles(rest)?,
+                Step::Hole(hole) if self.plan.options.cycles && can_be_canned(hole) => self.cycles(rest)?,
                 _ => {
                     self.step(step)?;
                     after

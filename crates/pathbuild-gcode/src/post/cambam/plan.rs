@@ -102,7 +102,8 @@ impl<'a> Plan<'a> {
 
     fn unknown_macro(&self, name: &str, section: Section, line: u32) -> Diagnostic {
         let users = self.macros.iter().chain(&self.definition.macros).map(|(name, _)| &**name);
-        let diagnostic = match nearest(name, users).or_else(|| Macro::nearest(name)) {
+        let bare = name.split('(').next().unwrap_or(name);
+        let diagnostic = match nearest(bare, users).or_else(|| Macro::nearest(bare)) {
             Some(nearest) => Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).with("nearest", framed(nearest)),
             None => Diagnostic::new(&posts::UNKNOWN_MACRO),
         };

@@ -1,5 +1,7 @@
 //! The named texts of a CamBam definition, and what stands in for one that is absent.
 
+use crate::post::job::{Coolant, Spindle};
+
 macro_rules! sections {
     ($($variant:ident $name:literal $default:expr;)*) => {
         /// A section of a definition: an element that holds a template.
@@ -108,3 +110,21 @@ const MOP: &str = "{$comment} {$mop.name} {$endcomment}
 {$blocks}
 {$mop.footer}
 ";
+
+/// The section with the words for what the spindle does.
+pub(super) fn spindle_section(spindle: Spindle) -> Section {
+    match spindle {
+        Spindle::Clockwise => Section::SpindleCw,
+        Spindle::CounterClockwise => Section::SpindleCcw,
+        Spindle::Off => Section::SpindleOff,
+    }
+}
+
+/// The section with the words for what the coolant does.
+pub(super) fn coolant_section(coolant: Coolant) -> Section {
+    match coolant {
+        Coolant::Flood => Section::CoolantFlood,
+        Coolant::Mist => Section::CoolantMist,
+        Coolant::Off => Section::CoolantOff,
+    }
+}

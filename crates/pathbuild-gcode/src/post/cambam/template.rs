@@ -1,6 +1,7 @@
 //! Templates: literal text with `{$name}` and `{$name(argument, ...)}` in it.
 
-use super::macros::{Macro, MacroArguments};
+use super::macros::Macro;
+use super::names::MacroArguments;
 use super::section::Section;
 
 /// A text with macros, and where its file has it.

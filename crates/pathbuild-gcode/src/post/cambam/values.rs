@@ -2,11 +2,14 @@
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
-use super::macros::{Register, Value};
+use super::macros::Value;
+use super::move_values::ArcValues;
 use super::plan::framed;
+use super::registers::Register;
 use super::section::Section;
-use super::writer::{ArcValues, Writer, Written};
-use crate::post::job::{Hole, HoleKind, Stock};
+use super::writer::{Writer, Written};
+use crate::post::job::Stock;
+use crate::post::step::{Hole, HoleKind, Step};
 
 impl Writer<'_> {
     /// The text of a value; `None` where the program has none.
@@ -22,12 +25,8 @@ impl Writer<'_> {
             Value::MopTag => Some(plain(&operation.tag)),
             Value::MopClearancePlane => Some(self.length(operation.clearance)),
             Value::MopRetractHeight => Some(self.length(operation.retract)),
-            Value::MopPlungeFeedrate => {
-                operation.plunge_feed.or(operation.cut_feed).map(|feed| self.length(feed))
-            }
-            Value::MopCutFeedrate => {
-                operation.cut_feed.or(operation.plunge_feed).map(|feed| self.length(feed))
-            }
+            Value::MopPlungeFeedrate => self.feed_value(operation.plunge_feed, operation.cut_feed),
+            Value::MopCutFeedrate => self.feed_value(operation.cut_feed, operation.plunge_feed),
             Value::MopDepthIncrement => operation.depth_increment.map(|depth| self.length(depth)),
             Value::MopDwell => {
                 Some(self.number_format().format(operation.holes().find_map(dwell).unwrap_or(0.0)))
@@ -55,6 +54,13 @@ impl Writer<'_> {
         }
     }
 
+    /// A feed of the operation, else any of the program: an operation may have none.
+    fn feed_value(&self, wanted: Option<f64>, other: Option<f64>) -> Option<String> {
+        let any =
+            || self.plan.job.operations.iter().flat_map(|operation| &operation.steps).find_map(Step::feed);
+        wanted.or(other).or_else(any).map(|feed| self.length(feed))
+    }
+
     fn register_value(&self, register: Register) -> Option<String> {
         self.move_values.get(register).map(|value| self.number_format().format(value))
     }
@@ -70,7 +76,7 @@ impl Writer<'_> {
     /// What becomes of a macro without a value: a date may be left out, anything else would leave a gap in the program.
     pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> Written {
         if value == Value::Date {
-            self.leave_out();
+            self.line.leave_out();
             return Ok(());
         }
         let diagnostic = Diagnostic::new(&posts::VALUE_MISSING)

@@ -2,22 +2,23 @@
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
+use super::fuel::fuel;
+use super::line::{Line, collapse};
 use super::lines::Lines;
 use super::machine::Machine;
-use super::macros::{Block, Choice, Code, Form, Macro, Register, State, coolant_section, spindle_section};
+use super::macros::{Block, Macro};
+use super::move_values::MoveValues;
 use super::plan::Plan;
 use super::section::Section;
 use super::template::{Piece, Template};
 use super::words::{CommentMarks, words};
-use crate::post::arcs::Polar;
-use crate::post::holes;
-use crate::post::job::{Operation, Plane, Spindle, Step, Tool, Units, VelocityMode};
+use crate::post::job::{Operation, Tool};
 use crate::post::number::NumberFormat;
 
 /// Success, or the diagnostic that ends the writing.
 pub(super) type Written = Result<(), Box<Diagnostic>>;
 
-/// Sections and macros may contain each other so deep.
+/// User macros may contain each other so deep, and sections as well.
 const MOST_DEPTH: usize = 16;
 
 /// Writes one program.
@@ -34,58 +35,13 @@ pub(super) struct Writer<'a> {
     pub(super) is_cutting: bool,
     /// A code macro whose section is empty was met since this was last reset.
     pub(super) empty_code: Option<Section>,
-    pub(super) warnings: Vec<Diagnostic>,
-    line: Line,
+    warnings: Vec<Diagnostic>,
+    pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
-    depth: usize,
+    /// Sections that contain each other at this moment, and user macros.
+    depth: [usize; 2],
     fuel: usize,
-}
-
-/// The numbers that registers have in a move.
-#[derive(Debug, Default)]
-pub(super) struct MoveValues {
-    registers: [Option<f64>; Register::ALL.len()],
-    /// The arc that the move is.
-    pub(super) arc: Option<ArcValues>,
-}
-
-/// The numbers of an arc: a length in the unit that is written, and degrees.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ArcValues {
-    pub(super) radius: f64,
-    pub(super) start: f64,
-    pub(super) end: f64,
-    /// Clockwise is positive.
-    pub(super) sweep: f64,
-}
-
-impl MoveValues {
-    pub(super) fn get(&self, register: Register) -> Option<f64> {
-        self.registers[register as usize]
-    }
-
-    pub(super) fn set(&mut self, register: Register, value: Option<f64>) {
-        self.registers[register as usize] = value;
-    }
-}
-
-/// The line that is being written.
-#[derive(Debug, Default)]
-struct Line {
-    text: String,
-    /// What did not come from macros of motion codes.
-    rest: String,
-    /// What is added comes from such a macro.
-    is_in_code: bool,
-    /// A register was asked for.
-    asked: bool,
-    /// A register was written.
-    answered: bool,
-    /// The motion that a macro stood for.
-    code: Option<Code>,
-    /// Something was left out at the end of the text; whether blanks stood before it.
-    gap: Option<bool>,
 }
 
 impl<'a> Writer<'a> {
@@ -103,7 +59,7 @@ impl<'a> Writer<'a> {
             line: Line::default(),
             lines: Lines::new(&plan.definition.options),
             marks: CommentMarks { open: String::new(), close: String::new() },
-            depth: 0,
+            depth: [0; 2],
             fuel: fuel(plan),
         };
         writer.marks = CommentMarks {
@@ -153,18 +109,19 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn template(&mut self, template: &'a Template) -> Written {
-        if self.depth == MOST_DEPTH {
+        let kind = usize::from(template.section == Section::UserMacro);
+        if self.depth[kind] == MOST_DEPTH {
             let diagnostic = Diagnostic::new(&posts::MACRO_DEPTH).with("limit", MOST_DEPTH);
             return Err(Box::new(self.plan.locate(diagnostic, template.section, 0)));
         }
-        self.depth += 1;
+        self.depth[kind] += 1;
         for piece in &template.pieces {
             match piece {
                 Piece::Text(text) => self.text(text)?,
                 Piece::Macro { what, line } => self.expand(what, template.section, *line)?,
             }
         }
-        self.depth -= 1;
+        self.depth[kind] -= 1;
         Ok(())
     }
 
@@ -193,89 +150,6 @@ impl<'a> Writer<'a> {
                 None => Ok(()),
             },
         }
-    }
-
-    fn named_section(&mut self, section: Section) -> Written {
-        match section {
-            Section::SpindleCw => self.machine.spindle = Some(Spindle::Clockwise),
-            Section::SpindleCcw => self.machine.spindle = Some(Spindle::CounterClockwise),
-            Section::SpindleOff => self.machine.spindle = Some(Spindle::Off),
-            _ => {}
-        }
-        self.section(section)
-    }
-
-    fn register(&mut self, register: Register, form: Form) -> Written {
-        self.line.asked = true;
-        let Some(value) = self.move_values.get(register) else { return Ok(()) };
-        let value = match form {
-            Form::Always | Form::Changed => value,
-            Form::Reversed => -value,
-            Form::Positive => value.abs(),
-        };
-        let text = self.number_format().format(value);
-        if form == Form::Changed && self.machine.written(register) == Some(text.as_str()) {
-            return Ok(());
-        }
-        self.line.answered = true;
-        self.text(&format!("{}{text}", register.letter()))
-    }
-
-    fn speed(&mut self) -> Written {
-        match self.operation().speed {
-            Some(speed) => self.text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
-            None => Ok(()),
-        }
-    }
-
-    fn code(&mut self, code: Code, modal: bool) -> Written {
-        self.line.code = Some(code);
-        if self.plan.definition.section(code.section()).is_blank() {
-            self.empty_code = Some(code.section());
-        }
-        if modal && self.machine.is_in(code) {
-            return Ok(());
-        }
-        self.line.is_in_code = true;
-        self.section(code.section())?;
-        self.line.is_in_code = false;
-        Ok(())
-    }
-
-    fn chosen(&self, choice: Choice) -> Section {
-        let options = &self.plan.definition.options;
-        match choice {
-            Choice::Units if self.plan.job.units == Units::Inches => Section::UnitsInches,
-            Choice::Units => Section::UnitsMm,
-            Choice::ArcCentre if options.absolute_centres => Section::ArcCenterAbsolute,
-            Choice::ArcCentre => Section::ArcCenterIncremental,
-            Choice::LatheX if options.lathe_diameter => Section::XModeDiameter,
-            Choice::LatheX => Section::XModeRadius,
-        }
-    }
-
-    fn state(&mut self, state: State) -> Written {
-        let operation = self.operation();
-        let section = match state {
-            State::Velocity
-                if self.machine.velocity.replace(operation.velocity) != Some(operation.velocity) =>
-            {
-                velocity_section(operation.velocity)
-            }
-            State::WorkPlane if self.machine.plane.replace(operation.plane) != Some(operation.plane) => {
-                plane_section(operation.plane)
-            }
-            State::Spindle if operation.spindle.is_some() && self.machine.spindle != operation.spindle => {
-                self.machine.spindle = operation.spindle;
-                operation.spindle.map_or(Section::SpindleOff, spindle_section)
-            }
-            State::Coolant if operation.coolant.is_some() && self.machine.coolant != operation.coolant => {
-                self.machine.coolant = operation.coolant;
-                operation.coolant.map_or(Section::CoolantOff, coolant_section)
-            }
-            _ => return Ok(()),
-        };
-        self.section(section)
     }
 
     fn block(&mut self, block: Block) -> Written {
@@ -336,11 +210,6 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Leaves something out, with the blanks round it.
-    pub(super) fn leave_out(&mut self) {
-        self.line.leave_out();
-    }
-
     /// Writes the line, unless it is blank or a move that moves nothing, and reads it back.
     pub(super) fn end_line(&mut self) {
         let line = std::mem::take(&mut self.line);
@@ -384,74 +253,5 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Bytes of text that a post may write whatever the program, and more for each of its moves.
-const FUEL: usize = 1 << 20;
-const FUEL_PER_MOVE: usize = 1 << 12;
 /// Nobody reads more of them.
 const MOST_WARNINGS: usize = 50;
-
-fn fuel(plan: &Plan<'_>) -> usize {
-    let moves = |operation: &Operation| -> usize {
-        let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan, operation.plane)).sum();
-        of_steps + 1
-    };
-    let moves: usize = plan.job.operations.iter().map(moves).sum();
-    FUEL + FUEL_PER_MOVE.saturating_mul(moves)
-}
-
-/// How many moves a step can become.
-fn moves_of(step: &Step, plan: &Plan<'_>, plane: Plane) -> usize {
-    match step {
-        Step::Arc(arc) => Polar::of(arc, plane).chords(plan.arc_tolerance()).unwrap_or(1),
-        Step::Hole(hole) => holes::moves(hole).map_or(1, |moves| moves.len()),
-        _ => 1,
-    }
-}
-
-impl Line {
-    fn push(&mut self, text: &str) {
-        if text.is_empty() {
-            return;
-        }
-        let text = match self.gap.take() {
-            Some(blank_before) => {
-                let after = text.trim_start_matches([' ', '\t']);
-                if blank_before && after.len() < text.len() {
-                    self.text.push(' ');
-                }
-                after
-            }
-            None => text,
-        };
-        self.text.push_str(text);
-        if !self.is_in_code {
-            self.rest.push_str(text);
-        }
-    }
-
-    fn leave_out(&mut self) {
-        let length = self.text.trim_end_matches([' ', '\t']).len();
-        self.gap = Some(length < self.text.len());
-        self.text.truncate(length);
-    }
-}
-
-/// One blank where there are several, none at the ends.
-fn collapse(text: &str) -> String {
-    text.split([' ', '\t', '\r']).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
-}
-
-fn velocity_section(mode: VelocityMode) -> Section {
-    match mode {
-        VelocityMode::ExactStop => Section::VelocityModeExactStop,
-        VelocityMode::ConstantVelocity => Section::VelocityModeConstantVelocity,
-    }
-}
-
-fn plane_section(plane: Plane) -> Section {
-    match plane {
-        Plane::Xy => Section::WorkPlaneXy,
-        Plane::Xz => Section::WorkPlaneXz,
-        Plane::Yz => Section::WorkPlaneYz,
-    }
-}

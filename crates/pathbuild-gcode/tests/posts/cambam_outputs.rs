@@ -1,31 +1,12 @@
 //! Programs that CamBam wrote, read and written again with our engine, come out byte for byte. (/work/shared/cambam-output)
 
-use std::path::Path;
-
 use camino::Utf8Path;
 use pathbuild_gcode::post::{
     Arc, Hole, HoleKind, Job, Operation, Position, Post, PostOptions, Spindle, Step, Tool, Units,
     VelocityMode,
 };
 
-/// A file of /work/shared; `None`, with a message, where that is absent and not required.
-fn shared(name: &str) -> Option<String> {
-    let path = Path::new("/work/shared").join(name);
-    #[expect(clippy::disallowed_methods, reason = "a test's own files")]
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(text),
-        Err(error) if required() => panic!("{}: {error}", path.display()),
-        Err(_) => {
-            println!("skipped: {} is absent", path.display());
-            None
-        }
-    }
-}
-
-#[expect(clippy::disallowed_methods, reason = "tells whether an absent oracle is a failure")]
-fn required() -> bool {
-    std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"))
-}
+use crate::support::shared;
 
 /// A reader for the few forms that CamBam's programs have: one move a line, coordinates as they change.
 struct Reader {
@@ -111,9 +92,9 @@ impl Reader {
 
     fn hole(&mut self, level: f64) -> Step {
         let [x, y, bottom] = self.at.map(Option::unwrap);
-        self.at[2] = Some(self.retract);
+        self.at[2] = Some(level);
         let (at, retract) = ([x, y], self.retract);
-        Step::Hole(Hole { at, level, retract, bottom, exit: retract, feed: self.feed, kind: HoleKind::Plain })
+        Step::Hole(Hole { at, level, retract, bottom, exit: level, feed: self.feed, kind: HoleKind::Plain })
     }
 
     fn machine(&mut self, tool: Option<f64>, speed: Option<f64>) {

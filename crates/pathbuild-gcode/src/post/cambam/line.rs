@@ -1,0 +1,56 @@
+//! The line that is being written.
+
+use super::registers::Code;
+
+/// The line that is being written.
+#[derive(Debug, Default)]
+pub(super) struct Line {
+    pub(super) text: String,
+    /// What did not come from macros of motion codes.
+    pub(super) rest: String,
+    /// What is added comes from such a macro.
+    pub(super) is_in_code: bool,
+    /// A register was asked for.
+    pub(super) asked: bool,
+    /// A register was written.
+    pub(super) answered: bool,
+    /// The motion that a macro stood for.
+    pub(super) code: Option<Code>,
+    /// Something was left out at the end of the text; whether blanks stood before it.
+    gap: Option<bool>,
+}
+
+impl Line {
+    /// Adds text without line feeds.
+    pub(super) fn push(&mut self, text: &str) {
+        if text.is_empty() {
+            return;
+        }
+        let text = match self.gap.take() {
+            Some(blank_before) => {
+                let after = text.trim_start_matches([' ', '\t']);
+                if blank_before && after.len() < text.len() {
+                    self.text.push(' ');
+                }
+                after
+            }
+            None => text,
+        };
+        self.text.push_str(text);
+        if !self.is_in_code {
+            self.rest.push_str(text);
+        }
+    }
+
+    /// Leaves something out, with the blanks round it: one stays where both neighbours had one.
+    pub(super) fn leave_out(&mut self) {
+        let length = self.text.trim_end_matches([' ', '\t']).len();
+        self.gap = Some(length < self.text.len());
+        self.text.truncate(length);
+    }
+}
+
+/// One blank where there are several, none at the ends.
+pub(super) fn collapse(text: &str) -> String {
+    text.split([' ', '\t', '\r']).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,13 @@
+//! Post-processors through their public interface.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and says what it skips"
+)]
+
+mod cambam_definition;
+mod cambam_lines;
+mod cambam_moves;
+mod cambam_outputs;
+mod jobs;
+mod support;
