@@ -2,16 +2,14 @@
 
 use std::cmp::Ordering;
 
-use regex::Regex;
-
 use crate::PathPattern;
-use crate::pattern::{Pattern, PatternError, compile};
+use crate::pattern::{LazyRegex, Pattern, PatternError};
 
 /// What describes path names in a file's stem.
 #[derive(Clone, Debug)]
 pub struct FilePattern {
     part: Pattern,
-    range: Regex,
+    range: LazyRegex,
 }
 
 /// A path name, or a range of them, in a file's name. A single name is a range from itself to itself.
@@ -31,7 +29,7 @@ pub struct PathKey(Vec<Box<str>>);
 
 impl Default for FilePattern {
     fn default() -> Self {
-        Self::new(Self::DEFAULT).expect("the default pattern is a regular expression")
+        Self::known(Self::DEFAULT)
     }
 }
 
@@ -44,10 +42,17 @@ impl FilePattern {
     /// # Errors
     /// When it is no regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        Ok(Self {
-            part: Pattern::new(pattern)?,
-            range: compile(&format!("(?P<from>{pattern})-(?P<to>{pattern})"))?,
-        })
+        if pattern == Self::DEFAULT {
+            return Ok(Self::default());
+        }
+        let known = Self { part: Pattern::new(pattern)?, ..Self::known(pattern) };
+        known.range.check()?;
+        Ok(known)
+    }
+
+    fn known(pattern: &str) -> Self {
+        let range = LazyRegex::new(format!("(?P<from>{pattern})-(?P<to>{pattern})"));
+        Self { part: Pattern::known(pattern), range }
     }
 
     /// The names and ranges in a file's stem, in the order of the specification: ranges, then single names.
@@ -55,7 +60,7 @@ impl FilePattern {
         let mut found = Vec::new();
         // A range has a hyphen in it; most names have none, and the search for ranges is the dearest part of listing a directory.
         if stem.contains('-') {
-            found.extend(self.range.captures_iter(stem).filter_map(|ends| {
+            found.extend(self.range.captures_all(stem).filter_map(|ends| {
                 Some(NameRange { from: self.file_part(&ends["from"])?, to: self.file_part(&ends["to"])? })
             }));
         }

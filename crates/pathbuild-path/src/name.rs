@@ -26,7 +26,7 @@ pub struct PathLayer {
 
 impl Default for PathPattern {
     fn default() -> Self {
-        Self::new(Self::DEFAULT).expect("the default pattern is a regular expression")
+        Self(Pattern::known(Self::DEFAULT))
     }
 }
 
@@ -39,7 +39,7 @@ impl PathPattern {
     /// # Errors
     /// When it is no regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        Pattern::new(pattern).map(Self)
+        if pattern == Self::DEFAULT { Ok(Self::default()) } else { Pattern::new(pattern).map(Self) }
     }
 
     /// The path that a layer belongs to; `None` for a layer that is no path layer.
