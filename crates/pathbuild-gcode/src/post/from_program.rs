@@ -146,7 +146,7 @@ impl<'a> Builder<'a> {
                 self.cut(feed, to, z.z);
                 Step::Feed { to: self.at.into(), feed: Some(feed) }
             }
-            Move::Arc { feed, clockwise, centre, to, z } => {
+            Move::Arc { feed, clockwise, centre, to, z, .. } => {
                 self.cut(feed, to, z.z);
                 let centre = [from[0] + centre.x, from[1] + centre.y, 0.0];
                 Step::Arc(Arc { clockwise, from, centre, to: self.at, feed: Some(feed) })
