@@ -87,6 +87,14 @@ impl Curve {
         }
     }
 
+    /// The same curve from a point close to its start to its end; an arc keeps its radius as far as it can.
+    pub(crate) fn starting_at(self, start: Xy) -> Self {
+        match self {
+            Self::Line(line) => Self::Line(Line { start, ..line }),
+            Self::Arc(arc) => Self::Arc(arc.starting_at(start)),
+        }
+    }
+
     /// The piece of it from `from` to `to`, both in mm along it from its start.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
@@ -119,6 +127,26 @@ impl Arc {
     /// The length along it, in mm.
     pub fn length(&self) -> f64 {
         self.radius * self.degrees.to_radians()
+    }
+
+    /// The centre is found anew from both ends and the radius, so that both ends are as far from it.
+    fn starting_at(&self, start: Xy) -> Self {
+        let chord = self.end - start;
+        let half = chord.norm() / 2.0;
+        if half == 0.0 {
+            return Self { start, ..*self };
+        }
+        let radius = self.radius.max(half);
+        let height = libm::sqrt(radius * radius - half * half);
+        // The centre is to the left of the chord of a counterclockwise arc of less than half a turn.
+        let is_left = self.clockwise == (self.degrees > 180.0);
+        let left = Vector2::new(-chord.y, chord.x) / (2.0 * half);
+        let centre = start + chord / 2.0 + left * if is_left { height } else { -height };
+        let (from, to) = (start - centre, self.end - centre);
+        let turn = libm::atan2(from.perp(&to), from.dot(&to)).to_degrees();
+        let ahead = if self.clockwise { -turn } else { turn };
+        let degrees = if ahead <= 0.0 { ahead + 360.0 } else { ahead };
+        Self { centre, radius, start, degrees, ..*self }
     }
 
     fn section(&self, from: f64, to: f64) -> Self {

@@ -311,6 +311,18 @@ impl Segment {
         self
     }
 
+    /// The same segment from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its
+    /// own. Holes and circles stay where they are.
+    pub(crate) fn starting_at(mut self, start: Xy) -> Self {
+        match &mut self.kind {
+            SegmentKind::Cut(cut) => cut.curve = cut.curve.starting_at(start),
+            SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
+            SegmentKind::Sweep(sweep) => sweep.start = start,
+            SegmentKind::Subpath(subpath) => subpath.start = start,
+        }
+        self
+    }
+
     /// What of several segments at a point comes first when their orders are equal.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {

@@ -60,6 +60,8 @@ pub struct Language {
     pub path_pattern: PathPattern,
     /// Names of line types.
     pub line_types: LineTypeAliases,
+    /// How far apart ends may be, in mm, that the walk joins with a warning (PB115); 0: only ends that coincide meet.
+    pub join_tolerance: f64,
     /// Longest value that variables may make, in bytes.
     pub text_limit: usize,
 }

@@ -2,6 +2,7 @@
 
 mod ends;
 mod failure;
+mod join;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -33,13 +34,14 @@ pub(crate) struct Step {
     pub(crate) is_return: bool,
 }
 
-/// Orders the segments of a path.
-pub fn walk(path: &Path) -> Walked {
-    let mut walk = Walk::new(path);
+/// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
+pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
+    let mut walk = Walk::new(path, join_tolerance);
     let (items, mut diagnostics) = match walk.run() {
         Ok(()) => items(&walk.steps),
         Err(problem) => (Vec::new(), vec![problem]),
     };
+    diagnostics.append(&mut walk.joined);
     if !items.is_empty() {
         diagnostics.extend(walk.idle_markers());
     }
@@ -59,12 +61,17 @@ struct Walk<'a> {
     /// Steps taken forwards and not yet gone back over. They always lead from the start to `at`.
     way_back: Vec<Step>,
     has_acted: Vec<bool>,
+    join_tolerance: f64,
+    /// PB115 for each join.
+    joined: Vec<Diagnostic>,
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &'a Path) -> Self {
+    fn new(path: &'a Path, join_tolerance: f64) -> Self {
         Self {
             path,
+            join_tolerance,
+            joined: Vec::new(),
             ends: Ends::new(&path.segments),
             is_traversed: vec![false; path.segments.len()],
             left: path.segments.len(),
@@ -80,17 +87,17 @@ impl<'a> Walk<'a> {
             return Err(self.empty());
         }
         while self.left > 0 {
-            if let Some(segment) = self.next() {
+            if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
                 self.go_back(Self::has_next).map_err(|_| self.turn_found_nothing(marker))?;
-            } else if coincide(self.at, self.path.end) {
+            } else if self.is_at_end() {
                 return Err(self.unreached());
             } else {
                 return Err(self.nothing_continues());
             }
         }
-        if coincide(self.at, self.path.end) {
+        if self.is_at_end() || self.joins_end() {
             return Ok(());
         }
         let stopped_at = self.at;
@@ -130,9 +137,13 @@ impl<'a> Walk<'a> {
         self.follow(step);
     }
 
-    /// A segment is turned round when its end is where the tool is.
+    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined.
     fn from_here(&self, segment: Segment) -> Segment {
-        if coincide(segment.end(), self.at) { segment.turned_round() } else { segment }
+        let (to_start, to_end) = ((segment.start() - self.at).norm(), (segment.end() - self.at).norm());
+        let is_joined = !coincide(segment.start(), self.at) && !coincide(segment.end(), self.at);
+        let is_turned = if is_joined { to_end < to_start } else { coincide(segment.end(), self.at) };
+        let segment = if is_turned { segment.turned_round() } else { segment };
+        if is_joined { segment.starting_at(self.at) } else { segment }
     }
 
     fn follow(&mut self, step: Step) {

@@ -80,7 +80,8 @@ impl<P: Parts> Fold<'_, P> {
                 last_pass = Some(run.edge);
             }
             let (from, to) = strand.ends(run.is_backwards);
-            self.travel(Tip { at: from, z }, place.surface, place.sweep_height, place.feed);
+            let entry = strand.entry(z, self.spares_bars());
+            self.travel(Tip { at: from, z: entry }, place.surface, place.sweep_height, place.feed);
             self.edge(place, strand, z, run.is_backwards);
             tip = Tip { at: to, z };
         }
@@ -113,7 +114,7 @@ impl<P: Parts> Fold<'_, P> {
     fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
         let strand = &strands[run.strand];
         let z = strand.depths[run.edge];
-        self.plunge(z, place.surface, place.feed);
+        self.plunge(strand.entry(z, self.spares_bars()), place.surface, place.feed);
         self.edge(place, strand, z, run.is_backwards);
     }
 
@@ -131,6 +132,14 @@ impl Strand<'_> {
     fn ends(&self, is_backwards: bool) -> (pathbuild_path::Xy, pathbuild_path::Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
         if is_backwards { (end, start) } else { (start, end) }
+    }
+
+    /// The height at which the tool comes to its end for a run at depth `z`.
+    fn entry(&self, z: f64, spares_bars: bool) -> f64 {
+        match &self.bars {
+            Some((top, _)) if spares_bars => z.max(*top),
+            _ => z,
+        }
     }
 
     fn starts_nearer(&self, at: pathbuild_path::Xy) -> bool {

@@ -14,7 +14,7 @@ mod program;
 mod statistics;
 
 pub use cost::own_moves;
-pub use fold::{FoldOptions, Parts, fold};
+pub use fold::{FoldOptions, Parts, SupportBars, fold};
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,

@@ -60,8 +60,8 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
 #[salsa::tracked]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
     let Some(path) = &path(db, instance).path else { return Walked::default() };
-    catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path))).unwrap_or_else(|payload| Walked {
-        items: Vec::new(),
-        diagnostics: vec![internal_error(&*payload).in_path(path.name.as_str())],
+    let join_tolerance = Settings::get(db).language(db).join_tolerance;
+    catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path, join_tolerance))).unwrap_or_else(|payload| {
+        Walked { items: Vec::new(), diagnostics: vec![internal_error(&*payload).in_path(path.name.as_str())] }
     })
 }

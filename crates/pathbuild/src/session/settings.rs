@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{FilePattern, Language, LineType, LineTypeAliases, PathPattern};
-use pathbuild_toolpath::FoldOptions;
+use pathbuild_toolpath::{FoldOptions, SupportBars};
 
 use super::normal;
 use crate::config::types;
@@ -30,6 +30,7 @@ pub(super) fn apply(db: &Database, context: &Context) {
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
         line_types: aliases(context),
+        join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
     };
     let search = general.search.value.iter();
@@ -39,7 +40,14 @@ pub(super) fn apply(db: &Database, context: &Context) {
     };
     let rules = general.restrict.value.iter();
     let restrictions = rules.filter_map(|rule| Restriction::new(&rule.parent, &rule.child).ok()).collect();
-    let fold = FoldOptions { feed: general.feed.value, sweep_height: general.sweep_height.value };
+    let fold = FoldOptions {
+        feed: general.feed.value,
+        sweep_height: general.sweep_height.value,
+        support_bars: match general.support_bars.value {
+            types::SupportBars::Compatible => SupportBars::Compatible,
+            types::SupportBars::Solid => SupportBars::Solid,
+        },
+    };
     let limits = Limits { moves: limits.embedding_moves.value };
     _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
 }
