@@ -3,7 +3,8 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use ignore::WalkBuilder;
 
-/// Every drawing in a directory and below, in order of name; .gitignore and .ignore files inside are respected.
+/// Every drawing in a directory and below, in order of name; .gitignore and .ignore files inside are respected. Links to directories
+/// are not followed: they could lead anywhere, and round in circles.
 pub(super) fn drawings(directory: &Utf8Path) -> Vec<Utf8PathBuf> {
     let root = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
     let mut walk = WalkBuilder::new(root);
@@ -12,8 +13,7 @@ pub(super) fn drawings(directory: &Utf8Path) -> Vec<Utf8PathBuf> {
         .parents(false)
         .git_global(false)
         .git_exclude(false)
-        .require_git(false)
-        .follow_links(true);
+        .require_git(false);
     let files = walk
         .build()
         .filter_map(Result::ok)
