@@ -1,4 +1,5 @@
 use crate::error::DrawError;
+use crate::furniture::Furniture;
 use crate::model::{Entity, Layer, NoteKind, Options, Point, Shape, Version};
 use crate::place::{candidates, seat_notes};
 use crate::sheet::Sheet;
@@ -95,7 +96,8 @@ impl Draft {
             let entities = std::mem::take(&mut block.entities);
             block.entities = seat_notes(entities, &found, &self.options, &mut errors);
         }
-        if errors.is_empty() { Ok(Sheet::new(self)) } else { Err(errors) }
+        let furniture = self.options.furniture.map(|seed| Furniture::new(seed, &mut self));
+        if errors.is_empty() { Ok(Sheet::new(self, furniture)) } else { Err(errors) }
     }
 
     fn fault(&self, entity: &Entity) -> Option<DrawError> {

@@ -8,9 +8,12 @@
 mod draft;
 mod error;
 mod fixture;
+mod furniture;
+pub mod generate;
 pub mod model;
 mod parse;
 mod place;
+mod random;
 mod sheet;
 mod write;
 

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Handle;
 
 use crate::draft::{Block, Draft};
 use crate::error::DrawError;
+use crate::furniture::Furniture;
 use crate::model::{Entity, Layer, Options};
 use crate::{parse, write};
 
@@ -15,6 +16,7 @@ pub struct Sheet {
     line_types: Vec<(String, Vec<f64>)>,
     blocks: Vec<Block>,
     entities: Vec<Entity>,
+    furniture: Option<Furniture>,
     next_handle: u64,
 }
 
@@ -30,7 +32,7 @@ impl Sheet {
         parse::draft(text)?.finish()
     }
 
-    pub(crate) fn new(draft: Draft) -> Self {
+    pub(crate) fn new(draft: Draft, furniture: Option<Furniture>) -> Self {
         let Draft { options, mut layers, line_types, blocks, entities, .. } = draft;
         let inner = blocks.iter().flat_map(|block| &block.entities);
         for name in entities.iter().chain(inner).filter_map(|entity| entity.layer.as_deref()) {
@@ -38,7 +40,8 @@ impl Sheet {
                 layers.push(Layer::new(name));
             }
         }
-        let mut sheet = Self { options, layers, line_types, blocks, entities, next_handle: FIRST_HANDLE };
+        let mut sheet =
+            Self { options, layers, line_types, blocks, entities, furniture, next_handle: FIRST_HANDLE };
         sheet.allot_handles();
         sheet
     }
@@ -77,7 +80,7 @@ impl Sheet {
         &self.blocks
     }
 
-    /// The entities in file order, texts behind the elements that they belong to.
+    /// The entities in file order, texts behind the elements that they belong to; without the furniture.
     pub fn entities(&self) -> &[Entity] {
         &self.entities
     }
@@ -85,6 +88,16 @@ impl Sheet {
     /// The handles of what a line of the text form draws: the elements' first, each followed by its text's.
     pub fn handles_of_line(&self, line: u32) -> impl Iterator<Item = Handle> + '_ {
         self.entities.iter().filter(move |entity| entity.line == line).filter_map(|entity| entity.handle)
+    }
+
+    /// What stands around the path. It is no part of [`Sheet::entities`].
+    pub(crate) fn furniture(&self) -> Option<Furniture> {
+        self.furniture
+    }
+
+    /// The entities in the order in which the writer counts them: those of the drawing, then those of the blocks.
+    pub(crate) fn tagged(&self) -> Vec<&Entity> {
+        self.entities.iter().chain(self.blocks.iter().flat_map(|block| &block.entities)).collect()
     }
 
     /// The first handle behind all entities'.

@@ -76,7 +76,12 @@ impl Entity {
     /// An entity of a shape, CONTINUOUS, on the current layer.
     pub fn new(shape: Shape) -> Self {
         let line_type = match shape {
-            Shape::Insert(_) | Shape::Text(_) | Shape::MText(_) | Shape::Raw(_) | Shape::Solid(_) => None,
+            Shape::Insert(_)
+            | Shape::Text(_)
+            | Shape::MText(_)
+            | Shape::Raw(_)
+            | Shape::Solid(_)
+            | Shape::Dimension(_) => None,
             _ => Some("CONTINUOUS".to_owned()),
         };
         Self {

@@ -12,6 +12,6 @@ pub use options::{LineEnds, Options, Part, TextEncoding, Version};
 pub use point::Point;
 pub(crate) use point::sin_cos;
 pub use shape::{
-    Arc, Attachment, Circle, Direction, Ellipse, Horizontal, Insert, Line, MText, Pair, Polyline,
+    Arc, Attachment, Circle, Dimension, Direction, Ellipse, Horizontal, Insert, Line, MText, Pair, Polyline,
     PolylineKind, Shape, Spline, Text, Vertex, Vertical,
 };

@@ -14,6 +14,7 @@ pub enum Shape {
     Text(Text),
     MText(MText),
     Solid([Point; 4]),
+    Dimension(Dimension),
     Raw(Vec<Pair>),
 }
 
@@ -120,6 +121,23 @@ pub struct Insert {
     pub count: (i16, i16),
     /// Between columns, between rows.
     pub spacing: (f64, f64),
+}
+
+/// A horizontal dimension. What is seen of it stands in its block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dimension {
+    /// The first point that is measured from.
+    pub from: Point,
+    /// The other one.
+    pub to: Point,
+    /// A point on the dimension line.
+    pub line: Point,
+    /// What is written on it.
+    pub label: String,
+    /// The middle of the label.
+    pub text: Point,
+    /// The block.
+    pub block: String,
 }
 
 /// A text of one line.

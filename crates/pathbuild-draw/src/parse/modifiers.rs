@@ -121,6 +121,7 @@ fn raise(shape: &mut Shape, z: f64) {
         Shape::Text(text) => vec![&mut text.anchor],
         Shape::MText(text) => vec![&mut text.anchor],
         Shape::Solid(corners) => corners.iter_mut().collect(),
+        Shape::Dimension(dimension) => vec![&mut dimension.from, &mut dimension.to, &mut dimension.line],
         Shape::Raw(_) => Vec::new(),
     };
     for point in points {

@@ -72,7 +72,12 @@ fn pieces(shape: &Shape) -> Vec<Piece> {
         Shape::Polyline(polyline) => of_polyline(polyline),
         Shape::Ellipse(ellipse) => chain(&of_ellipse(ellipse)),
         Shape::Spline(spline) => chain(&of_spline(spline)),
-        Shape::Insert(_) | Shape::Text(_) | Shape::MText(_) | Shape::Solid(_) | Shape::Raw(_) => Vec::new(),
+        Shape::Insert(_)
+        | Shape::Text(_)
+        | Shape::MText(_)
+        | Shape::Solid(_)
+        | Shape::Dimension(_)
+        | Shape::Raw(_) => Vec::new(),
     }
 }
 

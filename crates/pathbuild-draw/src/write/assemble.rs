@@ -1,23 +1,28 @@
-use super::crate_drawing::TAG;
+use super::furnished::furnish;
 use super::objects::Objects;
-use super::record::{Record, Written, identify, value};
+use super::record::{Pair, Record, identify, kind, value};
 use super::tables::{Owners, Tables};
+use super::written::{Written, entity_of};
 use super::{header, tidy};
-use crate::model::{Entity, Pair, Part, Shape, Version};
+use crate::model::{Entity, Part, Shape, Version};
 use crate::sheet::Sheet;
 
 /// Puts the sections together: with one handle for each thing, owners, and without what the options leave out.
-pub(crate) fn assemble(sheet: &Sheet, written: Written) -> Vec<Pair> {
+pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: Written<'a>) -> Vec<Pair<'a>> {
     let options = sheet.options();
     let is_in = |part: Part| !options.left_out.contains(&part);
+    if let Some(furniture) = sheet.furniture() {
+        let Written { tables, blocks, entities, .. } = &mut written;
+        furnish(furniture, options.version, tables, blocks, entities);
+    }
     let objects = Objects::from(sheet.next_handle());
     let mut counter = objects.end()..;
     let mut next = || counter.next().filter(|_| is_in(Part::Handles));
     let tables = Tables { sheet, plot_style: objects.plot_style(), layouts: objects.layouts() };
-    let (table_pairs, owners) = tables.pairs(&written.tables, &mut next);
+    let (table_pairs, owners) = tables.pairs(written.tables, &mut next);
     let entities = Entities::new(sheet, &owners, is_in(Part::Handles));
-    let block_pairs = entities.mend_blocks(written.blocks, &mut next);
-    let entity_pairs = entities.mend(written.entities, None, &mut next);
+    let block_pairs = entities.blocks(written.blocks, &mut next);
+    let entity_pairs = entities.entities(written.entities, None, &mut next);
     let has_objects = options.version >= Version::R13 && is_in(Part::Objects);
     let seed = next().unwrap_or(objects.end());
     let sections = [
@@ -27,8 +32,8 @@ pub(crate) fn assemble(sheet: &Sheet, written: Written) -> Vec<Pair> {
         ("ENTITIES", true, entity_pairs),
         ("OBJECTS", has_objects, objects.pairs(options.version, entities.spaces)),
     ];
-    let mut pairs: Vec<Pair> = Vec::new();
-    for (name, _, content) in sections.into_iter().filter(|(_, wanted, _)| *wanted) {
+    let mut pairs: Vec<Pair<'a>> = Vec::new();
+    for (name, _, content) in sections.into_iter().filter(|(_, is_wanted, _)| *is_wanted) {
         pairs.extend([Pair::new(0, "SECTION"), Pair::new(2, name)]);
         pairs.extend(content);
         pairs.push(Pair::new(0, "ENDSEC"));
@@ -37,91 +42,77 @@ pub(crate) fn assemble(sheet: &Sheet, written: Written) -> Vec<Pair> {
     pairs
 }
 
-struct Entities<'a> {
+/// Gives handles and owners to blocks and entities.
+struct Entities<'a, 'o> {
     /// In the order of their tags.
     tagged: Vec<&'a Entity>,
     version: Version,
-    handles: bool,
-    owners: &'a Owners,
+    has_handles: bool,
+    owners: &'o Owners,
     /// The block records of model and paper space.
     spaces: [u64; 2],
 }
 
-impl<'a> Entities<'a> {
-    fn new(sheet: &'a Sheet, owners: &'a Owners, handles: bool) -> Self {
-        let inner = sheet.blocks().iter().flat_map(|block| &block.entities);
+impl<'a, 'o> Entities<'a, 'o> {
+    fn new(sheet: &'a Sheet, owners: &'o Owners, has_handles: bool) -> Self {
         let space =
             |wanted: &str| owners.iter().find(|(name, _)| name == wanted).map_or(0, |(_, handle)| *handle);
-        Self {
-            tagged: sheet.entities().iter().chain(inner).collect(),
-            version: sheet.options().version,
-            handles,
-            owners,
-            spaces: [space("*Model_Space"), space("*Paper_Space")],
-        }
+        let spaces = [space("*Model_Space"), space("*Paper_Space")];
+        Self { tagged: sheet.tagged(), version: sheet.options().version, has_handles, owners, spaces }
+    }
+
+    fn owner(&self, owner: Option<u64>) -> Option<u64> {
+        owner.filter(|_| self.has_handles && self.version >= Version::R2000)
     }
 
     /// BLOCK and ENDBLK get handles of their own; what lies between them belongs to the block.
-    fn mend_blocks(&self, records: Vec<Record>, next: &mut impl FnMut() -> Option<u64>) -> Vec<Pair> {
+    fn blocks(&self, records: Vec<Record<'a>>, next: &mut impl FnMut() -> Option<u64>) -> Vec<Pair<'a>> {
         let mut pairs = Vec::new();
         let mut owner = None;
         let mut inner = Vec::new();
         for mut record in records {
-            match record[0].value.as_str() {
-                "BLOCK" => {
-                    let name = value(&record, 2).unwrap_or_default();
-                    owner = self.owners.iter().find(|(owner, _)| owner == name).map(|(_, handle)| *handle);
-                    tidy::common(&mut record, self.version);
-                    identify(&mut record, 5, next(), self.owner(owner));
-                    pairs.extend(record);
-                }
-                "ENDBLK" => {
-                    pairs.extend(self.mend(std::mem::take(&mut inner), owner, next));
-                    tidy::common(&mut record, self.version);
-                    identify(&mut record, 5, next(), self.owner(owner));
-                    pairs.extend(record);
-                }
-                _ => inner.push(record),
+            let is_begin = kind(&record) == "BLOCK";
+            if is_begin {
+                let name = value(&record, 2).unwrap_or_default();
+                owner = self.owners.iter().find(|(owner, _)| owner == name).map(|(_, handle)| *handle);
+            } else if kind(&record) != "ENDBLK" {
+                inner.push(record);
+                continue;
             }
-        }
-        pairs
-    }
-
-    fn owner(&self, owner: Option<u64>) -> Option<u64> {
-        owner.filter(|_| self.handles && self.version >= Version::R2000)
-    }
-
-    /// Entities of one block, or of model and paper space.
-    fn mend(
-        &self,
-        records: Vec<Record>,
-        block: Option<u64>,
-        next: &mut impl FnMut() -> Option<u64>,
-    ) -> Vec<Pair> {
-        let mut pairs = Vec::new();
-        let mut whole = 0;
-        for mut record in records {
-            if let Some(entity) = self.tagged(&record) {
-                whole = entity.handle.map_or(0, |handle| handle.0);
-                let owner = block.unwrap_or(self.spaces[usize::from(entity.paper)]);
-                tidy::entity(&mut record, entity, self.version);
-                if !matches!(entity.shape, Shape::Raw(_)) {
-                    identify(&mut record, 5, Some(whole).filter(|_| self.handles), self.owner(Some(owner)));
-                }
-                tidy::change(&mut record, &entity.changes);
-            } else {
-                // A part of the entity before it: VERTEX or SEQEND.
-                tidy::common(&mut record, self.version);
-                identify(&mut record, 5, next(), self.owner(Some(whole)));
-            }
+            pairs.extend(self.entities(std::mem::take(&mut inner), owner, next));
+            identify(&mut record, 5, next(), self.owner(owner));
             pairs.extend(record);
         }
         pairs
     }
 
-    fn tagged(&self, record: &Record) -> Option<&'a Entity> {
-        let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
-        let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;
-        self.tagged.get(index).copied()
+    /// Entities of one block, or of model and paper space.
+    fn entities(
+        &self,
+        records: Vec<Record<'a>>,
+        block: Option<u64>,
+        next: &mut impl FnMut() -> Option<u64>,
+    ) -> Vec<Pair<'a>> {
+        let mut pairs = Vec::new();
+        let mut whole = None;
+        for mut record in records {
+            if let Some(entity) = entity_of(&record, &self.tagged) {
+                let space = self.spaces[usize::from(entity.paper)];
+                whole = entity.handle.map(|handle| handle.0).filter(|_| self.has_handles);
+                if let Shape::Raw(raw) = &entity.shape {
+                    record = raw.iter().map(Pair::from).collect();
+                } else {
+                    identify(&mut record, 5, whole, self.owner(block.or(Some(space))));
+                }
+                tidy::change(&mut record, &entity.changes);
+            } else if matches!(kind(&record), "VERTEX" | "SEQEND") {
+                identify(&mut record, 5, next(), self.owner(whole));
+            } else {
+                whole = next();
+                identify(&mut record, 5, whole, self.owner(block.or(Some(self.spaces[0]))));
+            }
+            pairs.extend(record);
+        }
+        pairs
     }
 }

@@ -1,8 +1,9 @@
 use super::encoding::Encoder;
-use crate::model::{LineEnds, Options, Pair, Version};
+use super::record::Pair;
+use crate::model::{LineEnds, Options, Version};
 
 /// ASCII DXF: a line for the code, a line for the value.
-pub(crate) fn ascii(pairs: &[Pair], options: &Options) -> Vec<u8> {
+pub(crate) fn ascii(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     let encoder = Encoder::of(options);
     let line_end: &[u8] = match options.line_ends {
         LineEnds::CrLf => b"\r\n",
@@ -14,7 +15,7 @@ pub(crate) fn ascii(pairs: &[Pair], options: &Options) -> Vec<u8> {
         bytes.extend(b"\xef\xbb\xbf");
     }
     for pair in pairs {
-        bytes.extend(format!("{:>3}", pair.code).bytes());
+        append_code(pair.code, &mut bytes);
         bytes.extend(line_end);
         encoder.append(&pair.value, &mut bytes);
         bytes.extend(line_end);
@@ -22,8 +23,17 @@ pub(crate) fn ascii(pairs: &[Pair], options: &Options) -> Vec<u8> {
     bytes
 }
 
+/// A group code, to the right in three columns.
+fn append_code(code: i32, bytes: &mut Vec<u8>) {
+    match u8::try_from(code) {
+        Ok(short @ ..10) => bytes.extend([b' ', b' ', b'0' + short]),
+        Ok(short @ 10..100) => bytes.extend([b' ', b'0' + short / 10, b'0' + short % 10]),
+        _ => bytes.extend(code.to_string().bytes()),
+    }
+}
+
 /// Binary DXF. A number that is none is written as 0: the form has no way to say it.
-pub(crate) fn binary(pairs: &[Pair], options: &Options) -> Vec<u8> {
+pub(crate) fn binary(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     let encoder = Encoder::of(options);
     let mut bytes = b"AutoCAD Binary DXF\r\n\x1a\0".to_vec();
     for pair in pairs {
@@ -42,7 +52,7 @@ pub(crate) fn binary(pairs: &[Pair], options: &Options) -> Vec<u8> {
 }
 
 /// The types of values by group code, as the DXF reference has them.
-fn append_value(pair: &Pair, encoder: Encoder, version: Version, bytes: &mut Vec<u8>) {
+fn append_value(pair: &Pair<'_>, encoder: Encoder, version: Version, bytes: &mut Vec<u8>) {
     let value = pair.value.trim();
     match pair.code {
         10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {

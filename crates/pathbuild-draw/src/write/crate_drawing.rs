@@ -113,7 +113,8 @@ fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut Tickets) {
         let entities = block.entities.iter().map(inside).collect();
         let base = super::crate_entity::point(block.base);
         let name = tickets.ticket(&block.name);
-        drawing.add_block(CrateBlock { name, base_point: base, entities, ..Default::default() });
+        let flags = i32::from(block.name.starts_with('*'));
+        drawing.add_block(CrateBlock { name, flags, base_point: base, entities, ..Default::default() });
     }
 }
 

@@ -1,14 +1,16 @@
 use dxf::entities::{
-    Arc as CrateArc, Circle as CrateCircle, Ellipse as CrateEllipse, EntityType, Insert as CrateInsert,
-    Line as CrateLine, LwPolyline, ModelPoint, Polyline as CratePolyline, Solid as CrateSolid,
-    Spline as CrateSpline, Vertex as CrateVertex,
+    Arc as CrateArc, Circle as CrateCircle, DimensionBase, Ellipse as CrateEllipse, EntityType,
+    Insert as CrateInsert, Line as CrateLine, LwPolyline, ModelPoint, Polyline as CratePolyline,
+    RotatedDimension, Solid as CrateSolid, Spline as CrateSpline, Vertex as CrateVertex,
 };
+use dxf::enums::{AttachmentPoint, DimensionType};
 use dxf::{Drawing, LwPolylineVertex, Point as CratePoint, Vector};
 
 use super::crate_text::{mtext, text};
 use super::tickets::Tickets;
 use crate::model::{
-    Arc, Circle, Ellipse, Entity, Insert, Orientation, Point, Polyline, PolylineKind, Shape, Spline, Version,
+    Arc, Circle, Dimension, Ellipse, Entity, Insert, Orientation, Point, Polyline, PolylineKind, Shape,
+    Spline, Version,
 };
 
 /// The entity as the crate has it, in object coordinates.
@@ -37,6 +39,7 @@ pub(crate) fn entity_type(
         Shape::Text(shape) => EntityType::Text(text(shape, entity, tickets)),
         Shape::MText(shape) => EntityType::MText(mtext(shape, entity, tickets)),
         Shape::Solid(corners) => EntityType::Solid(solid(corners, plane)),
+        Shape::Dimension(shape) => EntityType::RotatedDimension(dimension(shape, tickets)),
         // Only keeps the place: its pairs are replaced.
         Shape::Raw(_) => EntityType::ModelPoint(ModelPoint::default()),
     }
@@ -168,6 +171,26 @@ fn insert(insert: &Insert, plane: Orientation, tickets: &mut Tickets) -> CrateIn
         column_spacing: sign * insert.spacing.0,
         row_spacing: insert.spacing.1,
         extrusion_direction: normal(plane),
+        ..Default::default()
+    }
+}
+
+fn dimension(dimension: &Dimension, tickets: &mut Tickets) -> RotatedDimension {
+    let dimension_base = DimensionBase {
+        block_name: tickets.ticket(&dimension.block),
+        definition_point_1: point(dimension.line),
+        text_mid_point: point(dimension.text),
+        dimension_type: DimensionType::RotatedHorizontalOrVertical,
+        attachment_point: AttachmentPoint::MiddleCenter,
+        actual_measurement: (dimension.to.x - dimension.from.x).abs(),
+        text: tickets.ticket(&dimension.label),
+        is_block_reference_referenced_by_this_block_only: true,
+        ..Default::default()
+    };
+    RotatedDimension {
+        dimension_base,
+        definition_point_2: point(dimension.from),
+        definition_point_3: point(dimension.to),
         ..Default::default()
     }
 }

@@ -11,32 +11,44 @@ mod crate_drawing;
 mod crate_entity;
 mod crate_text;
 mod encoding;
+mod furnished;
 mod header;
 mod objects;
 mod record;
 mod tables;
 mod tickets;
 mod tidy;
+mod written;
 
 pub(crate) use crate_drawing::LINE_TYPES;
 
-use crate::model::Pair;
 use crate::sheet::Sheet;
+use tickets::Tickets;
+use written::Written;
 
 /// ASCII DXF.
 pub(crate) fn ascii(sheet: &Sheet) -> Vec<u8> {
-    bytes::ascii(&pairs(sheet), sheet.options())
+    with_pairs(sheet, |pairs| bytes::ascii(pairs, sheet.options()))
 }
 
 /// Binary DXF.
 pub(crate) fn binary(sheet: &Sheet) -> Vec<u8> {
-    bytes::binary(&pairs(sheet), sheet.options())
+    with_pairs(sheet, |pairs| bytes::binary(pairs, sheet.options()))
 }
 
-fn pairs(sheet: &Sheet) -> Vec<Pair> {
-    let mut tickets = tickets::Tickets::default();
+fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[record::Pair<'_>]) -> Vec<u8>) -> Vec<u8> {
+    with_written(sheet, |written| write(&assemble::assemble(sheet, written)))
+}
+
+/// Lets the crate write a sheet, without its furniture.
+fn with_written<T>(sheet: &Sheet, next: impl FnOnce(Written<'_>) -> T) -> T {
+    let mut tickets = Tickets::default();
     let drawing = crate_drawing::drawing(sheet, &mut tickets);
-    let mut written = record::Written::of(&drawing);
-    written.redeem(&tickets);
-    assemble::assemble(sheet, written)
+    let mut text = Vec::new();
+    // In memory, and without a thumbnail, the crate has no way to fail.
+    _ = drawing.save(&mut text);
+    let text = String::from_utf8_lossy(&text);
+    let mut written = Written::of(&text, &tickets);
+    written.tidy(&sheet.tagged(), sheet.options().version);
+    next(written)
 }

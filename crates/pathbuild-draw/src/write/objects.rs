@@ -1,4 +1,5 @@
-use crate::model::{Pair, Version};
+use super::record::Pair;
+use crate::model::Version;
 
 /// Handles of the objects that other sections refer to.
 #[derive(Clone, Copy, Debug)]
@@ -35,23 +36,23 @@ impl Objects {
     }
 
     /// The section's pairs.
-    pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair> {
+    pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair<'static>> {
         let text = if version >= Version::R2000 { R2000 } else { R13 };
         let mut lines = text.lines();
         let mut pairs = Vec::new();
         while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
             let code = code.trim().parse().unwrap_or_default();
-            pairs.push(Pair::new(code, self.resolve(value, spaces)));
+            pairs.push(self.resolve(code, value, spaces));
         }
         pairs
     }
 
-    fn resolve(self, value: &str, spaces: [u64; 2]) -> String {
+    fn resolve(self, code: i32, value: &'static str, spaces: [u64; 2]) -> Pair<'static> {
         match value.strip_prefix('#') {
-            Some("m") => format!("{:X}", spaces[0]),
-            Some("p") => format!("{:X}", spaces[1]),
-            Some(number) => format!("{:X}", self.first + number.parse::<u64>().unwrap_or_default()),
-            None => value.to_owned(),
+            Some("m") => Pair::handle(code, spaces[0]),
+            Some("p") => Pair::handle(code, spaces[1]),
+            Some(number) => Pair::handle(code, self.first + number.parse::<u64>().unwrap_or_default()),
+            None => Pair::new(code, value),
         }
     }
 }

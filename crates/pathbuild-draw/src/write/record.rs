@@ -1,62 +1,53 @@
-use super::tickets::Tickets;
-use crate::model::Pair;
+use std::borrow::Cow;
+
+use crate::model;
+
+/// A group code with its value: of the crate's text, of the sheet, or made here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Pair<'a> {
+    pub(crate) code: i32,
+    pub(crate) value: Cow<'a, str>,
+}
+
+impl<'a> Pair<'a> {
+    pub(crate) fn new(code: i32, value: impl Into<Cow<'a, str>>) -> Self {
+        Self { code, value: value.into() }
+    }
+
+    /// A handle or a pointer to one.
+    pub(crate) fn handle(code: i32, handle: u64) -> Self {
+        Self::new(code, format!("{handle:X}"))
+    }
+
+    /// A whole number as CADs align them.
+    pub(crate) fn integer(code: i32, number: i64) -> Self {
+        Self::new(code, format!("{number:>6}"))
+    }
+
+    /// The same pair, borrowed for as long as this one lives.
+    pub(crate) fn borrowed(&self) -> Pair<'_> {
+        Pair { code: self.code, value: Cow::Borrowed(&self.value) }
+    }
+
+    /// The same pair on its own.
+    pub(crate) fn owned(&self) -> Pair<'static> {
+        Pair { code: self.code, value: Cow::Owned(self.value.clone().into_owned()) }
+    }
+}
+
+impl<'a> From<&'a model::Pair> for Pair<'a> {
+    fn from(pair: &'a model::Pair) -> Self {
+        Self::new(pair.code, pair.value.as_str())
+    }
+}
 
 /// The pairs from one group 0 to the next.
-pub(crate) type Record = Vec<Pair>;
+pub(crate) type Record<'a> = Vec<Pair<'a>>;
 
-/// What the crate wrote, section by section.
-#[derive(Debug, Default)]
-pub(crate) struct Written {
-    /// Header variables: the pair with the name, and those of its value.
-    pub(crate) header: Vec<Record>,
-    /// The records of all tables, without heads.
-    pub(crate) tables: Vec<Record>,
-    pub(crate) blocks: Vec<Record>,
-    pub(crate) entities: Vec<Record>,
-}
-
-impl Written {
-    /// Takes apart what the crate writes for a drawing. In memory it has no way to fail.
-    pub(crate) fn of(drawing: &dxf::Drawing) -> Self {
-        let mut text = Vec::new();
-        _ = drawing.save(&mut text);
-        let text = String::from_utf8_lossy(&text);
-        let mut written = Self::default();
-        let mut section = String::new();
-        for record in records(&text) {
-            match record[0].value.as_str() {
-                "SECTION" => {
-                    section = record.get(1).map(|name| name.value.clone()).unwrap_or_default();
-                    if section == "HEADER" {
-                        written.header = variables(&record[2..]);
-                    }
-                }
-                "ENDSEC" | "EOF" | "TABLE" | "ENDTAB" => {}
-                _ => match section.as_str() {
-                    "TABLES" => written.tables.push(record),
-                    "BLOCKS" => written.blocks.push(record),
-                    "ENTITIES" => written.entities.push(record),
-                    _ => {}
-                },
-            }
-        }
-        written
-    }
-
-    /// Puts the strings back in place of their tickets.
-    pub(crate) fn redeem(&mut self, tickets: &Tickets) {
-        let all = [&mut self.tables, &mut self.blocks, &mut self.entities];
-        for pair in all.into_iter().flatten().flatten() {
-            if let Some(string) = tickets.redeem(&pair.value) {
-                pair.value = string.to_owned();
-            }
-        }
-    }
-}
-
-fn records(text: &str) -> Vec<Record> {
+/// Takes DXF apart.
+pub(crate) fn records(text: &str) -> Vec<Record<'_>> {
     let mut lines = text.lines();
-    let mut records: Vec<Record> = Vec::new();
+    let mut records: Vec<Record<'_>> = Vec::new();
     while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
         let pair = Pair::new(code.trim().parse().unwrap_or_default(), value);
         match records.last_mut() {
@@ -67,17 +58,18 @@ fn records(text: &str) -> Vec<Record> {
     records
 }
 
-fn variables(pairs: &[Pair]) -> Vec<Record> {
-    pairs.chunk_by(|_, next| next.code != 9).map(<[Pair]>::to_vec).collect()
+/// What kind of record it is: the value of group 0.
+pub(crate) fn kind<'r>(record: &'r [Pair<'_>]) -> &'r str {
+    record.first().map_or("", |pair| pair.value.as_ref())
 }
 
 /// The value of the first pair of a code.
-pub(crate) fn value(record: &[Pair], code: i32) -> Option<&str> {
-    record.iter().find(|pair| pair.code == code).map(|pair| pair.value.as_str())
+pub(crate) fn value<'r>(record: &'r [Pair<'_>], code: i32) -> Option<&'r str> {
+    record.iter().find(|pair| pair.code == code).map(|pair| pair.value.as_ref())
 }
 
 /// Sets the first pair of a code, or adds one.
-pub(crate) fn set(record: &mut Record, pair: Pair) {
+pub(crate) fn set<'a>(record: &mut Record<'a>, pair: Pair<'a>) {
     match record.iter_mut().find(|old| old.code == pair.code) {
         Some(old) => *old = pair,
         None => record.push(pair),
@@ -85,14 +77,14 @@ pub(crate) fn set(record: &mut Record, pair: Pair) {
 }
 
 /// Drops all pairs of some codes.
-pub(crate) fn drop_codes(record: &mut Record, codes: &[i32]) {
+pub(crate) fn drop_codes(record: &mut Record<'_>, codes: &[i32]) {
     record.retain(|pair| !codes.contains(&pair.code));
 }
 
 /// Puts the handle, and the owner if there is one, behind group 0 in place of those the crate wrote.
-pub(crate) fn identify(record: &mut Record, code: i32, handle: Option<u64>, owner: Option<u64>) {
+pub(crate) fn identify(record: &mut Record<'_>, code: i32, handle: Option<u64>, owner: Option<u64>) {
     drop_codes(record, &[5, 105, 330]);
-    let handle = handle.map(|handle| Pair::new(code, format!("{handle:X}")));
-    let owner = owner.map(|owner| Pair::new(330, format!("{owner:X}")));
+    let handle = handle.map(|handle| Pair::handle(code, handle));
+    let owner = owner.map(|owner| Pair::handle(330, owner));
     record.splice(1..1, handle.into_iter().chain(owner));
 }

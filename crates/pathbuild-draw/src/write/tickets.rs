@@ -1,4 +1,7 @@
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+
+use super::record::Record;
 
 /// Stands for strings while they pass through the crate `dxf`, which would change some of their characters.
 #[derive(Debug, Default)]
@@ -22,8 +25,16 @@ impl Tickets {
         format!("<{number}>")
     }
 
-    /// The string of a ticket; `None` for what is none.
-    pub(crate) fn redeem(&self, ticket: &str) -> Option<&str> {
+    /// Puts the strings back in place of their tickets.
+    pub(crate) fn redeem_all<'a>(&'a self, record: &mut Record<'a>) {
+        for pair in record {
+            if let Some(string) = self.redeem(&pair.value) {
+                pair.value = Cow::Borrowed(string);
+            }
+        }
+    }
+
+    fn redeem(&self, ticket: &str) -> Option<&str> {
         let number = ticket.strip_prefix('<')?.strip_suffix('>')?;
         self.strings.get(number.parse::<usize>().ok()?).map(String::as_str)
     }

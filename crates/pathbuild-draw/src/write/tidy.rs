@@ -1,34 +1,12 @@
-use super::record::{Record, drop_codes, set, value};
-use crate::model::{Change, Direction, Entity, Pair, Shape, Version};
+use super::record::{Pair, Record, drop_codes, set, value};
+use crate::model::{Change, Direction, Entity, Shape, Version};
 
 /// Groups of MTEXT that are written; the crate adds those of columns and of a background, which no older program reads.
-const MTEXT: [i32; 22] = [0, 5, 330, 100, 67, 8, 6, 62, 48, 60, 10, 20, 30, 40, 41, 71, 72, 3, 1, 7, 73, 44];
+const MTEXT: [i32; 25] =
+    [0, 5, 330, 100, 67, 8, 6, 62, 48, 60, 10, 20, 30, 40, 41, 71, 72, 3, 1, 7, 73, 44, 210, 220, 230];
 
-/// Puts one entity right as the crate wrote it.
-pub(crate) fn entity(record: &mut Record, entity: &Entity, version: Version) {
-    common(record, version);
-    match &entity.shape {
-        Shape::Text(_) => text(record),
-        Shape::MText(mtext) => {
-            let direction: &[i32] = match mtext.direction {
-                Direction::Rotation(_) => &[50],
-                Direction::Vector(_) => &[11, 21, 31],
-            };
-            let mut seen_rotation = false;
-            record.retain(|pair| {
-                let first = !(pair.code == 50 && std::mem::replace(&mut seen_rotation, true));
-                first
-                    && (MTEXT.contains(&pair.code) || direction.contains(&pair.code) || pair.code / 10 == 21)
-            });
-        }
-        Shape::Spline(spline) if spline.fit.is_empty() => drop_codes(record, &[12, 22, 32, 13, 23, 33]),
-        Shape::Raw(pairs) => record.clone_from(pairs),
-        _ => {}
-    }
-}
-
-/// Drops what the crate writes without being asked.
-pub(crate) fn common(record: &mut Record, version: Version) {
+/// Drops what the crate writes without being asked: empty names, pointers to nothing, and subclasses in versions without them.
+pub(crate) fn common(record: &mut Record<'_>, version: Version) {
     record.retain(|pair| match pair.code {
         100 => version >= Version::R13,
         347 | 390 | 430 | 440 | 284 => false,
@@ -37,10 +15,32 @@ pub(crate) fn common(record: &mut Record, version: Version) {
     });
 }
 
+/// Puts one entity right as the crate wrote it.
+pub(crate) fn entity(record: &mut Record<'_>, entity: &Entity) {
+    match &entity.shape {
+        Shape::Text(_) => text(record),
+        Shape::MText(mtext) => match mtext.direction {
+            Direction::Rotation(_) => reduce(record, &[50]),
+            Direction::Vector(_) => reduce(record, &[11, 21, 31]),
+        },
+        Shape::Spline(spline) if spline.fit.is_empty() => drop_codes(record, &[12, 22, 32, 13, 23, 33]),
+        _ => {}
+    }
+}
+
+/// Reduces MTEXT to its usual groups and these. The crate's second group 50 counts columns.
+fn reduce(record: &mut Record<'_>, direction: &[i32]) {
+    let mut is_first = true;
+    record.retain(|pair| {
+        let is_count = pair.code == 50 && !std::mem::take(&mut is_first);
+        !is_count && (MTEXT.contains(&pair.code) || direction.contains(&pair.code))
+    });
+}
+
 /// Restores an alignment point at the origin, and puts the vertical alignment where it belongs.
-fn text(record: &mut Record) {
-    let aligned = value(record, 72).or(value(record, 73)).is_some();
-    if aligned && value(record, 11).is_none() {
+fn text(record: &mut Record<'_>) {
+    let is_aligned = value(record, 72).or(value(record, 73)).is_some();
+    if is_aligned && value(record, 11).is_none() {
         let behind = record.iter().position(|pair| pair.code == 72).map_or(record.len(), |at| at + 1);
         record.splice(behind..behind, [11, 21, 31].map(|code| Pair::new(code, "0.0")));
     }
@@ -51,10 +51,10 @@ fn text(record: &mut Record) {
 }
 
 /// Makes the changes that the drawing asks for.
-pub(crate) fn change(record: &mut Record, changes: &[Change]) {
+pub(crate) fn change<'a>(record: &mut Record<'a>, changes: &'a [Change]) {
     for change in changes {
         match change {
-            Change::Set(pair) => set(record, pair.clone()),
+            Change::Set(pair) => set(record, pair.into()),
             Change::Unset(code) => drop_codes(record, &[*code]),
         }
     }

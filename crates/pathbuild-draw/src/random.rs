@@ -1,0 +1,47 @@
+/// Numbers that look random and follow from a seed alone (`SplitMix64`).
+#[derive(Clone, Debug)]
+pub(crate) struct Random {
+    state: u64,
+}
+
+impl Random {
+    /// One stream for each seed and each thing it is used for.
+    pub(crate) fn new(seed: u64, stream: u64) -> Self {
+        let mut random = Self { state: seed };
+        random.state ^= random.next().wrapping_add(stream.wrapping_mul(0xd134_2543_de82_ef95));
+        random
+    }
+
+    pub(crate) fn next(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A whole number from 0 to `count` - 1.
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        let below = self.next() % (count.max(1) as u64);
+        usize::try_from(below).unwrap_or_default()
+    }
+
+    /// One of several.
+    pub(crate) fn pick<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())]
+    }
+
+    /// A multiple of `step` from `low` to `high`.
+    pub(crate) fn between(&mut self, low: f64, high: f64, step: f64) -> f64 {
+        let mut steps = 1;
+        while low + step * steps as f64 <= high + step * 1e-6 {
+            steps += 1;
+        }
+        low + step * self.below(steps) as f64
+    }
+
+    /// True once in `count` times.
+    pub(crate) fn once_in(&mut self, count: usize) -> bool {
+        self.below(count) == 0
+    }
+}

@@ -1,0 +1,66 @@
+use super::crate_drawing::TAG;
+use super::record::{Pair, Record, kind, records, value};
+use super::tickets::Tickets;
+use super::tidy;
+use crate::model::{Entity, Version};
+
+/// What the crate wrote, section by section.
+#[derive(Debug, Default)]
+pub(crate) struct Written<'a> {
+    /// Header variables: the pair with the name, and those of its value.
+    pub(crate) header: Vec<Record<'a>>,
+    /// The records of all tables, without heads.
+    pub(crate) tables: Vec<Record<'a>>,
+    pub(crate) blocks: Vec<Record<'a>>,
+    pub(crate) entities: Vec<Record<'a>>,
+}
+
+impl<'a> Written<'a> {
+    /// Takes the crate's text apart and puts the strings back in place of their tickets.
+    pub(crate) fn of(text: &'a str, tickets: &'a Tickets) -> Self {
+        let mut written = Self::default();
+        let mut section = String::new();
+        for mut record in records(text) {
+            match kind(&record) {
+                "SECTION" => {
+                    value(&record, 2).unwrap_or_default().clone_into(&mut section);
+                    if section == "HEADER" {
+                        written.header = variables(&record[2..]);
+                    }
+                }
+                "ENDSEC" | "EOF" | "TABLE" | "ENDTAB" => {}
+                _ => {
+                    tickets.redeem_all(&mut record);
+                    match section.as_str() {
+                        "TABLES" => written.tables.push(record),
+                        "BLOCKS" => written.blocks.push(record),
+                        "ENTITIES" => written.entities.push(record),
+                        _ => {}
+                    }
+                }
+            }
+        }
+        written
+    }
+
+    /// Puts right what the crate gets wrong about entities.
+    pub(crate) fn tidy(&mut self, tagged: &[&Entity], version: Version) {
+        for record in self.entities.iter_mut().chain(&mut self.blocks) {
+            tidy::common(record, version);
+            if let Some(entity) = entity_of(record, tagged) {
+                tidy::entity(record, entity);
+            }
+        }
+    }
+}
+
+fn variables<'a>(pairs: &[Pair<'a>]) -> Vec<Record<'a>> {
+    pairs.chunk_by(|_, next| next.code != 9).map(<[Pair<'_>]>::to_vec).collect()
+}
+
+/// The entity of a record by the tag that it has for a handle.
+pub(crate) fn entity_of<'e>(record: &Record<'_>, tagged: &[&'e Entity]) -> Option<&'e Entity> {
+    let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
+    let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;
+    tagged.get(index).copied()
+}
