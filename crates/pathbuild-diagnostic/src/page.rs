@@ -15,7 +15,7 @@ macro_rules! pages {
                     include_str!(concat!("pages/", $file, ".de.md"))
                     $(, shown!($example "\n## Beispiel\n", $file))?
                 )),)*
-                #[expect(unreachable_patterns, reason = "codes may be added before their pages")]
+                #[allow(unreachable_patterns, reason = "codes may be added before their pages")]
                 _ => None,
             }
         }
