@@ -6,6 +6,8 @@
     reason = "a test that cannot set up its files has failed"
 )]
 
+pub mod fixture;
+
 use std::fmt;
 use std::fs;
 use std::path::Path;

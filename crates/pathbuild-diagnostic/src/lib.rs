@@ -18,5 +18,5 @@ pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
 pub use message::{Lang, Message, Text, Value, Word};
 pub use number::Number;
-pub use page::page;
+pub use page::{example, page};
 pub use place::{ElementId, EntityKind, Handle, Place, Point, TextFault};

@@ -1,7 +1,115 @@
 use crate::{Code, Lang};
 
-/// The page that `pathbuild explain` prints for a code, as Markdown: what it means, usual causes, how to mend it in the drawing.
-/// `None` for a code that has no page.
-pub fn page(_code: Code, _lang: Lang) -> Option<&'static str> {
-    None
+/// Declares the pages: `PBnnn.en.md`, `PBnnn.de.md` and, where there is one, the example `PBnnn.draw`, which both show.
+macro_rules! pages {
+    ($($code:ident $file:literal $($example:ident)?;)*) => {
+        /// The page that `pathbuild explain` prints for a code, as Markdown: what it means, usual causes, what to do in the
+        /// drawing, an example. `None` for a code that has no page.
+        pub fn page(code: Code, lang: Lang) -> Option<&'static str> {
+            match (code, lang) {
+                $((Code::$code, Lang::En) => Some(concat!(
+                    include_str!(concat!("pages/", $file, ".en.md"))
+                    $(, shown!($example "\n## Example\n", $file))?
+                )),
+                (Code::$code, Lang::De) => Some(concat!(
+                    include_str!(concat!("pages/", $file, ".de.md"))
+                    $(, shown!($example "\n## Beispiel\n", $file))?
+                )),)*
+                #[allow(unreachable_patterns, reason = "codes may be added before their pages")]
+                _ => None,
+            }
+        }
+
+        /// The example on a code's page: a fixture (crates/pathbuild-draw) with commands that give exactly the diagnostics noted in
+        /// it. `None` where a few lines cannot show it.
+        pub fn example(code: Code) -> Option<&'static str> {
+            match code {
+                $($(Code::$code => Some(drawn!($example $file)),)?)*
+                _ => None,
+            }
+        }
+    };
+}
+
+macro_rules! drawn {
+    (example $file:literal) => {
+        include_str!(concat!("pages/", $file, ".draw"))
+    };
+}
+
+macro_rules! shown {
+    (example $heading:literal, $file:literal) => {
+        concat!($heading, "\n```text\n", include_str!(concat!("pages/", $file, ".draw")), "```\n")
+    };
+}
+
+pages! {
+    UnreadableFile "PB001" example;
+    InvalidDxf "PB002" example;
+    InvalidConfiguration "PB003" example;
+    CannotWrite "PB004" example;
+    LimitReached "PB005" example;
+    InternalError "PB006";
+    NoEndOfFile "PB007" example;
+    DoubtfulEncoding "PB008" example;
+    MissingStart "PB101" example;
+    MissingEnd "PB102" example;
+    TwoStarts "PB103" example;
+    TwoEnds "PB104" example;
+    UnknownSpecialCircle "PB105" example;
+    UnknownLineType "PB106" example;
+    TextWithoutElement "PB107" example;
+    CircleTooSmall "PB109" example;
+    OffPlane "PB110" example;
+    UnsupportedCurve "PB111" example;
+    LayerNotVisible "PB112" example;
+    WrongUnits "PB113" example;
+    TurnMarkerWithoutEffect "PB114" example;
+    JoinedEnds "PB115" example;
+    MissingParameter "PB201" example;
+    UnknownParameter "PB202" example;
+    ParameterOutOfRange "PB203" example;
+    DuplicateParameter "PB204" example;
+    NotANumber "PB205" example;
+    VariableNotAllowed "PB206" example;
+    MissingPathParameters "PB207" example;
+    InvalidAtReference "PB208" example;
+    InvalidRegex "PB209" example;
+    ParameterWithoutEffect "PB210" example;
+    InvalidVariableDefinition "PB301" example;
+    MissingVariableValue "PB302" example;
+    UnknownVariable "PB303" example;
+    VariableValueNotAllowed "PB304" example;
+    EndlessVariable "PB305" example;
+    NothingContinues "PB401" example;
+    UnreachedSegments "PB402" example;
+    EndNotReached "PB403" example;
+    EmptyPath "PB404" example;
+    HelixTooLarge "PB405" example;
+    NoRoomBetweenBars "PB406" example;
+    MissingSubpathName "PB501" example;
+    InvalidPathName "PB502" example;
+    PathNotFound "PB503" example;
+    PathDefinedTwice "PB504" example;
+    SubpathSizeDiffers "PB505" example;
+    SubpathParameterDiffers "PB506" example;
+    SubpathForbidden "PB507" example;
+    NestingTooDeep "PB508" example;
+    SubpathCycle "PB509" example;
+    PathTBelowSubpathT "PB510" example;
+    SubpathHasErrors "PB511" example;
+    SeveralPaths "PB512" example;
+    NoPath "PB513" example;
+    SameOutput "PB514" example;
+    QProjectLacksPath "PB515" example;
+    QProjectDiffers "PB516" example;
+    ProxyDiffers "PB517" example;
+    StaleOutput "PB520";
+    InvalidProbeLine "PB601" example;
+    CorrectionTooLarge "PB602" example;
+    UnknownProbe "PB603" example;
+    InvalidFormula "PB604" example;
+    ProbeValuesPresent "PB605" example;
+    OutsideProbes "PB606" example;
+    OddProbe "PB607";
 }

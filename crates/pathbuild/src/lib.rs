@@ -22,20 +22,44 @@ use pathbuild_diagnostic::Diagnostic;
 pub use context::Context;
 pub use exit::ExitStatus;
 
-use args::Cli;
-use printer::Printer;
+use args::{Cli, Command, CommonArgs, CompatArgs};
+use commands::compat::{self, Translated};
+use printer::{ColorChoice, Printer};
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
-        Err(error) => {
-            let printer = Printer::default();
-            let status = usage::answer(&error, &printer);
-            return printer.finish(status);
-        }
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    match Cli::try_parse_from(&arguments) {
+        Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
+        Ok(cli) => execute(&cli),
+        Err(error) => print(|printer| usage::answer(&error, printer)),
+    }
+}
+
+/// Runs what a command line of another program comes to.
+fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
+    let translated = match compat::translate(&args.arguments) {
+        Ok(Translated::Arguments(translated)) => translated,
+        Ok(Translated::Help) => return print(|printer| usage::help(compat::HELP, printer)),
+        Err(reason) => return print(|printer| usage::wrong(&reason, printer)),
     };
-    let (context, faults) = context(&cli);
+    let line = format!("pathbuild {}", compat::shown(&translated));
+    if args.print {
+        return print(|printer| usage::help(&format!("{line}\n"), printer));
+    }
+    Printer::new(common.verbosity(), ColorChoice::Never).detail(line);
+    run(compat::spliced(arguments, args.arguments.len(), &translated))
+}
+
+/// Prints what needs no configuration.
+fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
+    let printer = Printer::default();
+    let status = answer(&printer);
+    printer.finish(status)
+}
+
+fn execute(cli: &Cli) -> ExitStatus {
+    let (context, faults) = context(cli);
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {

@@ -19,3 +19,15 @@ pub(crate) fn answer(error: &clap::Error, printer: &Printer) -> ExitStatus {
         }
     }
 }
+
+/// Prints help that was asked for.
+pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
+    printer.result(text);
+    ExitStatus::Success
+}
+
+/// Prints why the program cannot do what it was called for.
+pub(crate) fn wrong(reason: &str, printer: &Printer) -> ExitStatus {
+    printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
+    ExitStatus::Usage
+}

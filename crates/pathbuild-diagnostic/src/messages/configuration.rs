@@ -90,6 +90,13 @@ messages! {
         help_en: "did you mean {near}? `pathbuild explain` lists them",
         help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
     }
+    /// The same, where none is near.
+    STRANGE_CODE: InvalidConfiguration {
+        en: "there is no diagnostic {code}",
+        de: "es gibt keine Meldung {code}",
+        help_en: "`pathbuild explain` lists all of them",
+        help_de: "`pathbuild explain` führt alle auf",
+    }
     /// An error that stays one.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",

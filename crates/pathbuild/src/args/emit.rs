@@ -29,7 +29,7 @@ pub struct EmitArgs {
     #[arg(long, value_name = "FILE")]
     pub deps: Option<Utf8PathBuf>,
     /// Write to standard output: `-o -`
-    #[arg(short, long, value_name = "-", value_parser = ["-"])]
+    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]
     pub output: Option<String>,
     /// Remove G-code that pathbuild wrote earlier and nothing would write now
     #[arg(long, conflicts_with = "check")]

@@ -1,5 +1,6 @@
 use camino::Utf8PathBuf;
 use clap::{Args, Subcommand};
+use clap_complete::Shell;
 
 use super::Inputs;
 
@@ -103,16 +104,19 @@ pub enum ConfigCommand {
 }
 
 /// `pathbuild completions`
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Copy, Debug, Args)]
 pub struct CompletionsArgs {
-    /// bash, elvish, fish, powershell or zsh
-    #[arg(value_name = "SHELL")]
-    pub shell: String,
+    /// For which shell
+    #[arg(value_name = "SHELL", value_enum)]
+    pub shell: Shell,
 }
 
 /// `pathbuild compat`
 #[derive(Clone, Debug, Default, Args)]
 pub struct CompatArgs {
+    /// Print the command line that it comes to, and do nothing
+    #[arg(long)]
+    pub print: bool,
     /// What `PathDxf2GCode` or `PathGCodeAdjustZ` would be given
     #[arg(value_name = "ARGUMENT", trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<String>,

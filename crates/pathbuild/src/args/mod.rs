@@ -95,20 +95,16 @@ pub enum Command {
     #[command(hide = true)]
     Cache(CacheArgs),
     /// Print the page on a diagnostic code; without a code, list them
-    #[command(hide = true)]
     Explain(ExplainArgs),
     /// Write a commented pathbuild.toml into the working directory
     Init,
     /// Show the configuration
     Config(ConfigArgs),
     /// Print a completion script for a shell
-    #[command(hide = true)]
     Completions(CompletionsArgs),
     /// Print the manual page
-    #[command(hide = true)]
     Man,
     /// Take the command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
-    #[command(hide = true)]
     Compat(CompatArgs),
 }
 

@@ -1,13 +1,18 @@
 //! One module for each command: `run(&Context, &Args) -> ExitStatus`.
 
 pub mod check;
+pub(crate) mod compat;
+pub mod completions;
 pub mod config;
 pub mod emit;
+pub mod explain;
 pub mod init;
+pub mod man;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::usage;
 
 /// Runs a command.
 pub fn run(context: &Context, command: &Command) -> ExitStatus {
@@ -17,6 +22,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     match command {
         Command::Check(args) => check::run(context, args),
         Command::Emit(args) => emit::run(context, args),
+        Command::Explain(args) => explain::run(context, args),
+        Command::Completions(args) => completions::run(context, args),
+        Command::Man => man::run(context),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),
@@ -33,6 +41,5 @@ fn format_refusal(format: Format, command: &Command) -> Option<String> {
 }
 
 fn refuse(context: &Context, reason: &str) -> ExitStatus {
-    context.printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
-    ExitStatus::Usage
+    usage::wrong(reason, &context.printer)
 }

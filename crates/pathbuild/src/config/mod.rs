@@ -36,3 +36,4 @@ pub use show::show;
 pub use template::template;
 
 pub(crate) use discover::FILE_NAME;
+pub(crate) use kinds::table::nearest_code;

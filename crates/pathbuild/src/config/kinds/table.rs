@@ -116,11 +116,11 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Co
     let level = reader.within(name.get_ref(), |reader| read_choice(value, reader));
     let text = &**name.get_ref();
     let Ok(code) = text.parse::<Code>() else {
-        let fault = reader
-            .fault(&messages::UNKNOWN_CODE, name.span())
-            .with("code", text)
-            .with("near", nearest_code(text));
-        reader.report(fault);
+        let fault = match nearest_code(text) {
+            Some(near) => reader.fault(&messages::UNKNOWN_CODE, name.span()).with("near", near),
+            None => reader.fault(&messages::STRANGE_CODE, name.span()),
+        };
+        reader.report(fault.with("code", text));
         return None;
     };
     let level = level?;
@@ -133,11 +133,11 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Co
     Some((code, level))
 }
 
-/// The code whose number or name is nearest; of several that are as near, the first.
-pub(crate) fn nearest_code(name: &str) -> String {
+/// The code whose number or name is nearest, if one is near; of several that are as near, the first.
+pub(crate) fn nearest_code(name: &str) -> Option<String> {
     let codes: Vec<(String, &str)> = Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect();
     let names = codes.iter().flat_map(|(code, name)| [code.as_str(), name]);
-    nearest(name, names).unwrap_or("PB001").to_owned()
+    nearest(name, names).map(str::to_owned)
 }
 
 fn severities_in(table: &DeTable<'_>, reader: &mut Reader<'_>) -> SeveritiesIn {

@@ -1,0 +1,48 @@
+//! The pages of `explain`: there is one for every code, in both languages, of the same form.
+
+use pathbuild_diagnostic::{Code, Lang, example, page};
+
+/// Codes whose example would need a bug, files that were written earlier, or a judgement on measured values.
+const WITHOUT_EXAMPLE: [Code; 3] = [Code::InternalError, Code::StaleOutput, Code::OddProbe];
+
+fn codes() -> impl Iterator<Item = Code> {
+    Code::ALL.iter().copied().filter(|code| code.number() < 700)
+}
+
+fn headings(page: &str) -> Vec<&str> {
+    page.lines().filter(|line| line.starts_with("## ")).collect()
+}
+
+#[test]
+fn every_code_has_a_page_in_both_languages() {
+    for code in codes() {
+        for (lang, expected) in [
+            (Lang::En, ["## Usual causes", "## What to do", "## Example"]),
+            (Lang::De, ["## Häufige Ursachen", "## Was hilft", "## Beispiel"]),
+        ] {
+            let page = page(code, lang).unwrap_or_else(|| panic!("{code} has no page"));
+            assert_eq!(page.lines().next(), Some(&*format!("# {code} {}", code.name())));
+            let parts = if WITHOUT_EXAMPLE.contains(&code) { 2 } else { 3 };
+            assert_eq!(headings(page), expected[..parts], "{code}");
+        }
+    }
+}
+
+#[test]
+fn an_example_says_which_diagnostic_it_gives() {
+    for code in codes().filter(|code| !WITHOUT_EXAMPLE.contains(code)) {
+        let example = example(code).unwrap_or_else(|| panic!("{code} has no example"));
+        assert!(example.starts_with("$ "), "{code} has no command");
+        assert!(example.contains(&format!("#! {code}")), "{code} is not noted");
+        assert!(page(code, Lang::De).is_some_and(|page| page.contains(example)), "{code} does not show it");
+    }
+}
+
+#[test]
+fn lines_fit_on_a_terminal() {
+    for page in codes().flat_map(|code| [page(code, Lang::En), page(code, Lang::De)]).flatten() {
+        for line in page.lines() {
+            assert!(line.chars().count() <= 110, "{line}");
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! `pathbuild explain`: the page on a code, or the list of all codes.
+
+use pathbuild_diagnostic::{Code, Lang, Severity, page};
+
+use super::refuse;
+use crate::args::ExplainArgs;
+use crate::config::nearest_code;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Prints the pages one after the other; a code that does not exist stops everything.
+pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
+    if args.codes.is_empty() {
+        context.printer.result(list(context));
+        return ExitStatus::Success;
+    }
+    match args.codes.iter().map(|name| code(name).ok_or(name)).collect::<Result<Vec<Code>, _>>() {
+        Ok(codes) => {
+            let pages: Vec<String> = codes.into_iter().map(|code| text(context, code)).collect();
+            context.printer.result(pages.join("\n"));
+            ExitStatus::Success
+        }
+        Err(name) => refuse(context, &unknown(context, name)),
+    }
+}
+
+/// A code by its name, or by its number with or without the letters.
+fn code(name: &str) -> Option<Code> {
+    name.parse().or_else(|()| format!("PB{name}").parse()).ok()
+}
+
+fn unknown(context: &Context, name: &str) -> String {
+    let unknown = context.choose("there is no diagnostic", "es gibt keine Meldung");
+    let all = context.choose("`pathbuild explain` lists all of them", "`pathbuild explain` führt alle auf");
+    let near = nearest_code(name).map(|near| match context.lang() {
+        Lang::En => format!("did you mean {near}? "),
+        Lang::De => format!("ist {near} gemeint? "),
+    });
+    format!("{unknown} '{name}'\n\n  {}: {}{all}", context.choose("tip", "Tipp"), near.unwrap_or_default())
+}
+
+fn list(context: &Context) -> String {
+    let severity = |code: Code| match code.severity() {
+        Severity::Error => context.choose("error", "Fehler"),
+        Severity::Warning => context.choose("warning", "Warnung"),
+    };
+    let width = Code::ALL.iter().map(|code| code.name().len()).max().unwrap_or_default();
+    let line = |code: &Code| format!("{code}  {:width$}  {}", code.name(), severity(*code));
+    Code::ALL.iter().map(line).chain([String::new()]).collect::<Vec<_>>().join("\n")
+}
+
+/// The page; a code that is too new to have one says what it is called.
+fn text(context: &Context, code: Code) -> String {
+    page(code, context.lang()).map_or_else(|| format!("# {code} {}\n", code.name()), str::to_owned)
+}

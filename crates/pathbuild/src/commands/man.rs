@@ -1,0 +1,57 @@
+//! `pathbuild man`: the manual as roff, every command in one page.
+
+use std::io;
+
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+
+use crate::args::Cli;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Prints the page: `pathbuild man | man -l -`.
+pub fn run(context: &Context) -> ExitStatus {
+    let mut command = Cli::command();
+    command.build();
+    let mut page = Vec::new();
+    // Writing into memory cannot fail.
+    _ = write(&command, &mut page);
+    context.printer.result(String::from_utf8_lossy(&page));
+    ExitStatus::Success
+}
+
+fn write(command: &Command, page: &mut Vec<u8>) -> io::Result<()> {
+    let man = Man::new(command.clone()).date("").source(format!("pathbuild {}", env!("CARGO_PKG_VERSION")));
+    man.render_title(page)?;
+    man.render_name_section(page)?;
+    man.render_synopsis_section(page)?;
+    man.render_description_section(page)?;
+    man.render_options_section(page)?;
+    write_subcommands(command, "", page)?;
+    man.render_extra_section(page)
+}
+
+fn write_subcommands(command: &Command, prefix: &str, page: &mut Vec<u8>) -> io::Result<()> {
+    for subcommand in command.get_subcommands().filter(|it| !it.is_hide_set() && it.get_name() != "help") {
+        let name = format!("{prefix}{}", subcommand.get_name());
+        write_subcommand(subcommand, &name, page)?;
+        write_subcommands(subcommand, &format!("{name} "), page)?;
+    }
+    Ok(())
+}
+
+/// The command with its own options; the common ones stand in the program's section.
+fn write_subcommand(command: &Command, name: &str, page: &mut Vec<u8>) -> io::Result<()> {
+    let own = command.clone().mut_args(|arg| if arg.is_global_set() { arg.hide(true) } else { arg });
+    let man = Man::new(own);
+    let mut section = Vec::new();
+    man.render_description_section(&mut section)?;
+    man.render_synopsis_section(&mut section)?;
+    man.render_options_section(&mut section)?;
+    let text = String::from_utf8_lossy(&section);
+    let heading = format!(".SH \"{}\"\n", name.to_uppercase());
+    let text =
+        text.replace(".SH DESCRIPTION\n", &heading).replace(".SH ", ".SS ").replacen(".SS \"", ".SH \"", 1);
+    page.extend(text.bytes());
+    Ok(())
+}
