@@ -10,7 +10,8 @@ pub mod fixture;
 
 use std::fmt;
 use std::fs;
-use std::path::Path;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
@@ -93,6 +94,25 @@ impl fmt::Display for Run {
         }
         Ok(())
     }
+}
+
+/// The project's directory.
+pub fn project() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// Test data that is not ours to keep and lies beside the project; `None`, with a message, where it is absent and
+/// `PATHBUILD_REQUIRE` does not name `shared`.
+pub fn shared(name: &str) -> Option<PathBuf> {
+    let path = project().join("../shared").join(name);
+    let is_required =
+        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"));
+    assert!(path.exists() || !is_required, "{} is missing", path.display());
+    if !path.exists() {
+        writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
+        return None;
+    }
+    Some(path)
 }
 
 /// Several runs, one after the other.

@@ -1,0 +1,128 @@
+//! The recorded cases, and their command lines as pathbuild's.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+/// A recorded run.
+pub(crate) struct Run {
+    /// The folder of the case: the drawings, `case.json` and what is expected.
+    pub(crate) case: PathBuf,
+    /// Its number in the case.
+    pub(crate) number: usize,
+    /// What is to be done.
+    pub(crate) what: What,
+    /// Why what is expected is not what was recorded.
+    by_specification: Option<String>,
+}
+
+/// What a run does.
+pub(crate) enum What {
+    /// Arguments of `check` or `emit`.
+    Compile(Vec<String>),
+    /// `adjust` with this --max-correction.
+    Adjust(f64),
+}
+
+#[derive(Deserialize)]
+struct CaseFile {
+    #[serde(default)]
+    runs: Vec<Vec<String>>,
+    max_correction: Option<f64>,
+}
+
+impl Run {
+    /// The case and the run's number in it.
+    pub(crate) fn name(&self) -> String {
+        format!("{}/{}", self.case.file_name().unwrap().to_str().unwrap(), self.number)
+    }
+}
+
+impl fmt::Display for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name())?;
+        match &self.what {
+            What::Compile(arguments) => write!(f, " (pathbuild {})", arguments.join(" "))?,
+            What::Adjust(_) => write!(f, " (pathbuild adjust)")?,
+        }
+        match &self.by_specification {
+            Some(reason) => write!(f, " (by the specification: {reason})"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The runs of some folders of cases that have a counterpart, by case and number.
+pub(crate) fn runs(folders: &[PathBuf]) -> Vec<Run> {
+    folders.iter().flat_map(|folder| runs_in(folder)).collect()
+}
+
+fn runs_in(folder: &Path) -> Vec<Run> {
+    let reasons = fs::read_to_string(folder.join("by-specification.json"));
+    let reasons: BTreeMap<String, String> =
+        reasons.map(|text| serde_json::from_str(&text).unwrap()).unwrap_or_default();
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut cases: Vec<PathBuf> = entries.filter(|case| case.join("case.json").exists()).collect();
+    cases.sort();
+    let mut runs: Vec<Run> = cases.iter().flat_map(|case| runs_of(case)).collect();
+    for run in &mut runs {
+        run.by_specification = reasons.get(&run.name()).cloned();
+    }
+    runs
+}
+
+fn runs_of(case: &Path) -> Vec<Run> {
+    let text = fs::read_to_string(case.join("case.json")).unwrap();
+    let file: CaseFile = serde_json::from_str(&text).unwrap();
+    let run = |number, what| Run { case: case.to_owned(), number, what, by_specification: None };
+    let adjusts = file.max_correction.map(|rate| run(0, What::Adjust(rate)));
+    let compiles = file.runs.iter().enumerate().filter_map(|(number, arguments)| {
+        let arguments = translate(arguments)?;
+        case.join("expected").join(number.to_string()).exists().then(|| run(number, What::Compile(arguments)))
+    });
+    adjusts.into_iter().chain(compiles).collect()
+}
+
+/// A recorded command line as pathbuild's; `None` where it has no counterpart: help, `/x`, `/k`.
+fn translate(recorded: &[String]) -> Option<Vec<String>> {
+    let (mut command, mut options, mut files) = ("emit", Vec::new(), Vec::new());
+    let mut rest = recorded.iter().map(String::as_str);
+    while let Some(argument) = rest.next() {
+        let Some(option) = argument.strip_prefix('/') else {
+            files.push(argument.to_owned());
+            continue;
+        };
+        let letter = option.chars().next();
+        match (option, letter) {
+            ("c", _) => command = "check",
+            ("h" | "?", _) | (_, Some('x' | 'k')) => return None,
+            _ => match letter.and_then(option_name) {
+                // A value is glued to its option or stands behind it.
+                Some(name) => {
+                    let value = if option.len() > 1 { &option[1..] } else { rest.next().unwrap_or_default() };
+                    options.push(format!("{name}={value}"));
+                }
+                None => files.push(argument.to_owned()),
+            },
+        }
+    }
+    Some([vec![command.to_owned()], options, files].concat())
+}
+
+fn option_name(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'f' => "--feed",
+        'v' => "--rapid",
+        's' => "--sweep-height",
+        'z' => "--probe-feed",
+        'd' => "--search",
+        'n' => "--path-pattern",
+        'p' => "--file-pattern",
+        'e' => "--restrict",
+        'l' => "--lang",
+        _ => return None,
+    })
+}
