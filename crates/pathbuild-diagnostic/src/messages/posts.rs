@@ -183,4 +183,185 @@ messages! {
         en: "the tool table says what the coolant does, but the post has no {macro} and does not write it",
         de: "die Werkzeugtabelle bestimmt die Kühlung, aber der Postprozessor hat kein {macro} und schreibt sie nicht",
     }
+    /// A key of a TOML definition that is not known, nor like one.
+    POST_UNKNOWN_KEY: InvalidPost {
+        en: "the key {key} is not known",
+        de: "der Schlüssel {key} ist unbekannt",
+    }
+    /// As above, but one is like it.
+    POST_UNKNOWN_KEY_NEAREST: InvalidPost {
+        en: "the key {key} is not known",
+        de: "der Schlüssel {key} ist unbekannt",
+        help_en: "did you mean {nearest}?",
+        help_de: "war {nearest} gemeint?",
+    }
+    /// `[alias]` of a variable that there is not.
+    ALIAS_UNKNOWN: DoubtfulControlText {
+        en: "there is no variable {name} that another name could stand for",
+        de: "es gibt keine Variable {name}, für die ein anderer Name stehen könnte",
+        help_en: "in [alias], pathbuild's name stands on the left, the texts' own on the right",
+        help_de: "in [alias] steht links der Name von pathbuild, rechts der der Steuertexte",
+    }
+    /// A variable that does not exist.
+    VARIABLE_UNDEFINED: UnknownMacro {
+        en: "{text}, line {line}, column {column}: there is no variable {name} here",
+        de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
+    }
+    /// As above, but one is like it.
+    VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
+        en: "{text}, line {line}, column {column}: there is no variable {name} here",
+        de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
+        help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
+        help_de: "war {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
+    }
+    /// A contains B contains A.
+    VARIABLE_DEPTH: EndlessMacro {
+        en: "{text}, line {line}, column {column}: the text of {name} names variables more than {limit} deep",
+        de: "{text}, Zeile {line}, Spalte {column}: der Text von {name} nennt Variablen mehr als {limit} tief",
+    }
+    /// Texts that grow.
+    TEXT_LENGTH: EndlessMacro {
+        en: "{text}, line {line}, column {column}: the text becomes longer than {limit} bytes",
+        de: "{text}, Zeile {line}, Spalte {column}: der Text wird länger als {limit} Bytes",
+    }
+    /// Statements or terms in each other.
+    TEXT_DEPTH: EndlessMacro {
+        en: "{text}, line {line}, column {column}: nested more than {limit} deep",
+        de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} geschachtelt",
+    }
+    /// `~` that begins no variable.
+    LONE_TILDE: InvalidControlText {
+        en: "{text}, line {line}, column {column}: \"~\" begins no variable",
+        de: "{text}, Zeile {line}, Spalte {column}: mit »~« beginnt keine Variable",
+        help_en: "a variable is written ~Name~, a tilde \\~",
+        help_de: "eine Variable schreibt man ~Name~, eine Tilde \\~",
+    }
+    /// `}` too many.
+    LONE_BRACE: InvalidControlText {
+        en: "{text}, line {line}, column {column}: this brace closes nothing",
+        de: "{text}, Zeile {line}, Spalte {column}: diese Klammer schließt nichts",
+        help_en: "a brace that is to be written is preceded by a backslash",
+        help_de: "eine Klammer, die ausgegeben werden soll, erhält einen Rückstrich davor",
+    }
+    /// `}` too few.
+    OPEN_BRACE: InvalidControlText {
+        en: "{text}, line {line}, column {column}: a statement is not closed",
+        de: "{text}, Zeile {line}, Spalte {column}: eine Anweisung ist nicht geschlossen",
+    }
+    /// Something between the statement and its brace.
+    STATEMENT_GOES_ON: InvalidControlText {
+        en: "{text}, line {line}, column {column}: the statement should end here",
+        de: "{text}, Zeile {line}, Spalte {column}: hier sollte die Anweisung enden",
+    }
+    /// A paragraph sign.
+    STATEMENT_UNKNOWN: InvalidControlText {
+        en: "{text}, line {line}, column {column}: statements with \"§\" are not understood",
+        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit »§« werden nicht verstanden",
+        help_en: "the manual that describes them is not known",
+        help_de: "das Handbuch, das sie beschreibt, ist nicht bekannt",
+    }
+    /// No name behind `=` or `!`.
+    NAME_EXPECTED: InvalidControlText {
+        en: "{text}, line {line}, column {column}: the name of a variable is expected here",
+        de: "{text}, Zeile {line}, Spalte {column}: hier wird der Name einer Variablen erwartet",
+        help_en: "it is written without tildes",
+        help_de: "er wird ohne Tilden geschrieben",
+    }
+    /// No statement where one must be.
+    BRANCH_EXPECTED: InvalidControlText {
+        en: "{text}, line {line}, column {column}: a statement in braces is expected here",
+        de: "{text}, Zeile {line}, Spalte {column}: hier wird eine Anweisung in geschweiften Klammern erwartet",
+    }
+    /// The name of a file does not end.
+    INSERTION_OPEN: InvalidControlText {
+        en: "{text}, line {line}, column {column}: the name of the file to insert does not end with \"*\"",
+        de: "{text}, Zeile {line}, Spalte {column}: der Name der einzufügenden Datei endet nicht mit »*«",
+    }
+    /// A term stops too early.
+    TERM_ENDS: InvalidControlText {
+        en: "{text}, line {line}, column {column}: the term ends where a value or \")\" is expected",
+        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck endet, wo ein Wert oder »)« erwartet wird",
+    }
+    /// A character that is none of a term.
+    TERM_UNEXPECTED: InvalidControlText {
+        en: "{text}, line {line}, column {column}: \"{found}\" is not expected here",
+        de: "{text}, Zeile {line}, Spalte {column}: »{found}« wird hier nicht erwartet",
+    }
+    /// Two points.
+    TERM_NUMBER: InvalidControlText {
+        en: "{text}, line {line}, column {column}: \"{found}\" is no number",
+        de: "{text}, Zeile {line}, Spalte {column}: »{found}« ist keine Zahl",
+    }
+    /// Division by zero and the like.
+    TERM_NOT_FINITE: InvalidControlText {
+        en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
+        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert (Division durch null?)",
+    }
+    /// Bits of 1.5.
+    TERM_NOT_WHOLE: InvalidControlText {
+        en: "{text}, line {line}, column {column}: only whole numbers have bits",
+        de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
+    }
+    /// No such function.
+    TERM_FUNCTION: InvalidControlText {
+        en: "{text}, line {line}, column {column}: there is no function {name}",
+        de: "{text}, Zeile {line}, Spalte {column}: es gibt keine Funktion {name}",
+        help_en: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
+        help_de: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
+    }
+    /// Too many arguments, or too few.
+    TERM_ARGUMENTS: InvalidControlText {
+        en: "{text}, line {line}, column {column}: {name} has the wrong number of arguments",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Zahl von Argumenten",
+    }
+    /// `--5`.
+    TERM_TWO_SIGNS: DoubtfulControlText {
+        en: "{text}, line {line}, column {column}: CAD6 takes only one sign in front of a term",
+        de: "{text}, Zeile {line}, Spalte {column}: CAD6 nimmt nur ein Vorzeichen vor einem Ausdruck",
+    }
+    /// `1 & 2 == 2`.
+    TERM_MIXED_BITS: DoubtfulControlText {
+        en: "{text}, line {line}, column {column}: which of & | ^ and the comparison comes first is not known for certain",
+        de: "{text}, Zeile {line}, Spalte {column}: ob & | ^ oder der Vergleich zuerst kommt, ist nicht sicher bekannt",
+        help_en: "use parentheses",
+        help_de: "Klammern setzen",
+    }
+    /// A function.
+    TERM_EXTENSION: DoubtfulControlText {
+        en: "{text}, line {line}, column {column}: functions are an extension of pathbuild; CAD6 may not know them",
+        de: "{text}, Zeile {line}, Spalte {column}: Funktionen sind eine Erweiterung von pathbuild; CAD6 kennt sie vielleicht nicht",
+    }
+    /// Assigned and read in one text.
+    READ_AFTER_ASSIGNMENT: DoubtfulControlText {
+        en: "{text}, line {line}, column {column}: {name} is assigned before this, but here it still has its old value",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} wird davor zugewiesen, hat hier aber noch den alten Wert",
+        help_en: "variables are put in before statements are run; the new value is seen by the next text",
+        help_de: "Variablen werden eingesetzt, bevor Anweisungen laufen; den neuen Wert sieht erst der nächste Text",
+    }
+    /// `X~X1~`.
+    NUMBER_UNFORMATTED: DoubtfulControlText {
+        en: "{text}, line {line}, column {column}: {name} is written with all its decimals",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} wird mit allen Nachkommastellen geschrieben",
+        help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
+        help_de: "sie in eine Anweisung setzen, die rundet, etwa mit ».« oder »#«",
+    }
+    /// A file that is not there, or not below the post.
+    INSERTION_REFUSED: InjectedFile {
+        en: "{text}, line {line}, column {column}: {name} cannot be inserted: {reason}",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} kann nicht eingefügt werden: {reason}",
+        help_en: "files to insert lie in the post's directory or below it",
+        help_de: "einzufügende Dateien liegen im Verzeichnis des Postprozessors oder darunter",
+    }
+    /// The texts have no place for Z.
+    NO_Z_IN_TEXT: InvalidControlText {
+        en: "{operation} goes from Z {from} to Z {to} while it mills, but the text {text} has no ~Z1~",
+        de: "{operation} geht beim Fräsen von Z {from} nach Z {to}, aber der Text {text} hat kein ~Z1~",
+        help_en: "add Z to the text; for a way straight down between passes, lift-between-passes = true also does (never for T-slot cutters)",
+        help_de: "Z in den Text aufnehmen; für den Weg gerade hinab zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
+    }
+    /// No text at all.
+    NO_TEXT_FOR: InvalidControlText {
+        en: "{operation} needs the text {text}, which the post does not have",
+        de: "{operation} braucht den Text {text}, den der Postprozessor nicht hat",
+    }
 }

@@ -38,6 +38,21 @@ impl Job {
         }
     }
 
+    /// The feed downwards in an operation, mm/min, else any: an operation may have none.
+    pub(super) fn plunge_feed(&self, operation: &Operation) -> Option<f64> {
+        operation.plunge_feed.or(operation.cut_feed).or_else(|| self.any_feed(operation))
+    }
+
+    /// The feed in the plane in an operation, mm/min, else any.
+    pub(super) fn cut_feed(&self, operation: &Operation) -> Option<f64> {
+        operation.cut_feed.or(operation.plunge_feed).or_else(|| self.any_feed(operation))
+    }
+
+    fn any_feed(&self, operation: &Operation) -> Option<f64> {
+        let own = operation.steps.iter().find_map(Step::feed);
+        own.or_else(|| self.operations.iter().flat_map(|operation| &operation.steps).find_map(Step::feed))
+    }
+
     /// The tools in order of first use, each once.
     pub fn tools(&self) -> Vec<&Tool> {
         let mut tools: Vec<&Tool> = Vec::new();

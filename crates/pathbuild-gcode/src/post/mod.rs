@@ -4,6 +4,7 @@
 //! of two languages, CamBam's or CAD6's; [`Post::write`] makes the text. Nothing here does IO.
 
 mod arcs;
+mod cad6;
 mod cambam;
 mod from_program;
 mod holes;
@@ -12,6 +13,8 @@ mod number;
 mod step;
 mod suggest;
 mod tools;
+
+use std::fmt;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Note, Value, messages::posts};
@@ -31,11 +34,12 @@ pub struct Post {
 #[derive(Clone, Debug)]
 enum Engine {
     CamBam(Box<cambam::Definition>),
+    Cad6(Box<cad6::Definition>),
 }
 
 /// What a post is told beside the program.
-#[derive(Clone, Debug, Default)]
-pub struct PostOptions {
+#[derive(Clone, Debug)]
+pub struct PostOptions<'a> {
     /// The text of `{$date}`; without it the date is left out, so that output depends on input only.
     pub date: Option<Box<str>>,
     /// User macros of the configuration; they win over the definition's.
@@ -46,6 +50,41 @@ pub struct PostOptions {
     pub output: Option<Box<str>>,
     /// The post's own command will be run: it is handed out instead of a note that it was skipped.
     pub run_post_build: bool,
+    /// Where files are that the definition inserts.
+    pub files: &'a dyn PostFiles,
+}
+
+impl Default for PostOptions<'_> {
+    fn default() -> Self {
+        Self {
+            date: None,
+            macros: Vec::new(),
+            cycles: false,
+            output: None,
+            run_post_build: false,
+            files: &NoFiles,
+        }
+    }
+}
+
+/// The files below the directory of a definition.
+pub trait PostFiles: fmt::Debug {
+    /// The content of a file. The path is relative and leads nowhere but down; links that lead elsewhere are the implementation's to
+    /// refuse.
+    ///
+    /// # Errors
+    /// Why there is none, as the system says it.
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, String>;
+}
+
+/// No files at all.
+#[derive(Clone, Copy, Debug)]
+pub struct NoFiles;
+
+impl PostFiles for NoFiles {
+    fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, String> {
+        Err("this post has no directory".to_owned())
+    }
 }
 
 /// A user macro: `{$name}` stands for `value`, which may use macros itself.
@@ -69,6 +108,8 @@ pub struct Output {
     pub warnings: Vec<Diagnostic>,
     /// The command that the definition wants to be run on the file: the program, then its arguments, for no shell.
     pub post_build: Option<Vec<String>>,
+    /// The files that are part of the text, relative to the definition's directory: the text must be made again when they change.
+    pub inserted: Vec<Box<str>>,
 }
 
 /// Larger definitions are refused unread.
@@ -86,15 +127,21 @@ impl Post {
         }
         let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
             .map_err(|_| vec![Diagnostic::new(&posts::POST_NOT_UTF8).in_file(file)])?;
-        let (definition, warnings) = cambam::Definition::parse(text, file)?;
-        Ok(Self { file: file.to_owned(), engine: Engine::CamBam(Box::new(definition)), warnings })
+        let (engine, warnings) = if text.trim_start().starts_with('<') {
+            let (definition, warnings) = cambam::Definition::parse(text, file)?;
+            (Engine::CamBam(Box::new(definition)), warnings)
+        } else {
+            let (definition, warnings) = cad6::Definition::parse(text, file)?;
+            (Engine::Cad6(Box::new(definition)), warnings)
+        };
+        Ok(Self { file: file.to_owned(), engine, warnings })
     }
 
     /// Writes a program.
     ///
     /// # Errors
     /// Every macro that nobody defines, else the first thing that would make the text wrong.
-    pub fn write(&self, job: &Job, options: &PostOptions) -> Result<Output, Vec<Diagnostic>> {
+    pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
         job.check().map_err(|error| vec![*error])?;
         match &self.engine {
             Engine::CamBam(definition) => {
@@ -120,8 +167,28 @@ impl Post {
                     notes,
                     warnings: self.warnings.iter().cloned().chain(written.warnings).collect(),
                     post_build: written.post_build,
+                    inserted: Vec::new(),
+                })
+            }
+            Engine::Cad6(definition) => {
+                let written = cad6::write(definition, &self.file, job, options)?;
+                Ok(Output {
+                    text: written.text,
+                    extension: definition.extension().into(),
+                    notes: Vec::new(),
+                    warnings: self.warnings.iter().cloned().chain(written.warnings).collect(),
+                    post_build: None,
+                    inserted: written.inserted,
                 })
             }
         }
     }
+}
+
+/// A file name's extension, without point.
+fn extension(text: &str) -> Option<Box<str>> {
+    let text = text.trim_start_matches('.');
+    let is_extension =
+        !text.is_empty() && text.len() <= 16 && text.chars().all(|c| c.is_ascii_alphanumeric());
+    is_extension.then(|| text.into())
 }

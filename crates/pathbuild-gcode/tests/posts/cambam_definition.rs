@@ -134,7 +134,7 @@ fn entities_that_multiply_are_refused() {
     assert_eq!(read(text).unwrap_err()[0].code().to_string(), "PB750");
 }
 
-fn macros(pairs: &[(&str, &str)]) -> PostOptions {
+fn macros(pairs: &[(&str, &str)]) -> PostOptions<'static> {
     let macros =
         pairs.iter().map(|&(name, value)| PostMacro { name: name.into(), value: value.into() }).collect();
     PostOptions { macros, ..PostOptions::default() }

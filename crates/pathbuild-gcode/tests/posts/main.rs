@@ -5,6 +5,7 @@
     reason = "a test fails by panicking, and says what it skips"
 )]
 
+mod cad6;
 mod cambam_definition;
 mod cambam_lines;
 mod cambam_moves;

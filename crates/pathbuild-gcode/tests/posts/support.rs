@@ -42,7 +42,11 @@ pub(crate) fn read(text: &str) -> Result<Post, Vec<Diagnostic>> {
 }
 
 /// What a definition makes of a job.
-pub(crate) fn output(definition: &str, job: &Job, options: &PostOptions) -> Result<Output, Vec<Diagnostic>> {
+pub(crate) fn output(
+    definition: &str,
+    job: &Job,
+    options: &PostOptions<'_>,
+) -> Result<Output, Vec<Diagnostic>> {
     read(definition)?.write(job, options)
 }
 
@@ -53,7 +57,7 @@ pub(crate) fn lines(definition: &str, job: &Job) -> Vec<String> {
 }
 
 #[track_caller]
-pub(crate) fn lines_with(definition: &str, job: &Job, options: &PostOptions) -> Vec<String> {
+pub(crate) fn lines_with(definition: &str, job: &Job, options: &PostOptions<'_>) -> Vec<String> {
     match output(definition, job, options) {
         Ok(output) => String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect(),
         Err(diagnostics) => panic!("{}", texts(&diagnostics).join("\n")),

@@ -13,7 +13,7 @@ pub(super) fn post_build(
     definition: &Definition,
     file: &Utf8Path,
     job: &Job,
-    options: &PostOptions,
+    options: &PostOptions<'_>,
 ) -> Result<Option<Vec<String>>, Box<Diagnostic>> {
     let command = definition.options.post_build_command.trim().trim_matches('"');
     if command.is_empty() {

@@ -42,7 +42,7 @@ pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
     job: &Job,
-    options: &PostOptions,
+    options: &PostOptions<'_>,
 ) -> Result<Written, Vec<Diagnostic>> {
     let plan = Plan::new(definition, file, job, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];

@@ -205,8 +205,5 @@ fn end_of_line(text: &str) -> Read<Box<str>> {
 }
 
 fn extension(value: &str) -> Read<Box<str>> {
-    let value = value.trim_start_matches('.');
-    let is_extension =
-        !value.is_empty() && value.len() <= 16 && value.chars().all(|c| c.is_ascii_alphanumeric());
-    if is_extension { Ok(value.into()) } else { Err(Refusal::Expected("a file name's extension")) }
+    crate::post::extension(value).ok_or(Refusal::Expected("a file name's extension"))
 }

@@ -16,7 +16,7 @@ pub(super) struct Plan<'a> {
     pub(super) file: &'a Utf8Path,
     pub(super) definition: &'a Definition,
     pub(super) job: &'a Job,
-    pub(super) options: &'a PostOptions,
+    pub(super) options: &'a PostOptions<'a>,
     /// The configuration's macros; they win over the definition's.
     macros: Vec<(Box<str>, Template)>,
     /// Custom text of the program.
@@ -37,7 +37,7 @@ impl<'a> Plan<'a> {
         definition: &'a Definition,
         file: &'a Utf8Path,
         job: &'a Job,
-        options: &'a PostOptions,
+        options: &'a PostOptions<'a>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         let mut template = |section: Section, text: &str| {

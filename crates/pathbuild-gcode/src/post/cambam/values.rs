@@ -9,7 +9,7 @@ use super::registers::Register;
 use super::section::Section;
 use super::writer::{Writer, Written};
 use crate::post::job::Stock;
-use crate::post::step::{Hole, HoleKind, Step};
+use crate::post::step::{Hole, HoleKind};
 
 impl Writer<'_> {
     /// The text of a value; `None` where the program has none.
@@ -25,8 +25,8 @@ impl Writer<'_> {
             Value::MopTag => Some(plain(&operation.tag)),
             Value::MopClearancePlane => Some(self.length(operation.clearance)),
             Value::MopRetractHeight => Some(self.length(operation.retract)),
-            Value::MopPlungeFeedrate => self.feed_value(operation.plunge_feed, operation.cut_feed),
-            Value::MopCutFeedrate => self.feed_value(operation.cut_feed, operation.plunge_feed),
+            Value::MopPlungeFeedrate => self.plan.job.plunge_feed(operation).map(|feed| self.length(feed)),
+            Value::MopCutFeedrate => self.plan.job.cut_feed(operation).map(|feed| self.length(feed)),
             Value::MopDepthIncrement => operation.depth_increment.map(|depth| self.length(depth)),
             Value::MopDwell => {
                 Some(self.number_format().format(operation.holes().find_map(dwell).unwrap_or(0.0)))
@@ -52,13 +52,6 @@ impl Writer<'_> {
             Value::StockCorner(axis) => self.stock_value(|stock| stock.corner[axis]),
             Value::StockCornerReversed(axis) => self.stock_value(|stock| -stock.corner[axis]),
         }
-    }
-
-    /// A feed of the operation, else any of the program: an operation may have none.
-    fn feed_value(&self, wanted: Option<f64>, other: Option<f64>) -> Option<String> {
-        let any =
-            || self.plan.job.operations.iter().flat_map(|operation| &operation.steps).find_map(Step::feed);
-        wanted.or(other).or_else(any).map(|feed| self.length(feed))
     }
 
     fn register_value(&self, register: Register) -> Option<String> {

@@ -1,0 +1,38 @@
+//! What is wrong at a place of a control text, before it is known which text it is.
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::{Diagnostic, Message};
+
+/// A diagnostic and the bytes of the text that it is about.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) span: Range<usize>,
+    pub(super) diagnostic: Diagnostic,
+}
+
+/// A result of reading or evaluating a text.
+pub(super) type Evaluated<T> = Result<T, Box<Fault>>;
+
+impl Fault {
+    /// A fault without values yet.
+    pub(super) fn new(message: &'static Message, span: Range<usize>) -> Box<Self> {
+        Box::new(Self { span, diagnostic: Diagnostic::new(message) })
+    }
+
+    /// Sets a value of its message.
+    pub(super) fn with(
+        mut self: Box<Self>,
+        name: &'static str,
+        value: impl Into<pathbuild_diagnostic::Value>,
+    ) -> Box<Self> {
+        self.diagnostic = self.diagnostic.with(name, value);
+        self
+    }
+
+    /// The fault in a text of which its own text is a part that begins at a byte.
+    pub(super) fn shifted(mut self: Box<Self>, by: usize) -> Box<Self> {
+        self.span = self.span.start + by..self.span.end + by;
+        self
+    }
+}

@@ -1,0 +1,66 @@
+//! What may not be meant in control texts, found without running them.
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::control_text::{ControlText, Kind};
+use super::definition::Definition;
+use super::expand::next_variable;
+use super::report::locate;
+use super::variables::{KNOWN, TEXTS};
+
+/// The doubts about a definition.
+pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
+    definition.texts().flat_map(|(kind, text)| of_text(kind, text, file)).collect()
+}
+
+fn of_text(kind: Kind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    let mut statements = Statements::default();
+    let mut rest = text.text.as_str();
+    // A text that is broken is reported when it is run.
+    while let Ok(Some((before, name, after))) = next_variable(rest) {
+        let at = text.text.len() - rest.len() + before.len();
+        statements.pass(before);
+        let message = if statements.assigned.contains(&name) {
+            Some(&posts::READ_AFTER_ASSIGNMENT)
+        } else {
+            (is_number(name) && statements.open.is_empty()).then_some(&posts::NUMBER_UNFORMATTED)
+        };
+        if let Some(message) = message {
+            let diagnostic = Diagnostic::new(message).with("name", name);
+            diagnostics.push(locate(diagnostic, kind, text, at..at + name.len() + 2, file));
+        }
+        rest = after;
+    }
+    diagnostics
+}
+
+fn is_number(name: &str) -> bool {
+    KNOWN.contains(&name) && !TEXTS.contains(&name)
+}
+
+/// The statements that are open at a place of a text, and what those that are over assigned.
+#[derive(Default)]
+struct Statements<'a> {
+    /// The variable that each open statement assigns, if any.
+    open: Vec<Option<&'a str>>,
+    assigned: Vec<&'a str>,
+}
+
+impl<'a> Statements<'a> {
+    fn pass(&mut self, text: &'a str) {
+        for (at, brace) in text.match_indices(['{', '}']) {
+            if brace == "{" {
+                self.open.push(text[at + 1..].strip_prefix('=').map(leading_name));
+            } else if let Some(Some(name)) = self.open.pop() {
+                self.assigned.push(name);
+            }
+        }
+    }
+}
+
+fn leading_name(text: &str) -> &str {
+    let length = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+    &text[..length]
+}

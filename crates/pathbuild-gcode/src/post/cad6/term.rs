@@ -1,0 +1,329 @@
+//! Mathematical terms: numbers, operators, functions. (`reference/cad6_xpertmill_gcode.md`, section 1.3)
+//!
+//! Everything is left-associative. From loosest to tightest: `||`, `&&`, comparisons with `& | ^` (bitwise), `+ -`, `* /`, `^^` (power),
+//! signs and `!`. The order of some of these, and all functions, are pathbuild's own: the manual's page does not tell.
+
+use pathbuild_diagnostic::messages::posts;
+
+use super::fault::{Evaluated, Fault};
+use super::functions;
+use super::marks::is_mark;
+
+/// Parentheses and signs may be nested so deep.
+const MOST_DEPTH: usize = 64;
+
+/// The value of a term, and what is doubtful in it.
+#[derive(Debug)]
+pub(super) struct Term {
+    pub(super) value: f64,
+    pub(super) doubts: Vec<Doubt>,
+}
+
+/// What may not be meant, or may not be understood by CAD6 itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Doubt {
+    /// `--5`.
+    TwoSigns,
+    /// `1 & 2 == 2` without parentheses.
+    MixedBits,
+    /// A function or constant.
+    Extension,
+}
+
+/// The value of a term that is the whole of a text. Its value is a number, not infinite.
+pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
+    let mut parser = Parser { text, at: 0, depth: 0, doubts: Vec::new() };
+    let value = parser.binary(0)?;
+    parser.blanks();
+    if parser.at < text.len() {
+        return Err(parser.unexpected());
+    }
+    if !value.is_finite() {
+        return Err(Fault::new(&posts::TERM_NOT_FINITE, 0..text.len()));
+    }
+    Ok(Term { value, doubts: parser.doubts })
+}
+
+/// The operators from loosest to tightest; of two that begin alike the longer one comes first.
+const LEVELS: [&[&str]; 6] =
+    [&["||"], &["&&"], &["<=", ">=", "==", "!=", "<", ">", "&", "|", "^"], &["+", "-"], &["*", "/"], &["^^"]];
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+    doubts: Vec<Doubt>,
+}
+
+impl Parser<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn blanks(&mut self) {
+        let rest = self.rest();
+        self.at += rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || is_mark(c)).len();
+    }
+
+    fn unexpected(&self) -> Box<Fault> {
+        let found: String = self.rest().chars().take(1).collect();
+        let end = self.at + found.len();
+        if found.is_empty() {
+            return Fault::new(&posts::TERM_ENDS, self.at..end);
+        }
+        Fault::new(&posts::TERM_UNEXPECTED, self.at..end).with("found", found)
+    }
+
+    fn doubt(&mut self, doubt: Doubt) {
+        if !self.doubts.contains(&doubt) {
+            self.doubts.push(doubt);
+        }
+    }
+
+    fn binary(&mut self, level: usize) -> Evaluated<f64> {
+        let Some(operators) = LEVELS.get(level) else { return self.unary() };
+        let mut value = self.binary(level + 1)?;
+        let mut kinds = [false; 2];
+        while let Some(operator) = self.operator(operators) {
+            let start = self.at - operator.len();
+            let right = self.binary(level + 1)?;
+            kinds[usize::from(is_bitwise(operator))] = true;
+            value = apply(operator, value, right)
+                .ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
+        }
+        if kinds == [true; 2] {
+            self.doubt(Doubt::MixedBits);
+        }
+        Ok(value)
+    }
+
+    /// Takes an operator of a level, if one comes next.
+    fn operator(&mut self, operators: &'static [&'static str]) -> Option<&'static str> {
+        self.blanks();
+        let rest = self.rest();
+        let longest = LEVELS.iter().copied().flatten().filter(|operator| rest.starts_with(**operator));
+        let operator = *longest.max_by_key(|operator| operator.len())?;
+        operators.contains(&operator).then(|| {
+            self.at += operator.len();
+            operator
+        })
+    }
+
+    fn unary(&mut self) -> Evaluated<f64> {
+        self.blanks();
+        let sign = self.rest().chars().next().filter(|c| matches!(c, '+' | '-' | '!'));
+        let Some(sign) = sign else { return self.operand() };
+        self.at += 1;
+        if sign != '!' && self.rest().trim_start_matches(is_mark).starts_with(['+', '-']) {
+            self.doubt(Doubt::TwoSigns);
+        }
+        let value = self.nested(Self::unary)?;
+        Ok(match sign {
+            '-' => -value,
+            '!' => truth(value == 0.0),
+            _ => value,
+        })
+    }
+
+    fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Evaluated<T>) -> Evaluated<T> {
+        if self.depth == MOST_DEPTH {
+            return Err(Fault::new(&posts::TEXT_DEPTH, self.at..self.at).with("limit", MOST_DEPTH));
+        }
+        self.depth += 1;
+        let value = read(self)?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn operand(&mut self) -> Evaluated<f64> {
+        match self.rest().chars().next() {
+            Some('(') => self.parenthesis(),
+            Some(c) if c.is_ascii_digit() || c == '.' => self.number(),
+            Some(c) if c.is_ascii_alphabetic() => self.function(),
+            _ => Err(self.unexpected()),
+        }
+    }
+
+    fn parenthesis(&mut self) -> Evaluated<f64> {
+        self.at += 1;
+        let value = self.nested(|parser| parser.binary(0))?;
+        self.expect(')')?;
+        Ok(value)
+    }
+
+    fn expect(&mut self, expected: char) -> Evaluated<()> {
+        self.blanks();
+        if !self.rest().starts_with(expected) {
+            return Err(self.unexpected());
+        }
+        self.at += expected.len_utf8();
+        Ok(())
+    }
+
+    fn number(&mut self) -> Evaluated<f64> {
+        let rest = self.rest();
+        let length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let span = self.at..self.at + length;
+        let number = &self.text[span.clone()];
+        self.at = span.end;
+        number.parse().map_err(|_| Fault::new(&posts::TERM_NUMBER, span).with("found", number))
+    }
+
+    fn function(&mut self) -> Evaluated<f64> {
+        let rest = self.rest();
+        let length = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
+        let span = self.at..self.at + length;
+        let name = &self.text[span.clone()];
+        self.at = span.end;
+        self.doubt(Doubt::Extension);
+        if name == "pi" {
+            return Ok(std::f64::consts::PI);
+        }
+        let arguments = self.arguments()?;
+        functions::call(name, &arguments).map_err(|wrong| wrong.at(span).with("name", name))
+    }
+
+    fn arguments(&mut self) -> Evaluated<Vec<f64>> {
+        self.expect('(')?;
+        let mut arguments = vec![self.nested(|parser| parser.binary(0))?];
+        loop {
+            self.blanks();
+            if !self.rest().starts_with(',') {
+                break;
+            }
+            self.at += 1;
+            arguments.push(self.nested(|parser| parser.binary(0))?);
+        }
+        self.expect(')')?;
+        Ok(arguments)
+    }
+}
+
+fn is_bitwise(operator: &str) -> bool {
+    matches!(operator, "&" | "|" | "^")
+}
+
+fn truth(is_true: bool) -> f64 {
+    f64::from(u8::from(is_true))
+}
+
+/// `None` where bits of a number that is not whole are asked for.
+fn apply(operator: &str, a: f64, b: f64) -> Option<f64> {
+    Some(match operator {
+        "||" => truth(a != 0.0 || b != 0.0),
+        "&&" => truth(a != 0.0 && b != 0.0),
+        "<=" => truth(a <= b),
+        ">=" => truth(a >= b),
+        "==" => truth(a == b),
+        "!=" => truth(a != b),
+        "<" => truth(a < b),
+        ">" => truth(a > b),
+        "&" => from_bits(bits(a)? & bits(b)?),
+        "|" => from_bits(bits(a)? | bits(b)?),
+        "^" => from_bits(bits(a)? ^ bits(b)?),
+        "+" => a + b,
+        "-" => a - b,
+        "*" => a * b,
+        "/" => a / b,
+        _ => libm::pow(a, b),
+    })
+}
+
+/// A whole number that an `f64` holds exactly.
+pub(super) fn bits(value: f64) -> Option<i64> {
+    #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
+    (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)
+}
+
+fn from_bits(bits: i64) -> f64 {
+    bits as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        evaluate(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}")).value
+    }
+
+    #[test]
+    fn the_manual_s_examples() {
+        let examples = [
+            ("2^^8*2", 512.0),
+            ("8/2*4", 16.0),
+            ("8+2*4", 16.0),
+            ("10-2/4", 9.5),
+            ("100^^0.5", 10.0),
+            ("24&15", 8.0),
+            ("16|8", 24.0),
+            ("24^31", 7.0),
+            ("!12", 0.0),
+        ];
+        for (text, expected) in examples {
+            assert_eq!(value(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn everything_is_left_associative() {
+        assert_eq!(value("2^^3^^2"), 64.0);
+        assert_eq!(value("10-4-3"), 3.0);
+        assert_eq!(value("3>2>1"), 0.0);
+    }
+
+    #[test]
+    fn operators_bind_in_their_order() {
+        assert_eq!(value("1==1||0"), 1.0);
+        assert_eq!(value("0&&0||1"), 1.0);
+        assert_eq!(value("1||0&&0"), 1.0);
+        assert_eq!(value("1+1==2"), 1.0);
+        assert_eq!(value("-2^^2"), 4.0);
+        assert_eq!(value("!0+1"), 2.0);
+        assert_eq!(value("2*(3+4)"), 14.0);
+        assert_eq!(value("5<=5&&5>=5&&5!=4&&4<5"), 1.0);
+    }
+
+    #[test]
+    fn a_negative_value_may_stand_behind_an_operator() {
+        assert_eq!(value("5--3"), 8.0);
+        assert_eq!(value("5*-3"), -15.0);
+        assert!(evaluate("5--3").unwrap().doubts.is_empty());
+        assert_eq!(evaluate("--5").unwrap().doubts, [Doubt::TwoSigns]);
+    }
+
+    #[test]
+    fn bits_and_comparisons_together_are_doubtful() {
+        assert_eq!(evaluate("3&1==1").unwrap().doubts, [Doubt::MixedBits]);
+        assert!(evaluate("(3&1)==1").unwrap().doubts.is_empty());
+    }
+
+    #[test]
+    fn functions_are_an_extension() {
+        assert_eq!(value("max(1, 2, 3)+sqrt(16)"), 7.0);
+        assert_eq!(evaluate("pi").unwrap().doubts, [Doubt::Extension]);
+    }
+
+    #[test]
+    fn what_is_no_term_is_refused_where_it_goes_wrong() {
+        let place = |text: &str| evaluate(text).unwrap_err().span;
+        assert_eq!(place("1+"), 2..2);
+        assert_eq!(place("1+*2"), 2..3);
+        assert_eq!(place("1,5"), 1..2);
+        assert_eq!(place("(1"), 2..2);
+        assert_eq!(place("1.2.3"), 0..5);
+        assert_eq!(place("1/0"), 0..3);
+        assert_eq!(place("1.5&1"), 3..5);
+        assert_eq!(place("sinus(1)"), 0..5);
+        assert_eq!(place("sin(1,2)"), 0..3);
+        assert_eq!(place(""), 0..0);
+    }
+
+    #[test]
+    fn nesting_has_an_end() {
+        let nested = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
+        assert!(evaluate(&nested(64)).is_ok());
+        assert!(evaluate(&nested(65)).is_err());
+        assert!(evaluate(&"-".repeat(100_000)).is_err());
+    }
+}
