@@ -45,6 +45,23 @@ fn options_without_their_value_are_wrong() {
 }
 
 #[test]
+fn what_is_not_built_is_refused() {
+    let place = Place::new().file("a.dxf", "");
+    for line in [
+        "check a.dxf --timings",
+        "check a.dxf --pictures p",
+        "emit a.dxf --join b",
+        "emit a.dxf -o -",
+        "watch a.dxf",
+        "cache dir",
+    ] {
+        let run = place.run(line);
+        assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
+        assert!(run.stderr.contains("is not built yet"), "{run}");
+    }
+}
+
+#[test]
 fn options_that_need_or_exclude_each_other_say_so() {
     let lines = ["check --update-baseline", "emit --moves", "emit --check --remove-stale", "check -q -v"];
     assert_snapshot!(runs(&Place::new(), lines));

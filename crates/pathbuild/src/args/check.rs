@@ -11,7 +11,7 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub inputs: Inputs,
     /// Check every combination of the variables' values, not one example of each
-    #[arg(long)]
+    #[arg(long, hide = true)]
     pub all_bindings: bool,
     /// Exit with 1 on warnings too
     #[arg(long)]
@@ -23,15 +23,15 @@ pub struct CheckArgs {
     #[arg(long, requires = "baseline")]
     pub update_baseline: bool,
     /// Check only what depends on files changed since this Git revision
-    #[arg(long, value_name = "REV")]
+    #[arg(long, value_name = "REV", hide = true)]
     pub changed_since: Option<String>,
     /// Show where the time went
-    #[arg(long)]
+    #[arg(long, hide = true)]
     pub timings: bool,
     /// Write the diagnostics into a file as well (repeatable)
     #[arg(long, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]
     pub report: Vec<ReportFile>,
     /// Write a picture of each erroneous path into this directory
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", hide = true)]
     pub pictures: Option<Utf8PathBuf>,
 }

@@ -11,37 +11,37 @@ pub struct EmitArgs {
     #[command(flatten)]
     pub inputs: Inputs,
     /// Write nothing: is what lies on disk current?
-    #[arg(long)]
+    #[arg(long, hide = true)]
     pub check: bool,
     /// With --check: compare the moves only
-    #[arg(long, requires = "check")]
+    #[arg(long, requires = "check", hide = true)]
     pub moves: bool,
     /// Overwrite measured values in _Z.txt
     #[arg(long)]
     pub force: bool,
     /// Write for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST")]
+    #[arg(long, value_name = "POST", hide = true)]
     pub post: Option<String>,
     /// Make one program of several paths
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", hide = true)]
     pub join: Option<String>,
     /// Write what the files were made from, for make and ninja
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", hide = true)]
     pub deps: Option<Utf8PathBuf>,
     /// Write to standard output: `-o -`
-    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]
+    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true, hide = true)]
     pub output: Option<String>,
     /// Remove G-code that pathbuild wrote earlier and nothing would write now
-    #[arg(long, conflicts_with = "check")]
+    #[arg(long, conflicts_with = "check", hide = true)]
     pub remove_stale: bool,
     /// Dialect in which a post's output is read back
-    #[arg(long, value_name = "DIALECT")]
+    #[arg(long, value_name = "DIALECT", hide = true)]
     pub dialect: Option<String>,
     /// Date that a post may write
-    #[arg(long, value_name = "DATE")]
+    #[arg(long, value_name = "DATE", hide = true)]
     pub date: Option<String>,
     /// Run the command that a post names
-    #[arg(long)]
+    #[arg(long, hide = true)]
     pub run_post_build: bool,
 }
 

@@ -9,6 +9,7 @@ mod gcode;
 mod graph;
 mod inputs;
 mod misc;
+mod unbuilt;
 mod watch;
 
 use clap::{Parser, Subcommand};

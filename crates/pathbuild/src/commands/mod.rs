@@ -19,6 +19,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     if let Some(refusal) = format_refusal(context.format, command) {
         return refuse(context, &refusal);
     }
+    if let Some(option) = command.unbuilt_option() {
+        return refuse(context, &format!("`{}` {option} is not built yet", command.name()));
+    }
     match command {
         Command::Check(args) => check::run(context, args),
         Command::Emit(args) => emit::run(context, args),

@@ -10,7 +10,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()
 }
 
-pub(crate) fn line(diagnostic: &Diagnostic, view: &View) -> String {
+pub(super) fn line(diagnostic: &Diagnostic, view: &View) -> String {
     let location =
         place::location(diagnostic, view).map(|location| format!("{location}: ")).unwrap_or_default();
     let severity = place::severity(diagnostic.severity, view);

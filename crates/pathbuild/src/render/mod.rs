@@ -13,7 +13,6 @@ mod view;
 use crate::args::Format;
 use crate::report::Findings;
 
-pub(crate) use concise::line as render_line;
 pub use view::View;
 
 /// The findings in a format. A format of graphs shows no diagnostics and falls back on [`Format::Full`].

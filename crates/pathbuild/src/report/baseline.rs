@@ -6,11 +6,11 @@ use std::fmt::Write;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, TextFault};
+use pathbuild_diagnostic::{Diagnostic, TextFault, Value};
 
 use super::{Findings, Fingerprint};
 use crate::files;
-use crate::render::{View, render_line};
+use crate::render::View;
 
 /// The findings that are known and not to be reported.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl Baseline {
         for (diagnostic, fingerprint) in
             findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics))
         {
-            _ = write!(text, "{fingerprint} {}", render_line(diagnostic, view));
+            _ = writeln!(text, "{fingerprint} {}", description(diagnostic, view));
         }
         text
     }
@@ -94,6 +94,20 @@ const HEAD: &str = "\
 # Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` writes this file anew.
 # The fingerprint at the beginning of a line counts; the rest says what it was.
 ";
+
+/// What the finding is and where, without what changes whenever the CAD saves.
+fn description(diagnostic: &Diagnostic, view: &View) -> String {
+    let file = view.file(diagnostic).unwrap_or_default();
+    let path = diagnostic.path.as_deref().unwrap_or_default();
+    let point = diagnostic.place.point.map(|point| Value::from(point).render(view.lang)).unwrap_or_default();
+    let words = [&*diagnostic.code().to_string(), &file, path, &point, &diagnostic.text(view.lang)];
+    words
+        .into_iter()
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+        .replace(char::is_control, " ")
+}
 
 fn fingerprint(line: &str) -> Option<&str> {
     let word = line.split_whitespace().next()?;

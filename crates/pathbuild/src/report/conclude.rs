@@ -43,11 +43,12 @@ fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Durat
     context.show_as_result(findings);
     let failed = write_reports(context, &args.report, findings);
     if compared.gone > 0 {
-        let phrase = context.choose(
-            "entries of the baseline are no longer found",
-            "bekannte Meldungen treten nicht mehr auf",
+        let (en, de) = (
+            "entries of the baseline that are no longer found",
+            "bekannte Meldungen, die nicht mehr auftreten",
         );
-        context.printer.detail(format_args!("{} {phrase}", compared.gone));
+        let phrase = context.choose(en, de);
+        context.printer.detail(format_args!("{phrase}: {}", compared.gone));
     }
     context.printer.status(summary(findings, compared.known, time, context.lang()));
     let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
