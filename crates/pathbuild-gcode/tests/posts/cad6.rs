@@ -587,7 +587,7 @@ fn a_text_for_rapids_writes_every_move_as_it_is() {
     ];
     assert_eq!(
         calls(definition, steps),
-        ["T", "G0 1 0 5", "G1 1 0 -1 1", "G1 2 0 -1 0", "G0 1.5 0 -1", "G0 1.5 0 5"]
+        ["T", "G0 0 0 5", "G0 1 0 5", "G1 1 0 -1 1", "G1 2 0 -1 0", "G0 1.5 0 -1", "G0 1.5 0 5"]
     );
 }
 

@@ -100,7 +100,7 @@ fn a_macro_with_wrong_arguments_is_an_error() {
     let expected = [
         "3: PB750 {$spindle(left)} in Footer has the wrong arguments; it takes nothing, cw, ccw or off",
         "3: PB750 {$x(1)} in Footer has the wrong arguments; it takes no arguments",
-        "3: PB750 {$set(q,1)} in Footer has the wrong arguments; it takes x, y or z and a number or NaN",
+        "3: PB750 {$set(q,1)} in Footer has the wrong arguments; it takes x, y or z and a number or NaN, or tool",
         "3: PB750 {$check(1,2)} in Footer has the wrong arguments; it takes three coordinates",
     ];
     assert_eq!(texts(&read(&text).unwrap_err()), expected);

@@ -5,6 +5,7 @@
     reason = "a test fails by panicking, and says what it skips"
 )]
 
+mod built_in;
 mod cad6;
 mod cambam_definition;
 mod cambam_lines;

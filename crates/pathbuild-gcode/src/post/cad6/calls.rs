@@ -20,6 +20,7 @@ type Built = Result<(), Box<Diagnostic>>;
 /// The calls of a job, without those at its start and end.
 pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Call<'a>>, Box<Diagnostic>> {
     let mut builder = Builder::new(job, definition);
+    builder.begin();
     for index in 0..job.operations.len() {
         builder.operation(index)?;
     }
@@ -60,6 +61,13 @@ impl<'a> Builder<'a> {
             is_open: false,
             is_first: true,
             feed: None,
+        }
+    }
+
+    /// Where every move is written as it is, so is the one to the start.
+    fn begin(&mut self) {
+        if self.abilities.rapid {
+            self.call(What::Rapid { to: self.at });
         }
     }
 

@@ -53,6 +53,16 @@ impl Definition {
         &self.settings.extension
     }
 
+    /// The dialect that it names.
+    pub(crate) fn dialect(&self) -> Option<&str> {
+        self.settings.dialect.as_deref()
+    }
+
+    /// What it says about itself.
+    pub(crate) fn description(&self) -> &str {
+        &self.settings.description
+    }
+
     /// A control text; `None` when it is absent or empty.
     pub(super) fn text(&self, kind: Kind) -> Option<&ControlText> {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())

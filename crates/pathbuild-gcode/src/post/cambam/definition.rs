@@ -45,6 +45,16 @@ impl Definition {
         &self.options.extension
     }
 
+    /// The dialect that it names.
+    pub(crate) fn dialect(&self) -> Option<&str> {
+        self.options.dialect.as_deref()
+    }
+
+    /// What it says about itself.
+    pub(crate) fn description(&self) -> &str {
+        &self.options.notes
+    }
+
     /// The text of a section: the file's own, else the one that stands in for an absent element.
     pub(super) fn section(&self, section: Section) -> &Template {
         let index = section as usize;

@@ -51,6 +51,12 @@ impl Machine {
         self.motion == Some(code.number() * 10)
     }
 
+    /// Another tool is in. Its spindle stands still on one control and turns on the next.
+    pub(super) fn change_tool(&mut self, tool: u32) {
+        self.tool = Some(tool);
+        self.spindle = None;
+    }
+
     /// Takes note of a line. `code` is the motion that a macro stands for in it, however its section spells it.
     pub(super) fn read(&mut self, line: &Words, code: Option<Code>, format: NumberFormat) {
         if let Some(code) = code {
@@ -77,7 +83,7 @@ impl Machine {
             640 => self.velocity = Some(VelocityMode::ConstantVelocity),
             900 => self.incremental = false,
             910 => self.incremental = true,
-            100 => moves.none = true,
+            40 | 100 => moves.none = true,
             280 | 300 => moves.everywhere = true,
             520 | 530 | 920..=923 => moves.displaced = true,
             800 => self.motion = None,
@@ -91,7 +97,6 @@ impl Machine {
             30 => self.spindle = Some(Spindle::Clockwise),
             40 => self.spindle = Some(Spindle::CounterClockwise),
             50 => self.spindle = Some(Spindle::Off),
-            // A change stops the spindle on one control and not on the next.
             60 => {
                 self.tool = self.selected.or(self.tool);
                 self.spindle = None;
@@ -129,7 +134,7 @@ impl Machine {
 /// What the axis words of a line are.
 #[derive(Default)]
 struct Moves {
-    /// No coordinates of the tool at all (G10).
+    /// No coordinates of the tool at all (G4, G10).
     none: bool,
     /// Coordinates of another system, or relative ones: where the tool is afterwards is not known.
     displaced: bool,

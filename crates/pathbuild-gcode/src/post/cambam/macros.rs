@@ -31,6 +31,8 @@ pub(super) enum Macro {
     Check([Argument; 3]),
     /// `{$set(x,value)}`: writes nothing; `None` is `NaN`.
     Set(Register, Option<f64>),
+    /// `{$set(tool)}`: writes nothing; the operation's tool is in, though no M6 says so (pathbuild's own).
+    SetTool,
     /// A macro that the definition or the configuration defines.
     User(Box<str>),
 }

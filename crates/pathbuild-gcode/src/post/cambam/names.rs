@@ -95,7 +95,7 @@ static WITH: &[With] = &[
     With { name: "spindle", expected: "nothing, cw, ccw or off", read: spindle },
     With { name: "coolant", expected: "nothing, flood, mist or off", read: coolant },
     With { name: "check", expected: "three coordinates", read: check },
-    With { name: "set", expected: "x, y or z and a number or NaN", read: set },
+    With { name: "set", expected: "x, y or z and a number or NaN, or tool", read: set },
 ];
 
 fn cutter_compensation(argument: Option<&str>) -> Option<Macro> {
@@ -149,6 +149,9 @@ fn check(arguments: Option<&str>) -> Option<Macro> {
 }
 
 fn set(arguments: Option<&str>) -> Option<Macro> {
+    if arguments? == "tool" {
+        return Some(Macro::SetTool);
+    }
     let (axis, value) = arguments?.split_once(',')?;
     let register =
         Register::AXES.into_iter().find(|r| axis.trim().eq_ignore_ascii_case(&r.letter().to_string()))?;

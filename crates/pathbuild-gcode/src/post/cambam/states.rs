@@ -4,7 +4,7 @@ use super::macros::{Choice, State};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
 use super::writer::{Writer, Written};
-use crate::post::job::{Plane, Spindle, Units, VelocityMode};
+use crate::post::job::{Coolant, Plane, Spindle, Units, VelocityMode};
 use crate::post::number::NumberFormat;
 
 impl Writer<'_> {
@@ -50,6 +50,9 @@ impl Writer<'_> {
             Section::SpindleCw => self.machine.spindle = Some(Spindle::Clockwise),
             Section::SpindleCcw => self.machine.spindle = Some(Spindle::CounterClockwise),
             Section::SpindleOff => self.machine.spindle = Some(Spindle::Off),
+            Section::CoolantFlood => self.machine.coolant = Some(Coolant::Flood),
+            Section::CoolantMist => self.machine.coolant = Some(Coolant::Mist),
+            Section::CoolantOff => self.machine.coolant = Some(Coolant::Off),
             _ => {}
         }
         self.section(section)

@@ -145,6 +145,10 @@ impl<'a> Writer<'a> {
                 self.machine.set(*register, text);
                 Ok(())
             }
+            Macro::SetTool => {
+                self.machine.change_tool(self.tool.index);
+                Ok(())
+            }
             Macro::User(name) => match self.plan.user_macro(name) {
                 Some(text) => self.template(text),
                 None => Ok(()),
@@ -226,11 +230,14 @@ impl<'a> Writer<'a> {
         self.lines.push(&text);
     }
 
-    /// Whether a line has nothing but words for motions.
+    /// Whether a line has nothing but words for motions, and a feed that the template itself has.
     fn is_motion_alone(&self, rest: &str) -> bool {
         let found = words(rest, &self.marks);
         !found.has_more
-            && found.words.iter().all(|word| word.letter == 'G' && (0.0..=3.0).contains(&word.number))
+            && found.words.iter().all(|word| match word.letter {
+                'G' => (0.0..=3.0).contains(&word.number),
+                letter => letter == 'F',
+            })
     }
 
     /// Says something once.

@@ -1,0 +1,143 @@
+//! A definition of either language, and what it writes.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
+
+use super::job::Job;
+use super::options::PostOptions;
+use super::{cad6, cambam};
+
+/// A definition that was read, ready to write programs.
+#[derive(Clone, Debug)]
+pub struct Post {
+    file: Utf8PathBuf,
+    engine: Engine,
+    warnings: Vec<Diagnostic>,
+}
+
+#[derive(Clone, Debug)]
+enum Engine {
+    CamBam(Box<cambam::Definition>),
+    Cad6(Box<cad6::Definition>),
+}
+
+/// What a post wrote.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The content of the file.
+    pub text: Vec<u8>,
+    /// The extension of its name, without point.
+    pub extension: Box<str>,
+    /// What the user should know.
+    pub notes: Vec<Note>,
+    /// What is doubtful in the definition or the text.
+    pub warnings: Vec<Diagnostic>,
+    /// The command that the definition wants to be run on the file: the program, then its arguments, for no shell.
+    pub post_build: Option<Vec<String>>,
+    /// The files that are part of the text, relative to the definition's directory: the text must be made again when they change.
+    pub inserted: Vec<Box<str>>,
+}
+
+/// Larger definitions are refused unread.
+const LARGEST: usize = 1 << 20;
+
+impl Post {
+    /// Reads a definition. `file` is where it comes from, for diagnostics.
+    ///
+    /// # Errors
+    /// Everything that is wrong in it, with lines.
+    pub fn read(bytes: &[u8], file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
+        if bytes.len() > LARGEST {
+            let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());
+            return Err(vec![diagnostic.with("limit", LARGEST).in_file(file)]);
+        }
+        let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
+            .map_err(|_| vec![Diagnostic::new(&posts::POST_NOT_UTF8).in_file(file)])?;
+        let (engine, warnings) = if text.trim_start().starts_with('<') {
+            let (definition, warnings) = cambam::Definition::parse(text, file)?;
+            (Engine::CamBam(Box::new(definition)), warnings)
+        } else {
+            let (definition, warnings) = cad6::Definition::parse(text, file)?;
+            (Engine::Cad6(Box::new(definition)), warnings)
+        };
+        Ok(Self { file: file.to_owned(), engine, warnings })
+    }
+
+    /// The dialect that the definition says its output is in.
+    pub fn dialect(&self) -> Option<&str> {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.dialect(),
+            Engine::Cad6(definition) => definition.dialect(),
+        }
+    }
+
+    /// What the definition says about itself, in several lines.
+    pub fn description(&self) -> &str {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.description(),
+            Engine::Cad6(definition) => definition.description(),
+        }
+    }
+
+    /// The extension of the files that it writes, without point.
+    pub fn extension(&self) -> &str {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.extension(),
+            Engine::Cad6(definition) => definition.extension(),
+        }
+    }
+
+    /// Writes a program.
+    ///
+    /// # Errors
+    /// Every macro that nobody defines, else the first thing that would make the text wrong.
+    pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
+        job.check().map_err(|error| vec![*error])?;
+        let mut output = Output {
+            text: Vec::new(),
+            extension: self.extension().into(),
+            notes: Vec::new(),
+            warnings: self.warnings.clone(),
+            post_build: None,
+            inserted: Vec::new(),
+        };
+        match &self.engine {
+            Engine::CamBam(definition) => self.write_cambam(definition, job, options, &mut output)?,
+            Engine::Cad6(definition) => {
+                let written = cad6::write(definition, &self.file, job, options)?;
+                output.text = written.text;
+                output.warnings.extend(written.warnings);
+                output.inserted = written.inserted;
+            }
+        }
+        Ok(output)
+    }
+
+    fn write_cambam(
+        &self,
+        definition: &cambam::Definition,
+        job: &Job,
+        options: &PostOptions<'_>,
+        output: &mut Output,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let written = cambam::write(definition, &self.file, job, options)?;
+        output.text = written.text.into_bytes();
+        output.warnings.extend(written.warnings);
+        if written.leaves_out_coolant {
+            output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
+        }
+        match written.post_build {
+            Some(command) if !options.run_post_build => {
+                output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
+            }
+            command => output.post_build = command,
+        }
+        Ok(())
+    }
+}
+
+impl Output {
+    fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
+        self.notes.push(Note { message, arguments: vec![(name, Value::from(value))] });
+    }
+}
