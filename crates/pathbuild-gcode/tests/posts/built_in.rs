@@ -12,7 +12,15 @@ fn sample() -> Job {
         Step::Arc(Arc { clockwise, from, centre: [20.0, 0.0, 0.0], to, feed: Some(250.0) })
     };
     let hole = |x: f64, kind| {
-        Step::Hole(Hole { at: [x, 30.0], level: 5.0, retract: 1.0, bottom: -4.0, exit: 5.0, feed: Some(80.0), kind })
+        Step::Hole(Hole {
+            at: [x, 30.0],
+            level: 5.0,
+            retract: 1.0,
+            bottom: -4.0,
+            exit: 5.0,
+            feed: Some(80.0),
+            kind,
+        })
     };
     let mut milled = operation(
         "1234.1A",
@@ -32,18 +40,25 @@ fn sample() -> Job {
     milled.spindle = Some(Spindle::Clockwise);
     milled.speed = Some(12_000.0);
     milled.coolant = Some(Coolant::Flood);
-    let mut drilled = operation("1234.1B", 2, vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Peck { depth: 2.0 })]);
+    let mut drilled =
+        operation("1234.1B", 2, vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Peck { depth: 2.0 })]);
     drilled.spindle = Some(Spindle::Clockwise);
     drilled.speed = Some(3000.0);
     drilled.coolant = Some(Coolant::Off);
     drilled.entry = Entry::At([0.0, 0.0, 5.0]);
-    Job { name: "8001.1P".into(), drawing: "8001.dxf".into(), operations: vec![milled, drilled], ..Job::default() }
+    Job {
+        name: "8001.1P".into(),
+        drawing: "8001.dxf".into(),
+        operations: vec![milled, drilled],
+        ..Job::default()
+    }
 }
 
 #[track_caller]
 fn written(name: &str, options: &PostOptions<'_>) -> String {
     let post = post::load(name).unwrap_or_else(|errors| panic!("{name}: {:?}", texts(&errors)));
-    let output = post.write(&sample(), options).unwrap_or_else(|errors| panic!("{name}: {:?}", texts(&errors)));
+    let output =
+        post.write(&sample(), options).unwrap_or_else(|errors| panic!("{name}: {:?}", texts(&errors)));
     assert_eq!(texts(&output.warnings), [""; 0], "{name}");
     String::from_utf8(output.text).unwrap().replace("\r\n", "\n")
 }

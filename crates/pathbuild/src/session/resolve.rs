@@ -70,8 +70,7 @@ impl Session<'_> {
 
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
-        let is_directory = self.db.system().kind(&normal) == Kind::Directory;
-        if is_directory && !library::is_drawing(&normal) {
+        if self.is_directory(place) && !library::is_drawing(&normal) {
             for drawing in library::drawings(&normal) {
                 wanted.add_drawing(self.file(&drawing), false);
             }
@@ -80,11 +79,17 @@ impl Session<'_> {
         }
     }
 
+    fn is_directory(&self, place: &Utf8Path) -> bool {
+        self.db.system().kind(&self.normal(place)) == Kind::Directory
+    }
+
     fn add_name(&self, name: &str, wanted: &mut Wanted) {
         let directories = self.directories();
         match self.definitions(&PathName::new(name), &directories).as_slice() {
             [] => match self.drawing_of_name(name, &directories) {
                 Some(drawing) => wanted.add_drawing(drawing, true),
+                // `check components` is what people type; nothing else of that name was meant.
+                None if self.is_directory(Utf8Path::new(name)) => self.add_place(Utf8Path::new(name), wanted),
                 None => wanted.problems.push(nowhere(name, &directories)),
             },
             [file] => {
