@@ -1,5 +1,6 @@
 //! Similarities of the plane: object coordinates, insertions of blocks, units. (reference/dxf.md section 4, points 8 and 9)
 
+use crate::angle::cos_sin;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
 /// Moves, turns, scales and perhaps mirrors. A mirrored one maps (x, y) to (x, -y) first and turns then.
@@ -36,6 +37,40 @@ impl Placement {
     /// Scales everything.
     pub(crate) fn scaled(scale: f64) -> Self {
         Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
+    }
+
+    /// This after another one.
+    pub(crate) fn after(&self, first: &Self) -> Self {
+        let (x, y) = first.x_axis;
+        Self {
+            origin: self.point(first.origin),
+            x_axis: self.direction(x, y),
+            turn: libm::fmod(self.angle(first.turn), 360.0),
+            scale: self.scale * first.scale,
+            z_scale: self.z_scale * first.z_scale,
+            mirrored: self.mirrored != first.mirrored,
+        }
+    }
+
+    /// Moves the origin to a point.
+    pub(crate) fn moved(origin: Point3) -> Self {
+        Self { origin, ..Self::IDENTITY }
+    }
+
+    /// Turns about the origin, by degrees counterclockwise.
+    pub(crate) fn turned(turn: f64) -> Self {
+        Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
+    }
+
+    /// Scales x, y and z; `None` unless x and y have the same scale but for the sign.
+    pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
+        /// Scales are computed numbers: so little apart they are the same.
+        const NOISE: f64 = 1e-9;
+        let scale = x.abs();
+        let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= NOISE * scale;
+        let mirrored = (x < 0.0) != (y < 0.0);
+        let turn = if x < 0.0 { 180.0 } else { 0.0 };
+        is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })
     }
 
     /// A point.

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE, TILTE
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
 
 use crate::faults::{bad_value, shown};
-use crate::fields::BadGroup;
+use crate::fields::{BadGroup, Fields};
 
 /// What is wrong with an entity.
 #[derive(Clone, Debug)]
@@ -19,7 +19,11 @@ pub(crate) enum Trouble<'a> {
         message: &'static Message,
         /// Where it begins.
         point: Option<Point>,
+        /// The block, if it is an insertion.
+        block: Option<Box<str>>,
     },
+    /// The insertion of a block, of this name, that contains itself or is nested too deep: PB002.
+    Nested(Box<str>),
     /// A text is longer than the limit: PB005, for the whole file.
     TextTooLong,
 }
@@ -27,6 +31,14 @@ pub(crate) enum Trouble<'a> {
 impl<'a> From<BadGroup<'a>> for Trouble<'a> {
     fn from(group: BadGroup<'a>) -> Self {
         Self::Group(group)
+    }
+}
+
+impl<'a> Trouble<'a> {
+    /// It is left out for this reason; it begins at the point in 10/20, if it has one.
+    pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
+        let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
+        Self::LeftOut { message, point, block: None }
     }
 }
 

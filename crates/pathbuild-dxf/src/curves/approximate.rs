@@ -1,0 +1,81 @@
+//! Smooth curves to lines and arcs within a tolerance.
+
+use super::biarc::{Piece, Ray, biarc};
+use super::vector::Vector;
+use crate::Geometry;
+
+/// A curve over an interval in which it is smooth.
+pub(crate) trait Curve {
+    /// The point at a parameter, and the derivative there.
+    fn at(&self, parameter: f64) -> (Vector, Vector);
+}
+
+/// How near, and how many.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tolerance {
+    /// Largest distance in mm of any point of the curve from the pieces.
+    pub(crate) distance: f64,
+    /// About as many pieces are made at most; a curve with more is over the limit of entities anyway.
+    pub(crate) most_pieces: usize,
+}
+
+/// Points of the curve that are looked at in each span of two arcs.
+const SAMPLES: u32 = 24;
+
+/// Between two samples the distance may be a little larger than at both.
+const MARGIN: f64 = 0.9;
+
+/// Halvings of a span after which a piece of it is a line, however far: where a curve has no direction, as in a cusp.
+const DEEPEST: u32 = 24;
+
+/// Adds the pieces of a curve between two parameters.
+pub(crate) fn approximate(
+    curve: &impl Curve,
+    from: f64,
+    to: f64,
+    z: f64,
+    tolerance: Tolerance,
+    pieces: &mut Vec<Geometry>,
+) {
+    let mut spans = vec![(from, to, 0)];
+    while let Some((from, to, depth)) = spans.pop() {
+        if pieces.len() > tolerance.most_pieces {
+            return;
+        }
+        match fit(curve, from, to, tolerance.distance) {
+            Some(biarc) => pieces.extend(biarc.iter().filter_map(|piece| piece.geometry(z))),
+            None if depth == DEEPEST => {
+                pieces.extend(Piece::line(curve.at(from).0, curve.at(to).0).geometry(z));
+            }
+            None => {
+                let middle = f64::midpoint(from, to);
+                spans.push((middle, to, depth + 1));
+                spans.push((from, middle, depth + 1));
+            }
+        }
+    }
+}
+
+/// The biarc with the curve's ends and directions there, if it is near enough.
+fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<[Piece; 2]> {
+    let width = to - from;
+    let biarc = biarc(ray(curve, from, width)?, ray(curve, to, -width)?)?;
+    let is_near = |sample: u32| {
+        let point = curve.at(from + width * f64::from(sample) / f64::from(SAMPLES)).0;
+        biarc.iter().any(|piece| piece.distance(point) <= distance * MARGIN)
+    };
+    (1..SAMPLES).all(is_near).then_some(biarc)
+}
+
+/// A point of the curve with its direction; `inwards` leads into the span, where a direction is looked for if there is none at its end.
+fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
+    /// Part of the span that is gone inwards for a direction.
+    const STEP: f64 = 1e-3;
+    /// Derivatives shorter than this part of the way to there are nothing.
+    const NOTHING: f64 = 1e-6;
+    let (point, derivative) = curve.at(parameter);
+    let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
+    let has_direction = derivative.length() > NOTHING * way.length();
+    let direction = if has_direction { derivative } else { way };
+    Some(Ray { point, direction: direction.unit()? })
+}
