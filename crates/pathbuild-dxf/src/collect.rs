@@ -3,15 +3,15 @@
 use std::collections::{HashMap, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
-use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE};
+use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
 
-use crate::curves::Tolerance;
+use crate::curves::{Tolerance, TooManyPieces};
 use crate::faults::Fatal;
 use crate::item::Shape;
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
-use crate::trouble::{Trouble, tilted};
+use crate::trouble::Trouble;
 use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 
 /// Gathers a drawing.
@@ -97,6 +97,9 @@ impl Collector {
             Ok(Shape::Plain(mut geometry)) => {
                 if let Some(placement) = placed.placement {
                     placement.apply(&mut geometry);
+                    if !geometry.is_sound() {
+                        return self.refuse(placed, layer, &Trouble::TooLarge);
+                    }
                 }
                 self.push(placed, layer, None, geometry)
             }
@@ -113,12 +116,16 @@ impl Collector {
                 for part in &mut parts {
                     placement.apply(part);
                 }
-                parts
+                Ok(parts)
             }
             Shape::Ellipse(ellipse) => ellipse.pieces(placement, tolerance),
             Shape::Spline(spline) => spline.pieces(placement, tolerance),
-            Shape::Plain(_) | Shape::Insert(_) => Vec::new(),
+            Shape::Plain(_) | Shape::Insert(_) => Ok(Vec::new()),
         };
+        let parts = parts.map_err(|TooManyPieces| self.too_many())?;
+        if !parts.iter().all(Geometry::is_sound) {
+            return self.refuse(placed, layer, &Trouble::TooLarge);
+        }
         let group = Some(self.groups);
         self.groups += 1;
         parts.into_iter().try_for_each(|part| self.push(placed, layer, group, part))
@@ -143,7 +150,8 @@ impl Collector {
     fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &Trouble<'_>) -> Result<(), Fatal> {
         let diagnostic = match trouble {
             Trouble::Group(group) => group.diagnostic(placed.kind),
-            Trouble::Tilted => tilted(placed.kind),
+            Trouble::Tilted => Diagnostic::new(&TILTED).with("entity", placed.kind.name()),
+            Trouble::TooLarge => Diagnostic::new(&TOO_LARGE).with("entity", placed.kind.name()),
             Trouble::Nested(block) => Diagnostic::new(&BLOCK_NESTED).with("block", &**block),
             Trouble::LeftOut { message, point, block } => {
                 self.count()?;

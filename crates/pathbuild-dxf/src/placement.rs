@@ -137,6 +137,28 @@ impl Placement {
     }
 }
 
+impl Geometry {
+    /// Whether all numbers are finite and lengths more than 0: numbers from the file are, but scaling may spoil them.
+    pub(crate) fn is_sound(&self) -> bool {
+        let is_finite = |point: &Point3| point.x.is_finite() && point.y.is_finite() && point.z.is_finite();
+        let is_length = |length: f64| length > 0.0 && length.is_finite();
+        match self {
+            Self::Line(line) => is_finite(&line.start) && is_finite(&line.end),
+            Self::Arc(arc) => {
+                let angles_are_finite = arc.start_angle.is_finite() && arc.end_angle.is_finite();
+                is_finite(&arc.centre) && is_length(arc.radius) && angles_are_finite
+            }
+            Self::Circle(circle) => is_finite(&circle.centre) && is_length(circle.radius),
+            Self::Text(text) => {
+                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
+            }
+            Self::MText(text) => {
+                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
+            }
+        }
+    }
+}
+
 /// The other side.
 pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     match side {

@@ -1,6 +1,6 @@
 //! Why a wanted entity does not become a shape.
 
-use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE, TILTED};
+use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
 
 use crate::faults::{bad_value, shown};
@@ -13,6 +13,8 @@ pub(crate) enum Trouble<'a> {
     Group(BadGroup<'a>),
     /// Its extrusion is neither (0, 0, 1) nor (0, 0, -1): PB110.
     Tilted,
+    /// Its numbers are beyond what can be computed with: PB002.
+    TooLarge,
     /// It is nothing that can be milled: PB111.
     LeftOut {
         /// Why.
@@ -65,9 +67,4 @@ impl BadGroup<'_> {
             }
         }
     }
-}
-
-/// PB110 for an entity in a tilted plane.
-pub(crate) fn tilted(kind: EntityKind) -> Diagnostic {
-    Diagnostic::new(&TILTED).with("entity", kind.name())
 }

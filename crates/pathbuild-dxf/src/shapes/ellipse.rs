@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::is_mirrored;
-use crate::curves::{Curve, Tolerance, Vector, approximate};
+use crate::curves::{Curve, Tolerance, TooManyPieces, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
 use crate::trouble::Trouble;
@@ -47,7 +47,11 @@ impl Ellipse {
     }
 
     /// Its arcs in the coordinates of the drawing.
-    pub(crate) fn pieces(&self, placement: &Placement, tolerance: Tolerance) -> Vec<Geometry> {
+    pub(crate) fn pieces(
+        &self,
+        placement: &Placement,
+        tolerance: Tolerance,
+    ) -> Result<Vec<Geometry>, TooManyPieces> {
         let placed = self.placed(placement);
         let mut pieces = Vec::new();
         let quarters = libm::ceil((self.end - self.start) / FRAC_PI_2).max(1.0);
@@ -57,9 +61,9 @@ impl Ellipse {
             let from = self.start + width * quarter;
             quarter += 1.0;
             let to = self.start + width * quarter;
-            approximate(&placed, from, to, placed.centre.z, tolerance, &mut pieces);
+            approximate(&placed, [from, to], placed.centre.z, tolerance, &mut pieces)?;
         }
-        pieces
+        Ok(pieces)
     }
 
     fn placed(&self, placement: &Placement) -> Self {

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::reading::SPLINE_NOT_UNDERSTOOD;
 
 use super::{is_mirrored, repeated_number};
-use crate::curves::{Curve, Tolerance, Vector, approximate};
+use crate::curves::{Curve, Tolerance, TooManyPieces, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
 use crate::trouble::Trouble;
@@ -58,16 +58,20 @@ impl Spline {
     }
 
     /// Its lines and arcs in the coordinates of the drawing.
-    pub(crate) fn pieces(&self, placement: &Placement, tolerance: Tolerance) -> Vec<Geometry> {
+    pub(crate) fn pieces(
+        &self,
+        placement: &Placement,
+        tolerance: Tolerance,
+    ) -> Result<Vec<Geometry>, TooManyPieces> {
         let placed = self.placed(placement);
         let mut pieces = Vec::new();
         for knot in self.degree..self.points.len() {
             let [from, to] = [self.knots[knot], self.knots[knot + 1]];
             if from < to {
-                approximate(&Span { spline: &placed, knot }, from, to, placed.z, tolerance, &mut pieces);
+                approximate(&Span { spline: &placed, knot }, [from, to], placed.z, tolerance, &mut pieces)?;
             }
         }
-        pieces
+        Ok(pieces)
     }
 
     fn placed(&self, placement: &Placement) -> Self {
