@@ -1,17 +1,18 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
-use pathbuild_diagnostic::messages::reading::INVISIBLE;
-use pathbuild_diagnostic::{Diagnostic, Message, Point, Word};
+use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
 
-use crate::item::{Item, Shape, Traits};
-use crate::layers::{CONTINUOUS, Layers, UsedLayer};
-use crate::line_types::{LineType, LineTypes};
+use crate::curves::{Tolerance, TooManyPieces};
+use crate::faults::Fatal;
+use crate::item::Shape;
+use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
-use crate::trouble::{Trouble, tilted};
-use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut};
+use crate::trouble::Trouble;
+use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 
 /// Gathers a drawing.
 pub(crate) struct Collector {
@@ -20,8 +21,10 @@ pub(crate) struct Collector {
     layers: HashMap<Box<str>, u32>,
     /// For each of them, whether an invisible entity was found.
     has_invisible: Vec<bool>,
-    /// The layer that the last item was on.
-    last: Option<(crate::layers::LayerId, u32)>,
+    /// The layer that the last entity was on.
+    last: Option<(LayerId, u32)>,
+    /// Lines of broken entities, each with the layers on which that was said.
+    faulty: HashSet<(u32, u32)>,
     groups: u32,
     limits: Limits,
 }
@@ -31,12 +34,33 @@ pub(crate) struct Collector {
 pub(crate) struct Limits {
     pub(crate) entities: usize,
     pub(crate) text: usize,
+    /// Tolerance in mm for curves that are no arcs.
+    pub(crate) curves: f64,
 }
 
-/// Names that items refer to by number.
-pub(crate) struct Names<'b, 'a, 'o> {
-    pub(crate) layers: &'b Layers<'a, 'o>,
-    pub(crate) line_types: &'b LineTypes<'a>,
+/// An entity where it ends up in the drawing.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed<'p> {
+    pub(crate) kind: EntityKind,
+    pub(crate) layer_id: LayerId,
+    pub(crate) layer: &'p UsedLayer,
+    /// Resolved.
+    pub(crate) line_type: &'p str,
+    /// Its own place in the file, for what is wrong with it.
+    pub(crate) own: Origin,
+    /// That of the insertion it comes with, or its own.
+    pub(crate) origin: Origin,
+    pub(crate) is_invisible: bool,
+    pub(crate) placement: Option<&'p Placement>,
+}
+
+impl Placed<'_> {
+    /// A point of the entity's space in the drawing.
+    fn point(&self, point: Point) -> Point {
+        let Some(placement) = self.placement else { return point };
+        let placed = placement.point(Point3 { x: point.x.0, y: point.y.0, z: 0.0 });
+        Point::new(placed.x, placed.y)
+    }
 }
 
 impl Collector {
@@ -47,6 +71,7 @@ impl Collector {
             layers: HashMap::new(),
             has_invisible: Vec::new(),
             last: None,
+            faulty: HashSet::new(),
             groups: 0,
             limits,
         }
@@ -57,116 +82,142 @@ impl Collector {
         self.drawing
     }
 
-    /// Adds an item of model space.
+    /// Adds an entity.
+    #[inline]
     pub(crate) fn add(
         &mut self,
-        item: Item<'_>,
-        placement: Option<&Placement>,
-        names: &Names<'_, '_, '_>,
-    ) -> Result<(), Box<Diagnostic>> {
-        let traits = item.traits;
-        let used = names.layers.get(traits.layer);
-        let layer = self.layer(&traits, used);
-        if traits.is_invisible {
-            self.note_invisible(&traits, layer);
+        placed: &Placed<'_>,
+        shape: Result<Shape<'_>, Trouble<'_>>,
+    ) -> Result<(), Fatal> {
+        let layer = self.layer(placed);
+        if placed.is_invisible {
+            self.note_invisible(placed, layer);
         }
-        match item.shape {
-            Ok(Shape::Plain(geometry)) => self.push(&traits, layer, None, geometry, placement, names),
-            Ok(Shape::Parts(parts)) => {
-                let group = Some(self.groups);
-                self.groups += 1;
-                parts
-                    .into_iter()
-                    .try_for_each(|part| self.push(&traits, layer, group, part, placement, names))
+        match shape {
+            Ok(Shape::Plain(mut geometry)) => {
+                if let Some(placement) = placed.placement {
+                    placement.apply(&mut geometry);
+                    if !geometry.is_sound() {
+                        return self.refuse(placed, layer, &Trouble::TooLarge);
+                    }
+                }
+                self.push(placed, layer, None, geometry)
             }
-            Err(trouble) => self.refuse(&traits, layer, &trouble),
+            Ok(shape) => self.add_parts(placed, layer, shape),
+            Err(trouble) => self.refuse(placed, layer, &trouble),
         }
     }
 
+    fn add_parts(&mut self, placed: &Placed<'_>, layer: u32, shape: Shape<'_>) -> Result<(), Fatal> {
+        let placement = placed.placement.unwrap_or(&Placement::IDENTITY);
+        let tolerance = Tolerance { distance: self.limits.curves, most_pieces: self.limits.entities };
+        let parts = match shape {
+            Shape::Parts(mut parts) => {
+                for part in &mut parts {
+                    placement.apply(part);
+                }
+                Ok(parts)
+            }
+            Shape::Ellipse(ellipse) => ellipse.pieces(placement, tolerance),
+            Shape::Spline(spline) => spline.pieces(placement, tolerance),
+            Shape::Plain(_) | Shape::Insert(_) => Ok(Vec::new()),
+        };
+        let parts = parts.map_err(|TooManyPieces| self.too_many())?;
+        if !parts.iter().all(Geometry::is_sound) {
+            return self.refuse(placed, layer, &Trouble::TooLarge);
+        }
+        let group = Some(self.groups);
+        self.groups += 1;
+        parts.into_iter().try_for_each(|part| self.push(placed, layer, group, part))
+    }
+
+    #[inline]
     fn push(
         &mut self,
-        traits: &Traits,
+        placed: &Placed<'_>,
         layer: u32,
         group: Option<u32>,
-        mut geometry: Geometry,
-        placement: Option<&Placement>,
-        names: &Names<'_, '_, '_>,
-    ) -> Result<(), Box<Diagnostic>> {
+        geometry: Geometry,
+    ) -> Result<(), Fatal> {
         self.count()?;
-        if let Some(placement) = placement {
-            placement.apply(&mut geometry);
-        }
-        let line_type = match traits.line_type {
-            LineType::ByLayer => &names.layers.get(traits.layer).line_type,
-            LineType::ByBlock => CONTINUOUS,
-            LineType::Named(number) => names.line_types.name(number),
-        };
-        self.drawing.origins.push(traits.origin);
-        self.drawing.entities.push(Entity {
-            layer,
-            line_type: line_type.into(),
-            kind: traits.kind,
-            group,
-            geometry,
-        });
+        let line_type = placed.line_type.into();
+        self.drawing.origins.push(placed.origin);
+        self.drawing.entities.push(Entity { layer, line_type, kind: placed.kind, group, geometry });
         Ok(())
     }
 
-    fn refuse(&mut self, traits: &Traits, layer: u32, trouble: &Trouble<'_>) -> Result<(), Box<Diagnostic>> {
-        self.count()?;
-        match trouble {
-            Trouble::Group(group) => self.fault(traits, layer, group.diagnostic(traits.kind)),
-            Trouble::Tilted => self.fault(traits, layer, tilted(traits.kind)),
-            Trouble::LeftOut { message, point } => self.leave_out(traits, layer, message, *point),
+    /// Notes what is wrong with an entity. In a block, whose copies all have the same fault, it is said once.
+    fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &Trouble<'_>) -> Result<(), Fatal> {
+        let diagnostic = match trouble {
+            Trouble::Group(group) => group.diagnostic(placed.kind),
+            Trouble::Tilted => Diagnostic::new(&TILTED).with("entity", placed.kind.name()),
+            Trouble::TooLarge => Diagnostic::new(&TOO_LARGE).with("entity", placed.kind.name()),
+            Trouble::Nested(block) => Diagnostic::new(&BLOCK_NESTED).with("block", &**block),
+            Trouble::LeftOut { message, point, block } => {
+                self.count()?;
+                self.leave_out(placed, layer, message, *point, block.as_deref());
+                return Ok(());
+            }
             Trouble::TextTooLong => {
                 let diagnostic = limit(&TEXT_LENGTH, self.limits.text, "text-length");
-                return Err(Box::new(self.located(diagnostic, traits, layer)));
+                return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
+        };
+        if self.faulty.insert((placed.own.line, layer)) {
+            self.count()?;
+            let diagnostic = self.located(diagnostic, placed, layer);
+            self.drawing.faults.push(Fault { layer, diagnostic });
         }
         Ok(())
     }
 
-    fn fault(&mut self, traits: &Traits, layer: u32, diagnostic: Diagnostic) {
-        let diagnostic = self.located(diagnostic, traits, layer);
-        self.drawing.faults.push(Fault { layer, diagnostic });
-    }
-
-    fn leave_out(&mut self, traits: &Traits, layer: u32, message: &'static Message, point: Option<Point>) {
-        let mut diagnostic = Diagnostic::new(message).with("entity", traits.kind.name());
+    fn leave_out(
+        &mut self,
+        placed: &Placed<'_>,
+        layer: u32,
+        message: &'static Message,
+        point: Option<Point>,
+        block: Option<&str>,
+    ) {
+        let kind = placed.kind;
+        let point = point.map(|point| placed.point(point));
+        let mut diagnostic = Diagnostic::new(message).with("entity", kind.name());
+        diagnostic.arguments.extend(block.map(|block| ("block", block.into())));
         diagnostic.place.point = point;
-        let diagnostic = self.located(diagnostic, traits, layer);
-        self.drawing.left_out.push(LeftOut { layer, kind: traits.kind, point, diagnostic });
+        let diagnostic = self.located(diagnostic, placed, layer);
+        self.drawing.left_out.push(LeftOut { layer, kind, point, diagnostic });
     }
 
-    fn note_invisible(&mut self, traits: &Traits, layer: u32) {
+    fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {
         if !std::mem::replace(&mut self.has_invisible[layer as usize], true) {
-            let diagnostic = Diagnostic::new(&INVISIBLE).with("entity", traits.kind.name());
-            let diagnostic = self.located(diagnostic, traits, layer);
+            let diagnostic = Diagnostic::new(&INVISIBLE).with("entity", placed.kind.name());
+            let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
     }
 
     /// Fills in where an entity is; a line that is there already is that of the faulty value.
-    fn located(&self, mut diagnostic: Diagnostic, traits: &Traits, layer: u32) -> Diagnostic {
+    fn located(&self, mut diagnostic: Diagnostic, placed: &Placed<'_>, layer: u32) -> Diagnostic {
         let place = &mut diagnostic.place;
-        place.line = place.line.or(Some(traits.origin.line));
-        place.handle = traits.origin.handle;
-        place.entity = Some(traits.kind);
+        place.line = place.line.or(Some(placed.own.line));
+        place.handle = placed.own.handle;
+        place.entity = Some(placed.kind);
         place.layer = Some(self.drawing.layers[layer as usize].name.clone());
         diagnostic
     }
 
-    /// The number in the drawing of the layer that an item is on.
+    /// The number in the drawing of the layer that an entity is on.
     #[inline]
-    fn layer(&mut self, traits: &Traits, used: &UsedLayer) -> u32 {
+    fn layer(&mut self, placed: &Placed<'_>) -> u32 {
         if let Some((id, layer)) = self.last
-            && id == traits.layer
+            && id == placed.layer_id
         {
             return layer;
         }
+        let used = placed.layer;
         let layer = self.layers.get(&used.folded).copied().unwrap_or_else(|| self.new_layer(used));
         self.drawing.layers[layer as usize].hidden |= used.hidden;
-        self.last = Some((traits.layer, layer));
+        self.last = Some((placed.layer_id, layer));
         layer
     }
 
@@ -180,14 +231,19 @@ impl Collector {
 
     /// Counts one more entity, or what became of it.
     #[inline]
-    fn count(&self) -> Result<(), Box<Diagnostic>> {
+    fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
         let count = drawing.entities.len() + drawing.faults.len() + drawing.left_out.len();
         if count < self.limits.entities {
             return Ok(());
         }
-        let diagnostic = limit(&ENTITIES, self.limits.entities, "entities");
-        Err(Box::new(diagnostic))
+        Err(self.too_many())
+    }
+
+    /// There are more entities than the limit allows.
+    #[cold]
+    pub(crate) fn too_many(&self) -> Fatal {
+        Box::new(limit(&ENTITIES, self.limits.entities, "entities"))
     }
 }
 

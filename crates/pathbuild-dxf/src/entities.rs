@@ -1,6 +1,5 @@
 //! The entities of a section or block, one after the other: those on wanted layers, with their numbers parsed.
 
-use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
 use crate::encoding::Decoder;
@@ -10,7 +9,7 @@ use crate::kind::Kind;
 use crate::layers::{LayerId, Layers};
 use crate::line_types::LineTypes;
 use crate::pairs::{Pair, Pairs, Stop};
-use crate::shapes::{self, OpenPolyline};
+use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::trouble::Trouble;
 use crate::{Options, Origin};
 
@@ -23,7 +22,15 @@ pub(crate) struct EntityReader<'a, 'o> {
     fields: Fields<'a>,
 }
 
+/// What the entities are in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Space {
+    Model,
+    Block,
+}
+
 /// The records of a section or block: `head` is the `0` pair of the one that comes next.
+#[derive(Clone)]
 pub(crate) struct Records<'a> {
     pub(crate) pairs: Pairs<'a>,
     pub(crate) head: Pair<'a>,
@@ -49,14 +56,18 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Self { options, decoder, layers, line_types: LineTypes::default(), fields: Fields::new() }
     }
 
-    /// The next wanted entity; `None` at a record that ends the section or block, which stays the head.
-    pub(crate) fn next_item(&mut self, records: &mut Records<'a>) -> Result<Option<Item<'a>>, Stop<'a>> {
+    /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
+    pub(crate) fn next_item(
+        &mut self,
+        records: &mut Records<'a>,
+        space: Space,
+    ) -> Result<Option<Item<'a>>, Stop<'a>> {
         loop {
             let head = records.head;
             let item = match Kind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                None | Some(Kind::Vertex | Kind::SequenceEnd | Kind::Insert) => records.skip()?,
-                Some(kind) => self.item(records, kind)?,
+                None | Some(Kind::Vertex | Kind::SequenceEnd) => records.skip()?,
+                Some(kind) => self.item(records, kind, space)?,
             };
             if item.is_some() {
                 return Ok(item);
@@ -64,13 +75,18 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    fn item(&mut self, records: &mut Records<'a>, kind: Kind) -> Result<Option<Item<'a>>, Stop<'a>> {
+    fn item(
+        &mut self,
+        records: &mut Records<'a>,
+        kind: Kind,
+        space: Space,
+    ) -> Result<Option<Item<'a>>, Stop<'a>> {
         let line = records.head.line;
-        if self.fill(records, kind)? == Want::Skip || self.is_in_paper_space() {
+        if self.fill(records, kind, space)? == Want::Skip || self.is_in_paper_space() {
             return Ok(None);
         }
         let layer = self.layer(line);
-        if !self.layers.is_kept(layer) {
+        if want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
         let traits = Traits {
@@ -89,11 +105,11 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 
     /// Reads the groups of the head record.
     #[inline]
-    fn fill(&mut self, records: &mut Records<'a>, kind: Kind) -> Result<Want, Stop<'a>> {
+    fn fill(&mut self, records: &mut Records<'a>, kind: Kind, space: Space) -> Result<Want, Stop<'a>> {
         let Self { layers, decoder, fields, .. } = self;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, layer.line, decoder);
-            if layers.is_kept(id) { Want::Keep } else { Want::Skip }
+            want(layers, id, kind, space)
         };
         let (next, want) = fields.fill(&mut records.pairs, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
@@ -111,7 +127,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         self.layers.id(layer.bytes, layer.line, &mut self.decoder)
     }
 
-    fn shape(&mut self, kind: Kind) -> Result<Shape, Trouble<'a>> {
+    fn shape(&mut self, kind: Kind) -> Result<Shape<'a>, Trouble<'a>> {
         let Self { fields, decoder, options, .. } = self;
         Ok(match kind {
             Kind::Line => Shape::Plain(shapes::line(fields)?),
@@ -119,16 +135,20 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             Kind::Circle => Shape::Plain(shapes::circle(fields)?),
             Kind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
             Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options.max_text)?),
-            Kind::Ellipse | Kind::Spline => {
-                let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
-                return Err(Trouble::LeftOut { message: &NOT_APPROXIMATED, point });
+            Kind::Ellipse | Kind::Spline
+                if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>
+            {
+                return Err(Trouble::left_out(&NOT_APPROXIMATED, fields));
             }
+            Kind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
+            Kind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
+            Kind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             _ => Shape::Parts(shapes::lightweight(fields)?),
         })
     }
 
     /// The POLYLINE in hand, with the VERTEX records that follow. All of them are consumed, whatever is wrong with one.
-    fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape, Trouble<'a>>, Stop<'a>> {
+    fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape<'a>, Trouble<'a>>, Stop<'a>> {
         let mut polyline = OpenPolyline::begin(&self.fields);
         while Kind::of(records.head.value) == Some(Kind::Vertex) {
             let always = |_| Want::Keep;
@@ -141,6 +161,16 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
         Ok(polyline.map(|polyline| Shape::Parts(polyline.end())))
     }
+}
+
+/// Whether an entity on a layer is, or may be, wanted. Where a block is inserted decides on its layer 0; what a block holds decides on
+/// its insertion.
+#[inline]
+fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: Kind, space: Space) -> Want {
+    let may_be_wanted = layers.is_kept(layer)
+        || kind == Kind::Insert
+        || (space == Space::Block && layers.is_inheriting(layer));
+    if may_be_wanted { Want::Keep } else { Want::Skip }
 }
 
 /// Whether a record ends a section or block.

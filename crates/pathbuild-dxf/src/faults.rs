@@ -1,12 +1,15 @@
 //! The diagnostics that the reader makes, without what only their place knows: layer, line, handle.
 
 use pathbuild_diagnostic::messages::reading::{
-    BAD_GROUP_CODE, DECIMAL_COMMA, NUMBER_NOT_FINITE, TRUNCATED, VALUE_NOT_A_NUMBER,
+    BAD_GROUP_CODE, DECIMAL_COMMA, NUMBER_NOT_FINITE, SECTION_NOT_ENDED, TRUNCATED, VALUE_NOT_A_NUMBER,
 };
-use pathbuild_diagnostic::{Diagnostic, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use crate::number::NotANumber;
-use crate::pairs::Stop;
+use crate::pairs::{Pair, Stop};
+
+/// What stops the reading of a file.
+pub(crate) type Fatal = Box<Diagnostic>;
 
 /// A value that is no number.
 pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
@@ -25,11 +28,23 @@ pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumbe
 }
 
 /// The pairs stop inside a section.
-pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Box<Diagnostic> {
+pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).with("section", section).at_line(line, None),
         Stop::BadCode { line, found } => bad_code(found, line),
     })
+}
+
+/// This pair stands where none of the sort may.
+pub(crate) fn at_pair(message: &'static Message, pair: &Pair<'_>) -> Fatal {
+    Box::new(Diagnostic::new(message).with("found", shown(pair.value)).at_line(pair.line, None))
+}
+
+/// This pair stands where the end of a section is missing.
+pub(crate) fn not_ended(section: &str, found: &Pair<'_>) -> Fatal {
+    let mut diagnostic = at_pair(&SECTION_NOT_ENDED, found);
+    diagnostic.arguments.push(("section", section.into()));
+    diagnostic
 }
 
 fn bad_code(found: &[u8], line: u32) -> Diagnostic {

@@ -160,10 +160,11 @@ impl<'a> Fields<'a> {
         whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// A point whose x is in this group; its z may be missing.
+    /// A point whose x is in this group. Its z may be missing; R10 had an elevation (38) instead.
     #[inline]
     pub(crate) fn point(&self, x: i32) -> Result<Point3, BadGroup<'a>> {
-        Ok(Point3 { x: self.required(x)?, y: self.required(x + 10)?, z: self.number(x + 20)?.unwrap_or(0.0) })
+        let z = self.number(x + 20)?.map_or_else(|| self.number(38), |z| Ok(Some(z)))?;
+        Ok(Point3 { x: self.required(x)?, y: self.required(x + 10)?, z: z.unwrap_or(0.0) })
     }
 
     /// The handle, if it has one that is hexadecimal.

@@ -1,17 +1,17 @@
 //! A file from its first byte to the end of ENTITIES, and a look at its tail.
 
 use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
-use pathbuild_diagnostic::messages::reading::{
-    NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED, SECTION_NOT_ENDED,
-};
-use pathbuild_diagnostic::{Diagnostic, Message, Word};
+use pathbuild_diagnostic::messages::reading::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
+use pathbuild_diagnostic::{Diagnostic, Word};
 
-use crate::collect::{Collector, Limits, Names};
+use crate::binary::to_ascii;
+use crate::collect::{Collector, Limits};
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Records};
-use crate::faults::{shown, stopped};
+use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
 use crate::header::Header;
 use crate::layers::{LayerTable, Layers};
+use crate::model::Model;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::placement::Placement;
 use crate::sections::{SectionEnd, ends_with_eof};
@@ -19,18 +19,21 @@ use crate::tables::read_layers;
 use crate::units::millimetres;
 use crate::{Drawing, Options};
 
-/// What stops the reading of a file.
-type Fatal = Box<Diagnostic>;
-
 /// Reads a file; an error is one that concerns it as a whole.
 pub(crate) fn read_file(bytes: &[u8], options: &Options<'_>) -> Result<Drawing, Fatal> {
     if bytes.is_empty() {
         return Err(Box::new(Diagnostic::new(&EMPTY_FILE)));
     }
-    let (text, has_bom) = match bytes.strip_prefix(BYTE_ORDER_MARK) {
-        Some(text) => (text, true),
-        None => (bytes, false),
-    };
+    if let Some(text) = to_ascii(bytes) {
+        return read_text(&text, false, options);
+    }
+    match bytes.strip_prefix(BYTE_ORDER_MARK) {
+        Some(text) => read_text(text, true, options),
+        None => read_text(bytes, false, options),
+    }
+}
+
+fn read_text(text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<Drawing, Fatal> {
     let mut file = File::new(text, has_bom);
     match file.find_entities()? {
         Found::Entities => file.read_entities(options),
@@ -48,6 +51,8 @@ struct File<'a> {
     header: Header<'a>,
     /// Where the tables begin, if there are any.
     tables: Option<Pairs<'a>>,
+    /// Where the blocks begin, if there are any.
+    blocks: Option<Pairs<'a>>,
 }
 
 /// What the sections before the entities are followed by.
@@ -58,7 +63,14 @@ enum Found {
 
 impl<'a> File<'a> {
     fn new(bytes: &'a [u8], has_bom: bool) -> Self {
-        Self { bytes, has_bom, pairs: Pairs::new(bytes), header: Header::default(), tables: None }
+        Self {
+            bytes,
+            has_bom,
+            pairs: Pairs::new(bytes),
+            header: Header::default(),
+            tables: None,
+            blocks: None,
+        }
     }
 
     /// Goes through the sections up to the beginning of ENTITIES, and notes where those are that it needs.
@@ -68,19 +80,31 @@ impl<'a> File<'a> {
             return Err(not_dxf(self.bytes));
         }
         loop {
+            if head.code == 9 {
+                head = self.variables_after_header(head)?;
+            }
             if head.is("EOF") {
                 return Ok(Found::EndOfFile);
             }
             if !head.is("SECTION") {
                 return Err(at_pair(&SECTION_EXPECTED, &head));
             }
-            let name = self.next_head().map_err(|stop| before_entities(stop))?;
+            let name = self.next_head().map_err(before_entities)?;
             if name.code == 2 && name.trimmed().eq_ignore_ascii_case(b"ENTITIES") {
                 return Ok(Found::Entities);
             }
             self.pass(&name)?;
-            head = self.next_head().map_err(|stop| before_entities(stop))?;
+            head = self.next_head().map_err(before_entities)?;
         }
+    }
+
+    /// Header variables behind the end of HEADER, with an end of their own, as dxflib 2.0 wrote them.
+    fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, Fatal> {
+        let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stopped(stop, "HEADER"))?;
+        if !end.is("ENDSEC") {
+            return Err(at_pair(&SECTION_EXPECTED, &end));
+        }
+        self.next_head().map_err(before_entities)
     }
 
     /// The next pair that is no remark.
@@ -98,11 +122,11 @@ impl<'a> File<'a> {
         let section = shown(name.value);
         match name.trimmed() {
             b"HEADER" => {
-                let (header, end) = Header::read(&mut self.pairs).map_err(|stop| stopped(stop, &section))?;
-                self.header = header;
+                let end = self.header.read(&mut self.pairs).map_err(|stop| stopped(stop, &section))?;
                 return if end.is("ENDSEC") { Ok(()) } else { Err(not_ended(&section, &end)) };
             }
             b"TABLES" => self.tables = Some(self.pairs.clone()),
+            b"BLOCKS" => self.blocks = Some(self.pairs.clone()),
             _ => {}
         }
         match self.pairs.skip_section() {
@@ -120,20 +144,20 @@ impl<'a> File<'a> {
             None => LayerTable::default(),
         };
         let layers = Layers::new(table, options.keep_layer);
-        let mut reader = EntityReader::new(options, decoder, layers);
-        let mut collector = Collector::new(Limits { entities: options.max_entities, text: options.max_text });
-        let placement = (scale != 1.0).then(|| Placement::scaled(scale));
-        let cut_off = |stop| stopped(stop, "ENTITIES");
-        let mut records = Records::new(self.pairs).map_err(cut_off)?;
-        while let Some(item) = reader.next_item(&mut records).map_err(cut_off)? {
-            let names = Names { layers: &reader.layers, line_types: &reader.line_types };
-            collector.add(item, placement.as_ref(), &names)?;
-        }
+        let reader = EntityReader::new(options, decoder, layers);
+        let limits = Limits {
+            entities: options.max_entities,
+            text: options.max_text,
+            curves: options.approximate_curves,
+        };
+        let mut model = Model::new(reader, Collector::new(limits), self.blocks);
+        let mut records = Records::new(self.pairs).map_err(|stop| stopped(stop, "ENTITIES"))?;
+        model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {
             return Err(not_ended("ENTITIES", &records.head));
         }
-        let mut drawing = collector.finish();
-        drawing.diagnostics.extend(reader.decoder.into_doubt());
+        let mut drawing = model.collector.finish();
+        drawing.diagnostics.extend(model.reader.decoder.into_doubt());
         drawing
             .diagnostics
             .extend((!ends_with_eof(&records.pairs)).then(|| Diagnostic::new(&NO_END_OF_FILE)));
@@ -166,14 +190,4 @@ fn before_entities(stop: Stop<'_>) -> Fatal {
         Stop::End { line } => Box::new(Diagnostic::new(&NO_ENTITIES).at_line(line, None)),
         Stop::BadCode { .. } => stopped(stop, ""),
     }
-}
-
-fn at_pair(message: &'static Message, pair: &Pair<'_>) -> Fatal {
-    Box::new(Diagnostic::new(message).with("found", shown(pair.value)).at_line(pair.line, None))
-}
-
-fn not_ended(section: &str, found: &Pair<'_>) -> Fatal {
-    let mut diagnostic = at_pair(&SECTION_NOT_ENDED, found);
-    diagnostic.arguments.push(("section", section.into()));
-    diagnostic
 }

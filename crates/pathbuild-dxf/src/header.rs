@@ -15,18 +15,24 @@ pub(crate) struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// Reads the section, and returns the pair with code 0 that it ends with.
-    pub(crate) fn read(pairs: &mut Pairs<'a>) -> Result<(Self, Pair<'a>), Stop<'a>> {
-        let mut header = Self::default();
+    /// Reads variables up to a pair with code 0, which is returned.
+    pub(crate) fn read(&mut self, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
+        let first = pairs.next()?;
+        self.read_on(first, pairs)
+    }
+
+    /// The same with the first pair already read.
+    pub(crate) fn read_on(&mut self, first: Pair<'a>, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let mut variable: &[u8] = b"";
+        let mut pair = first;
         loop {
-            let pair = pairs.next()?;
             match pair.code {
-                0 => return Ok((header, pair)),
+                0 => return Ok(pair),
                 9 => variable = pair.value.trim_ascii(),
                 999 => {}
-                _ => header.set(variable, pair),
+                _ => self.set(variable, pair),
             }
+            pair = pairs.next()?;
         }
     }
 

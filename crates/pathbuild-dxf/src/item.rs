@@ -4,6 +4,7 @@ use pathbuild_diagnostic::EntityKind;
 
 use crate::layers::LayerId;
 use crate::line_types::LineType;
+use crate::shapes::{Ellipse, Insert, Spline};
 use crate::trouble::Trouble;
 use crate::{Geometry, Origin};
 
@@ -11,7 +12,7 @@ use crate::{Geometry, Origin};
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
     pub(crate) traits: Traits,
-    pub(crate) shape: Result<Shape, Trouble<'a>>,
+    pub(crate) shape: Result<Shape<'a>, Trouble<'a>>,
 }
 
 /// What every entity has.
@@ -27,9 +28,15 @@ pub(crate) struct Traits {
 
 /// The shape of an entity in the coordinates of the space that it is in.
 #[derive(Clone, Debug)]
-pub(crate) enum Shape {
+pub(crate) enum Shape<'a> {
     /// One that the drawing language knows.
     Plain(Geometry),
     /// The lines and arcs of a polyline.
     Parts(Vec<Geometry>),
+    /// To be approximated where it is placed.
+    Ellipse(Box<Ellipse>),
+    /// To be approximated where it is placed.
+    Spline(Box<Spline>),
+    /// The contents of a block.
+    Insert(Box<Insert<'a>>),
 }

@@ -27,7 +27,7 @@ struct LayerRecord {
 }
 
 /// The number of a spelling of a layer's name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct LayerId(u32);
 
 /// The layers that entities were found on so far.
@@ -112,6 +112,16 @@ impl<'a, 'o> Layers<'a, 'o> {
     #[inline]
     pub(crate) fn is_kept(&self, id: LayerId) -> bool {
         self.get(id).is_kept
+    }
+
+    /// The layer that an entity of a block is on when the block is inserted on a layer: that one, if the entity is on layer `0`.
+    pub(crate) fn inherited(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
+        if self.is_inheriting(layer) { of_insert } else { layer }
+    }
+
+    /// Whether it is layer `0`.
+    pub(crate) fn is_inheriting(&self, layer: LayerId) -> bool {
+        &*self.get(layer).folded == "0"
     }
 
     fn first_use(&mut self, spelling: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> LayerId {

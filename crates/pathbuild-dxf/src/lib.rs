@@ -5,7 +5,11 @@
 //! beside the entities, not in them, so that later stages are not disturbed by edits that only shift them.
 //! (spec/10-drawing.md; reference/dxf.md section 4)
 
+mod angle;
+mod binary;
+mod blocks;
 mod collect;
+mod curves;
 mod drawing;
 mod encoding;
 mod entities;
@@ -17,6 +21,7 @@ mod item;
 mod kind;
 mod layers;
 mod line_types;
+mod model;
 mod mtext;
 mod names;
 mod number;

@@ -1,5 +1,6 @@
 //! Similarities of the plane: object coordinates, insertions of blocks, units. (reference/dxf.md section 4, points 8 and 9)
 
+use crate::angle::cos_sin;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
 /// Moves, turns, scales and perhaps mirrors. A mirrored one maps (x, y) to (x, -y) first and turns then.
@@ -36,6 +37,40 @@ impl Placement {
     /// Scales everything.
     pub(crate) fn scaled(scale: f64) -> Self {
         Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
+    }
+
+    /// This after another one.
+    pub(crate) fn after(&self, first: &Self) -> Self {
+        let (x, y) = first.x_axis;
+        Self {
+            origin: self.point(first.origin),
+            x_axis: self.direction(x, y),
+            turn: libm::fmod(self.angle(first.turn), 360.0),
+            scale: self.scale * first.scale,
+            z_scale: self.z_scale * first.z_scale,
+            mirrored: self.mirrored != first.mirrored,
+        }
+    }
+
+    /// Moves the origin to a point.
+    pub(crate) fn moved(origin: Point3) -> Self {
+        Self { origin, ..Self::IDENTITY }
+    }
+
+    /// Turns about the origin, by degrees counterclockwise.
+    pub(crate) fn turned(turn: f64) -> Self {
+        Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
+    }
+
+    /// Scales x, y and z; `None` unless x and y have the same scale but for the sign.
+    pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
+        /// Scales are computed numbers: so little apart they are the same.
+        const NOISE: f64 = 1e-9;
+        let scale = x.abs();
+        let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= NOISE * scale;
+        let mirrored = (x < 0.0) != (y < 0.0);
+        let turn = if x < 0.0 { 180.0 } else { 0.0 };
+        is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })
     }
 
     /// A point.
@@ -99,6 +134,28 @@ impl Placement {
 
     fn text_rotation(&self, rotation: f64) -> f64 {
         if self.mirrored { (self.turn + 180.0 - rotation) % 360.0 } else { self.turn + rotation }
+    }
+}
+
+impl Geometry {
+    /// Whether all numbers are finite and lengths more than 0: numbers from the file are, but scaling may spoil them.
+    pub(crate) fn is_sound(&self) -> bool {
+        let is_finite = |point: &Point3| point.x.is_finite() && point.y.is_finite() && point.z.is_finite();
+        let is_length = |length: f64| length > 0.0 && length.is_finite();
+        match self {
+            Self::Line(line) => is_finite(&line.start) && is_finite(&line.end),
+            Self::Arc(arc) => {
+                let angles_are_finite = arc.start_angle.is_finite() && arc.end_angle.is_finite();
+                is_finite(&arc.centre) && is_length(arc.radius) && angles_are_finite
+            }
+            Self::Circle(circle) => is_finite(&circle.centre) && is_length(circle.radius),
+            Self::Text(text) => {
+                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
+            }
+            Self::MText(text) => {
+                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
+            }
+        }
     }
 }
 

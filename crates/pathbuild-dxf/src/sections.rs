@@ -27,7 +27,7 @@ impl<'a> Pairs<'a> {
         let mut from = self.consumed();
         while let Some(found) = finder.find(&self.bytes()[from..]) {
             let at = from + found;
-            if let Some(start) = self.pair_start(at) {
+            if let Some(start) = self.pair_start(at).filter(|start| *start >= self.consumed()) {
                 self.jump_to(start);
                 return match self.next() {
                     Ok(pair) if pair.is("SECTION") => SectionEnd::Missing(pair),

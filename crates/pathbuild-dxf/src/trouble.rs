@@ -1,10 +1,10 @@
 //! Why a wanted entity does not become a shape.
 
-use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE, TILTED};
+use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
 
 use crate::faults::{bad_value, shown};
-use crate::fields::BadGroup;
+use crate::fields::{BadGroup, Fields};
 
 /// What is wrong with an entity.
 #[derive(Clone, Debug)]
@@ -13,13 +13,19 @@ pub(crate) enum Trouble<'a> {
     Group(BadGroup<'a>),
     /// Its extrusion is neither (0, 0, 1) nor (0, 0, -1): PB110.
     Tilted,
+    /// Its numbers are beyond what can be computed with: PB002.
+    TooLarge,
     /// It is nothing that can be milled: PB111.
     LeftOut {
         /// Why.
         message: &'static Message,
         /// Where it begins.
         point: Option<Point>,
+        /// The block, if it is an insertion.
+        block: Option<Box<str>>,
     },
+    /// The insertion of a block, of this name, that contains itself or is nested too deep: PB002.
+    Nested(Box<str>),
     /// A text is longer than the limit: PB005, for the whole file.
     TextTooLong,
 }
@@ -27,6 +33,14 @@ pub(crate) enum Trouble<'a> {
 impl<'a> From<BadGroup<'a>> for Trouble<'a> {
     fn from(group: BadGroup<'a>) -> Self {
         Self::Group(group)
+    }
+}
+
+impl<'a> Trouble<'a> {
+    /// It is left out for this reason; it begins at the point in 10/20, if it has one.
+    pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
+        let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
+        Self::LeftOut { message, point, block: None }
     }
 }
 
@@ -53,9 +67,4 @@ impl BadGroup<'_> {
             }
         }
     }
-}
-
-/// PB110 for an entity in a tilted plane.
-pub(crate) fn tilted(kind: EntityKind) -> Diagnostic {
-    Diagnostic::new(&TILTED).with("entity", kind.name())
 }

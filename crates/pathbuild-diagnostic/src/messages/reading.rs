@@ -72,6 +72,13 @@ messages! {
         help_en: "the entity has no extent; delete it or draw it anew",
         help_de: "das Element hat keine Ausdehnung; löschen oder neu zeichnen",
     }
+    /// A number that overflows when it is scaled, or a length that vanishes.
+    TOO_LARGE: InvalidDxf {
+        en: "{entity} is too large or too small to be computed with",
+        de: "{entity} ist zu groß oder zu klein, um damit zu rechnen",
+        help_en: "the entity, or the block that it is in, has an absurd size; delete it or draw it anew",
+        help_de: "das Element oder der Block, in dem es steht, hat eine unsinnige Größe; löschen oder neu zeichnen",
+    }
     /// An extrusion other than (0,0,1) and (0,0,-1).
     TILTED: OffPlane {
         en: "{entity} lies in a tilted plane",

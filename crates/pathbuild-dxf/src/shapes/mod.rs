@@ -1,16 +1,24 @@
 //! Groups of an entity to its shape, in the coordinates of the space it is in: the drawing's or its block's.
 
+mod ellipse;
+mod insert;
 mod plain;
 mod polyline;
+mod spline;
 mod text;
 
 use crate::Geometry;
-use crate::fields::Fields;
+use crate::fields::{BadGroup, Fields, Value};
+use crate::number::real;
+use crate::pairs::Pair;
 use crate::placement::Placement;
 use crate::trouble::Trouble;
 
+pub(crate) use ellipse::Ellipse;
+pub(crate) use insert::Insert;
 pub(crate) use plain::{arc, circle, line};
 pub(crate) use polyline::{OpenPolyline, lightweight};
+pub(crate) use spline::Spline;
 pub(crate) use text::{mtext, text};
 
 /// Whether object coordinates are mirrored against those of the space: extrusion (0, 0, -1).
@@ -34,4 +42,10 @@ fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> R
         Placement::MIRRORED.apply(&mut geometry);
     }
     Ok(geometry)
+}
+
+/// The number of a group that its entity repeats.
+fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
+    let value = Value { bytes: pair.value, line: pair.line };
+    real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
 }

@@ -2,14 +2,13 @@
 
 use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
 
-use crate::fields::{BadGroup, Fields, Value};
-use crate::number::real;
-use crate::pairs::Pair;
+use crate::angle;
+use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
 use crate::trouble::Trouble;
 use crate::{Arc, Geometry, Line, Point3};
 
-use super::is_mirrored;
+use super::{is_mirrored, repeated_number};
 
 /// The lines and arcs of an LWPOLYLINE.
 pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Trouble<'a>> {
@@ -48,7 +47,7 @@ impl OpenPolyline {
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if flags & (THREE_DIMENSIONAL | MESH | POLYFACE) != 0 {
-            return Err(Trouble::LeftOut { message: &POLYLINE_NOT_FLAT, point: None });
+            return Err(Trouble::left_out(&POLYLINE_NOT_FLAT, fields));
         }
         Ok(Self {
             elevation: fields.number(30)?.unwrap_or(0.0),
@@ -105,11 +104,6 @@ impl Corner {
     }
 }
 
-fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
-    let value = Value { bytes: pair.value, line: pair.line };
-    real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
-}
-
 /// The pieces between corners, without those that have no length.
 fn pieces(corners: &[Corner], is_closed: bool, is_mirrored: bool) -> Vec<Geometry> {
     let next = corners.iter().skip(1).chain(corners.first().filter(|_| is_closed));
@@ -146,7 +140,7 @@ fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
         y: f64::midpoint(start.y, end.y) + x * to_centre,
         z: start.z,
     };
-    let angle = |point: Point3| libm::atan2(point.y - centre.y, point.x - centre.x).to_degrees();
+    let angle = |point: Point3| angle::of(point.x - centre.x, point.y - centre.y);
     Arc {
         centre,
         radius: libm::hypot(x, y) * (1.0 + bulge * bulge) / (4.0 * bulge.abs()),

@@ -1,5 +1,6 @@
 //! TEXT and MTEXT. (spec/10-drawing.md, "Parameter texts" and "The text circle")
 
+use crate::angle;
 use crate::encoding::{Decoder, without_carets};
 use crate::fields::{BadGroup, Fields};
 use crate::mtext::plain_text;
@@ -86,7 +87,7 @@ fn between(a: Point3, b: Point3) -> Point3 {
 
 /// The angle of a vector in degrees, unless it is nothing.
 fn direction(x: f64, y: f64) -> Option<f64> {
-    (x != 0.0 || y != 0.0).then(|| libm::atan2(y, x).to_degrees())
+    (x != 0.0 || y != 0.0).then(|| angle::of(x, y))
 }
 
 fn horizontal_align(code: i64) -> HorizontalAlign {

@@ -1,0 +1,130 @@
+//! The BLOCKS section: indexed when the first INSERT is met, each block read when its first INSERT is. Most drawings need none of it.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use crate::Point3;
+use crate::encoding::Decoder;
+use crate::entities::{EntityReader, Records, Space};
+use crate::faults::{Fatal, not_ended, stopped};
+use crate::fields::{Fields, Want};
+use crate::item::{Item, Shape};
+use crate::layers::LayerId;
+use crate::names::folded;
+use crate::pairs::{Pairs, Stop};
+use crate::trouble::Trouble;
+
+/// The blocks of a file.
+#[derive(Default)]
+pub(crate) struct Blocks<'a> {
+    by_name: HashMap<String, BlockId>,
+    all: Vec<Block<'a>>,
+    /// The wanted layers that the insertion of a block on a layer touches.
+    wanted: HashMap<(BlockId, LayerId), Rc<[LayerId]>>,
+}
+
+/// The number of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct BlockId(usize);
+
+struct Block<'a> {
+    base: Result<Point3, Trouble<'a>>,
+    records: Records<'a>,
+    items: Option<Rc<[Item<'a>]>>,
+}
+
+impl<'a> Blocks<'a> {
+    /// Finds the blocks of the section that begins here.
+    pub(crate) fn index(mut pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Stop<'a>> {
+        let mut blocks = Self::default();
+        let mut fields = Fields::new();
+        let mut head = pairs.next_zero()?;
+        while !head.is("ENDSEC") {
+            if head.is("BLOCK") {
+                (head, _) = fields.fill(&mut pairs, head.line, 0, |_| Want::Keep)?;
+                blocks.add(&fields, Records { pairs: pairs.clone(), head }, decoder);
+            } else {
+                head = pairs.next_zero()?;
+            }
+        }
+        Ok(blocks)
+    }
+
+    /// The block of this name, without regard to case.
+    pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
+        self.by_name.get(&folded(name)).copied()
+    }
+
+    /// Its base point.
+    pub(crate) fn base(&self, block: BlockId) -> Result<Point3, Trouble<'a>> {
+        self.all[block.0].base.clone()
+    }
+
+    /// What is in it, as far as it can be wanted.
+    pub(crate) fn items(
+        &mut self,
+        block: BlockId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> Result<Rc<[Item<'a>]>, Fatal> {
+        let block = &mut self.all[block.0];
+        if let Some(items) = &block.items {
+            return Ok(items.clone());
+        }
+        let mut items = Vec::new();
+        while let Some(item) =
+            reader.next_item(&mut block.records, Space::Block).map_err(|stop| stopped(stop, "BLOCKS"))?
+        {
+            items.push(item);
+        }
+        if !block.records.head.is("ENDBLK") {
+            return Err(not_ended("BLOCK", &block.records.head));
+        }
+        let items: Rc<[Item<'a>]> = items.into();
+        block.items = Some(items.clone());
+        Ok(items)
+    }
+
+    /// The wanted layers on which the insertion of a block on a layer puts something, be it that something is wrong there.
+    pub(crate) fn wanted_layers(
+        &mut self,
+        block: BlockId,
+        layer: LayerId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> Result<Rc<[LayerId]>, Fatal> {
+        if let Some(wanted) = self.wanted.get(&(block, layer)) {
+            return Ok(wanted.clone());
+        }
+        let mut wanted = Vec::new();
+        let mut seen = HashSet::from([(block, layer)]);
+        let mut ahead = vec![(block, layer)];
+        while let Some((block, inherited)) = ahead.pop() {
+            for item in self.items(block, reader)?.iter() {
+                let layer = reader.layers.inherited(item.traits.layer, inherited);
+                match self.inserted(item) {
+                    Some(inner) => ahead.extend(seen.insert((inner, layer)).then_some((inner, layer))),
+                    None if reader.layers.is_kept(layer) && !wanted.contains(&layer) => wanted.push(layer),
+                    None => {}
+                }
+            }
+        }
+        let wanted: Rc<[LayerId]> = wanted.into();
+        self.wanted.insert((block, layer), wanted.clone());
+        Ok(wanted)
+    }
+
+    /// The block that an item inserts, if the file has it.
+    fn inserted(&self, item: &Item<'_>) -> Option<BlockId> {
+        match &item.shape {
+            Ok(Shape::Insert(insert)) => self.find(&insert.block),
+            _ => None,
+        }
+    }
+
+    fn add(&mut self, fields: &Fields<'a>, records: Records<'a>, decoder: &mut Decoder<'_>) {
+        let Some(name) = fields.get(2) else { return };
+        let name = folded(decoder.decode(name.bytes, name.line).trim());
+        let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
+        self.all.push(Block { base: base.map_err(Trouble::from), records, items: None });
+        self.by_name.entry(name).or_insert(BlockId(self.all.len() - 1));
+    }
+}

@@ -1,0 +1,86 @@
+//! Smooth curves to lines and arcs within a tolerance.
+
+use super::biarc::{Piece, Ray, biarc};
+use super::vector::Vector;
+use crate::Geometry;
+
+/// A curve over an interval in which it is smooth.
+pub(crate) trait Curve {
+    /// The point at a parameter, and the derivative there.
+    fn at(&self, parameter: f64) -> (Vector, Vector);
+}
+
+/// How near, and how many.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tolerance {
+    /// Largest distance in mm of any point of the curve from the pieces.
+    pub(crate) distance: f64,
+    /// More pieces than this are not made.
+    pub(crate) most_pieces: usize,
+}
+
+/// A curve would become more pieces than are allowed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TooManyPieces;
+
+/// Points of the curve that are looked at in each span of two arcs.
+const SAMPLES: u32 = 24;
+
+/// Between two samples the distance may be a little larger than at both.
+const MARGIN: f64 = 0.9;
+
+/// Halvings of a span after which a piece of it is a line, however far: shorter ones differ only by rounding.
+const DEEPEST: u32 = 24;
+
+/// Adds the pieces of a curve between two parameters.
+pub(crate) fn approximate(
+    curve: &impl Curve,
+    [from, to]: [f64; 2],
+    z: f64,
+    tolerance: Tolerance,
+    pieces: &mut Vec<Geometry>,
+) -> Result<(), TooManyPieces> {
+    let mut steps = tolerance.most_pieces.saturating_mul(2);
+    let mut spans = vec![(from, to, 0)];
+    while let Some((from, to, depth)) = spans.pop() {
+        steps = steps.checked_sub(1).ok_or(TooManyPieces)?;
+        if let Some(fitting) = fit(curve, from, to, tolerance.distance) {
+            pieces.extend(fitting.iter().filter_map(|piece| piece.geometry(z)));
+        } else if depth == DEEPEST {
+            pieces.extend(Piece::line(curve.at(from).0, curve.at(to).0).geometry(z));
+        } else {
+            let middle = f64::midpoint(from, to);
+            spans.push((middle, to, depth + 1));
+            spans.push((from, middle, depth + 1));
+        }
+    }
+    if pieces.len() > tolerance.most_pieces { Err(TooManyPieces) } else { Ok(()) }
+}
+
+/// The biarc with the curve's ends and directions there, if it is near enough; a line, where the curve has no directions.
+fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Piece>> {
+    let width = to - from;
+    let rays = ray(curve, from, width).zip(ray(curve, to, -width));
+    let fitting = match rays.and_then(|(from, to)| biarc(from, to)) {
+        Some(biarc) => biarc.to_vec(),
+        None => vec![Piece::line(curve.at(from).0, curve.at(to).0)],
+    };
+    let is_near = |sample: u32| {
+        let point = curve.at(from + width * f64::from(sample) / f64::from(SAMPLES)).0;
+        fitting.iter().any(|piece| piece.distance(point) <= distance * MARGIN)
+    };
+    (1..SAMPLES).all(is_near).then_some(fitting)
+}
+
+/// A point of the curve with its direction; `inwards` leads into the span, where a direction is looked for if there is none at its end.
+fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
+    /// Part of the span that is gone inwards for a direction.
+    const STEP: f64 = 1e-3;
+    /// Derivatives shorter than this part of the way to there are nothing.
+    const NOTHING: f64 = 1e-6;
+    let (point, derivative) = curve.at(parameter);
+    let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
+    let has_direction = derivative.length() > NOTHING * way.length();
+    let direction = if has_direction { derivative } else { way };
+    Some(Ray { point, direction: direction.unit()? })
+}

@@ -1,0 +1,185 @@
+//! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
+
+use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
+
+use crate::Origin;
+use crate::blocks::{BlockId, Blocks};
+use crate::collect::{Collector, Placed};
+use crate::entities::{EntityReader, Records, Space};
+use crate::faults::{Fatal, stopped};
+use crate::item::{Item, Shape, Traits};
+use crate::layers::{CONTINUOUS, LayerId};
+use crate::line_types::LineType;
+use crate::pairs::Pairs;
+use crate::placement::Placement;
+use crate::shapes::Insert;
+use crate::trouble::Trouble;
+
+/// Reads a drawing's model space.
+pub(crate) struct Model<'a, 'o> {
+    pub(crate) reader: EntityReader<'a, 'o>,
+    pub(crate) collector: Collector,
+    /// Where the BLOCKS section begins, until its index is made.
+    section: Option<Pairs<'a>>,
+    blocks: Blocks<'a>,
+    /// The blocks that are being inserted, outermost first.
+    open: Vec<BlockId>,
+    /// How many more entities of blocks are looked at, wanted or not.
+    steps: usize,
+}
+
+/// What an entity is placed in: model space itself or an insertion.
+struct Around {
+    placement: Option<Placement>,
+    insertion: Option<Insertion>,
+    is_invisible: bool,
+}
+
+/// What entities inherit from the insertion they come with.
+struct Insertion {
+    layer: LayerId,
+    line_type: Box<str>,
+    /// Of the outermost one.
+    origin: Origin,
+}
+
+/// Deepest nesting of blocks.
+const DEEPEST: usize = 64;
+
+/// How many entities of blocks are looked at for each one that the limit allows.
+const STEPS_AN_ENTITY: usize = 16;
+
+impl<'a, 'o> Model<'a, 'o> {
+    /// A model without entities.
+    pub(crate) fn new(reader: EntityReader<'a, 'o>, collector: Collector, blocks: Option<Pairs<'a>>) -> Self {
+        let steps = reader.options.max_entities.saturating_mul(STEPS_AN_ENTITY);
+        Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
+    }
+
+    /// Adds all entities up to the end of the section. `placement` is that of model space: its unit.
+    pub(crate) fn add_all(
+        &mut self,
+        records: &mut Records<'a>,
+        placement: Option<Placement>,
+    ) -> Result<(), Fatal> {
+        let around = Around { placement, insertion: None, is_invisible: false };
+        while let Some(item) =
+            self.reader.next_item(records, Space::Model).map_err(|stop| stopped(stop, "ENTITIES"))?
+        {
+            self.place(item, &around)?;
+        }
+        Ok(())
+    }
+
+    fn place(&mut self, item: Item<'a>, around: &Around) -> Result<(), Fatal> {
+        let layer = match &around.insertion {
+            Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
+            None => item.traits.layer,
+        };
+        match item.shape {
+            Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
+            shape if self.reader.layers.is_kept(layer) => {
+                let placed = placed(&self.reader, &item.traits, layer, around);
+                self.collector.add(&placed, shape)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn insert(
+        &mut self,
+        traits: &Traits,
+        layer: LayerId,
+        insert: Insert<'a>,
+        around: &Around,
+    ) -> Result<(), Fatal> {
+        if let Some(section) = self.section.take() {
+            let blocks = Blocks::index(section, &mut self.reader.decoder);
+            self.blocks = blocks.map_err(|stop| stopped(stop, "BLOCKS"))?;
+        }
+        let Some(block) = self.blocks.find(&insert.block) else {
+            let point = insert.array.ok().map(|array| array.begin());
+            let trouble = Trouble::LeftOut { message: &BLOCK_MISSING, point, block: Some(insert.block) };
+            return self.refuse(traits, &[layer], &trouble, around);
+        };
+        let wanted = self.blocks.wanted_layers(block, layer, &mut self.reader)?;
+        if wanted.is_empty() {
+            return Ok(());
+        }
+        if self.open.contains(&block) || self.open.len() >= DEEPEST {
+            return self.refuse(traits, &wanted, &Trouble::Nested(insert.block), around);
+        }
+        match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
+            Ok(copies) => self.copy(traits, layer, block, copies, around),
+            Err(trouble) => self.refuse(traits, &wanted, &trouble, around),
+        }
+    }
+
+    /// Places the contents of a block at each of these places.
+    fn copy(
+        &mut self,
+        traits: &Traits,
+        layer: LayerId,
+        block: BlockId,
+        copies: impl Iterator<Item = Placement>,
+        around: &Around,
+    ) -> Result<(), Fatal> {
+        let placed = placed(&self.reader, traits, layer, around);
+        let line_type: Box<str> = placed.line_type.into();
+        let insertion = Insertion { layer, line_type, origin: placed.origin };
+        let mut inside =
+            Around { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
+        let items = self.blocks.items(block, &mut self.reader)?;
+        self.open.push(block);
+        for copy in copies {
+            inside.placement = Some(around.placement.map_or(copy, |outer| outer.after(&copy)));
+            for item in items.iter() {
+                self.steps = self.steps.checked_sub(1).ok_or_else(|| self.collector.too_many())?;
+                self.place(item.clone(), &inside)?;
+            }
+        }
+        self.open.pop();
+        Ok(())
+    }
+
+    /// Says what is wrong with an insertion on those of these layers that are wanted.
+    fn refuse(
+        &mut self,
+        traits: &Traits,
+        layers: &[LayerId],
+        trouble: &Trouble<'a>,
+        around: &Around,
+    ) -> Result<(), Fatal> {
+        for layer in layers.iter().filter(|layer| self.reader.layers.is_kept(**layer)) {
+            let placed = placed(&self.reader, traits, *layer, around);
+            self.collector.add(&placed, Err(trouble.clone()))?;
+        }
+        Ok(())
+    }
+}
+
+/// An entity on this layer, with what it inherits.
+#[inline]
+fn placed<'p>(
+    reader: &'p EntityReader<'_, '_>,
+    traits: &Traits,
+    layer_id: LayerId,
+    around: &'p Around,
+) -> Placed<'p> {
+    let layer = reader.layers.get(layer_id);
+    let insertion = around.insertion.as_ref();
+    Placed {
+        kind: traits.kind,
+        layer_id,
+        layer,
+        line_type: match traits.line_type {
+            LineType::ByLayer => &layer.line_type,
+            LineType::ByBlock => insertion.map_or(CONTINUOUS, |insertion| &insertion.line_type),
+            LineType::Named(number) => reader.line_types.name(number),
+        },
+        own: traits.origin,
+        origin: insertion.map_or(traits.origin, |insertion| insertion.origin),
+        is_invisible: traits.is_invisible || around.is_invisible,
+        placement: around.placement.as_ref(),
+    }
+}

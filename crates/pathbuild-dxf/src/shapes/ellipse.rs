@@ -1,0 +1,98 @@
+//! ELLIPSE. (DXF reference: centre 10, end of the major axis 11 relative to it, ratio 40, parameters 41 and 42)
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::is_mirrored;
+use crate::curves::{Curve, Tolerance, TooManyPieces, Vector, approximate};
+use crate::fields::{BadGroup, Fields};
+use crate::placement::Placement;
+use crate::trouble::Trouble;
+use crate::{Geometry, Point3};
+
+/// An ellipse or a part of one.
+#[derive(Clone, Debug)]
+pub(crate) struct Ellipse {
+    centre: Point3,
+    /// From the centre to where the parameter is 0.
+    major: Vector,
+    /// From the centre to where the parameter is a quarter turn.
+    minor: Vector,
+    start: f64,
+    end: f64,
+}
+
+impl Ellipse {
+    /// Reads one; its points are in world coordinates.
+    pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
+        let major = fields.point(11)?;
+        let ratio = fields.length(40)?;
+        let is_mirrored = is_mirrored(fields)?;
+        if major.z != 0.0 {
+            return Err(Trouble::Tilted);
+        }
+        if major.x == 0.0 && major.y == 0.0 {
+            let value = fields.get(11).ok_or(BadGroup::Missing { code: 11 })?;
+            return Err(BadGroup::NotPositive { code: 11, value }.into());
+        }
+        let side = if is_mirrored { -ratio } else { ratio };
+        let start = fields.number(41)?.unwrap_or(0.0);
+        let end = fields.number(42)?.unwrap_or(TAU);
+        Ok(Self {
+            centre: fields.point(10)?,
+            major: Vector { x: major.x, y: major.y },
+            minor: Vector { x: -major.y * side, y: major.x * side },
+            start,
+            end: start + sweep(start, end),
+        })
+    }
+
+    /// Its arcs in the coordinates of the drawing.
+    pub(crate) fn pieces(
+        &self,
+        placement: &Placement,
+        tolerance: Tolerance,
+    ) -> Result<Vec<Geometry>, TooManyPieces> {
+        let placed = self.placed(placement);
+        let mut pieces = Vec::new();
+        let quarters = libm::ceil((self.end - self.start) / FRAC_PI_2).max(1.0);
+        let width = (self.end - self.start) / quarters;
+        let mut quarter = 0.0;
+        while quarter < quarters {
+            let from = self.start + width * quarter;
+            quarter += 1.0;
+            let to = self.start + width * quarter;
+            approximate(&placed, [from, to], placed.centre.z, tolerance, &mut pieces)?;
+        }
+        Ok(pieces)
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        let axis = |axis: Vector| {
+            let (x, y) = placement.direction(axis.x, axis.y);
+            Vector { x, y }
+        };
+        Self {
+            centre: placement.point(self.centre),
+            major: axis(self.major),
+            minor: axis(self.minor),
+            ..*self
+        }
+    }
+}
+
+/// How far the parameter goes. A full turn with its last digits rounded is a full turn.
+fn sweep(start: f64, end: f64) -> f64 {
+    const ROUNDED: f64 = 1e-9;
+    let turn = libm::fmod(end - start, TAU);
+    let turn = if turn <= ROUNDED { turn + TAU } else { turn };
+    if (turn - TAU).abs() <= ROUNDED { TAU } else { turn }
+}
+
+impl Curve for Ellipse {
+    fn at(&self, parameter: f64) -> (Vector, Vector) {
+        let (sin, cos) = libm::sincos(parameter);
+        let centre = Vector { x: self.centre.x, y: self.centre.y };
+        let point = centre.plus(self.major.times(cos)).plus(self.minor.times(sin));
+        (point, self.minor.times(cos).minus(self.major.times(sin)))
+    }
+}
