@@ -1,5 +1,9 @@
 //! G-code text: writing, reading, checking and post-processing programs. (spec/60-gcode.md, spec/85-post-processors.md,
 //! spec/90-gcode-import.md)
 
+pub mod dialect;
+pub mod interpret;
 pub mod native;
 pub mod post;
+pub mod read;
+pub mod verify;

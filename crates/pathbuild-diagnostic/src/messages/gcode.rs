@@ -1,3 +1,609 @@
-//! TBD
+//! Reading, interpreting and checking G-code. (PB701 to PB749; spec/90-gcode-import.md)
+//!
+//! `{dialect}` is the name of the dialect that the file is read as.
 
-messages! {}
+messages! {
+    /// Nothing in the file looks like a word of G-code.
+    NOT_G_CODE: NotGCode {
+        en: "this is no G-code: {found}",
+        de: "das ist kein G-Code: {found}",
+        help_en: "name a program for the machine, a text file with words such as G01 X10",
+        help_de: "ein Programm für die Maschine nennen, eine Textdatei mit Wörtern wie G01 X10",
+    }
+    /// A byte that begins nothing.
+    UNKNOWN_CHARACTER: UnknownCharacter {
+        en: "`{found}` begins no word; the line is left out",
+        de: "mit `{found}` beginnt kein Wort; die Zeile bleibt unbeachtet",
+        help_en: "remove it, or put the remark into a comment",
+        help_de: "das Zeichen entfernen, oder die Bemerkung in einen Kommentar setzen",
+    }
+    /// The same where the dialect passes over what it does not know.
+    UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
+        en: "`{found}` begins no word; it is passed over",
+        de: "mit `{found}` beginnt kein Wort; es wird übergangen",
+        help_en: "remove it, or put the remark into a comment",
+        help_de: "das Zeichen entfernen, oder die Bemerkung in einen Kommentar setzen",
+    }
+    /// `X` and then no number.
+    WORD_WITHOUT_NUMBER: InvalidWord {
+        en: "`{letter}` has no number; the line is left out",
+        de: "`{letter}` hat keine Zahl; die Zeile bleibt unbeachtet",
+        help_en: "write the number right behind the letter",
+        help_de: "die Zahl direkt hinter den Buchstaben schreiben",
+    }
+    /// `X1.2.3`.
+    NOT_A_NUMBER: InvalidWord {
+        en: "`{found}` is no number; the line is left out",
+        de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
+        help_en: "numbers have a sign, digits and at most one point",
+        help_de: "Zahlen bestehen aus Vorzeichen, Ziffern und höchstens einem Punkt",
+    }
+    /// Digits where a letter should be.
+    NUMBER_WITHOUT_LETTER: InvalidWord {
+        en: "the number `{found}` has no letter; the line is left out",
+        de: "die Zahl `{found}` hat keinen Buchstaben; die Zeile bleibt unbeachtet",
+        help_en: "put the letter of the word in front; a comment begins with {comment}",
+        help_de: "den Buchstaben des Worts davorsetzen; ein Kommentar beginnt mit {comment}",
+    }
+    /// N too large, or not at the beginning.
+    BLOCK_NUMBER: InvalidWord {
+        en: "`{found}` is no block number for {dialect}",
+        de: "`{found}` ist für {dialect} keine Satznummer",
+        help_en: "N stands first in the line, without decimals, and is at most {most}",
+        help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
+    }
+    /// `(` without `)`.
+    UNCLOSED_COMMENT: InvalidComment {
+        en: "the comment is not closed; the line is left out",
+        de: "der Kommentar ist nicht geschlossen; die Zeile bleibt unbeachtet",
+        help_en: "put `)` at its end; a comment cannot go on in the next line",
+        help_de: "`)` ans Ende setzen; ein Kommentar geht nicht über die Zeile hinaus",
+    }
+    /// `(` within `( )`.
+    NESTED_COMMENT: InvalidComment {
+        en: "a comment within a comment; the line is left out",
+        de: "ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
+        help_en: "write `[` and `]` within comments: {dialect} stops here",
+        help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt hier stehen",
+    }
+    /// Something else stands where a value is expected.
+    VALUE_EXPECTED: InvalidExpression {
+        en: "a value is missing here; the line is left out",
+        de: "hier fehlt ein Wert; die Zeile bleibt unbeachtet",
+        help_en: "a value is a number, #n, a function or an expression in [ ]",
+        help_de: "ein Wert ist eine Zahl, #n, eine Funktion oder ein Ausdruck in [ ]",
+    }
+    /// An operator or bracket is expected.
+    OPERATOR_EXPECTED: InvalidExpression {
+        en: "an operator or `{bracket}` is missing here; the line is left out",
+        de: "hier fehlt ein Rechenzeichen oder `{bracket}`; die Zeile bleibt unbeachtet",
+        help_en: "operators are {operators}",
+        help_de: "Rechenzeichen sind {operators}",
+    }
+    /// A bracket is expected.
+    BRACKET_EXPECTED: InvalidExpression {
+        en: "`{bracket}` is missing here; the line is left out",
+        de: "hier fehlt `{bracket}`; die Zeile bleibt unbeachtet",
+        help_en: "expressions stand in [ ]; ATAN is written ATAN[y]/[x]",
+        help_de: "Ausdrücke stehen in [ ]; ATAN schreibt man ATAN[y]/[x]",
+    }
+    /// `#1` without `=`.
+    ASSIGNMENT_EXPECTED: InvalidExpression {
+        en: "`=` is missing behind the parameter; the line is left out",
+        de: "hinter dem Parameter fehlt `=`; die Zeile bleibt unbeachtet",
+        help_en: "a parameter at the beginning of a word is set: #1=2.5",
+        help_de: "ein Parameter am Anfang eines Worts wird gesetzt: #1=2.5",
+    }
+    /// Too deep.
+    NESTED_TOO_DEEPLY: InvalidExpression {
+        en: "brackets are nested deeper than {most}; the line is left out",
+        de: "Klammern sind tiefer als {most} geschachtelt; die Zeile bleibt unbeachtet",
+        help_en: "set a parameter to a part of the expression first",
+        help_de: "zuerst einen Parameter auf einen Teil des Ausdrucks setzen",
+    }
+    /// The control's limit.
+    LINE_TOO_LONG: LongLine {
+        en: "the line has {length} characters; {dialect} takes {most}",
+        de: "die Zeile hat {length} Zeichen; {dialect} nimmt {most}",
+        help_en: "split the line, or shorten its comments",
+        help_de: "die Zeile teilen, oder ihre Kommentare kürzen",
+    }
+    /// The reader's own limit.
+    LINE_MUCH_TOO_LONG: LongLine {
+        en: "the line has {length} characters, more than {most}; it is left out",
+        de: "die Zeile hat {length} Zeichen, mehr als {most}; sie bleibt unbeachtet",
+        help_en: "this may not be G-code at all, or its line ends have got lost",
+        help_de: "vielleicht ist das kein G-Code, oder die Zeilenenden sind verloren gegangen",
+    }
+    /// `X1 2` is X12.
+    BLANK_IN_NUMBER: DoubtfulSpelling {
+        en: "blanks mean nothing in G-code: this is read as {letter}{number}",
+        de: "Leerzeichen bedeuten in G-Code nichts: das wird als {letter}{number} gelesen",
+        help_en: "if two words are meant, the second one's letter is missing",
+        help_de: "wenn zwei Wörter gemeint sind, fehlt der Buchstabe des zweiten",
+    }
+    /// `X 1` where blanks separate.
+    BLANK_AFTER_LETTER: DoubtfulSpelling {
+        en: "a blank between letter and number: {dialect} may not take it",
+        de: "ein Leerzeichen zwischen Buchstabe und Zahl: {dialect} nimmt das vielleicht nicht",
+        help_en: "write the number right behind the letter",
+        help_de: "die Zahl direkt hinter den Buchstaben schreiben",
+    }
+    /// `X1,5`.
+    DECIMAL_COMMA: DoubtfulSpelling {
+        en: "a decimal comma is read as a point",
+        de: "ein Dezimalkomma wird als Punkt gelesen",
+        help_en: "write a point",
+        help_de: "einen Punkt schreiben",
+    }
+    /// A comment of another dialect.
+    FOREIGN_COMMENT: DoubtfulSpelling {
+        en: "{dialect} is not known to take comments with `{sign}`",
+        de: "von {dialect} ist nicht bekannt, dass es Kommentare mit `{sign}` nimmt",
+        help_en: "begin comments with {comment}",
+        help_de: "Kommentare mit {comment} beginnen",
+    }
+    /// `%NAME`.
+    TEXT_AFTER_PERCENT: DoubtfulSpelling {
+        en: "text behind `%` is taken as a comment",
+        de: "Text hinter `%` wird als Kommentar genommen",
+        help_en: "leave `%` alone in its line",
+        help_de: "`%` allein in der Zeile lassen",
+    }
+    /// GRBL obeys it.
+    REAL_TIME_CHARACTER: RealTimeCharacter {
+        en: "{dialect} obeys `{found}` at once, even in a comment: {effect}",
+        de: "{dialect} gehorcht `{found}` sofort, auch in einem Kommentar: {effect}",
+        help_en: "write ASCII only, and no ! ? ~",
+        help_de: "nur ASCII schreiben, und kein ! ? ~",
+    }
+    /// Behind M30 or the closing %.
+    AFTER_END: AfterProgramEnd {
+        en: "the program ends in line {line}; this and what follows is not read",
+        de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
+        help_en: "remove it, or the earlier end",
+        help_de: "entfernen, oder das frühere Ende",
+    }
+    /// No M2, M30, %.
+    NO_END: NoProgramEnd {
+        en: "the program ends without {words}",
+        de: "das Programm endet ohne {words}",
+        help_en: "the file may have been cut off; write M30 in its last line",
+        help_de: "die Datei ist vielleicht abgeschnitten; M30 in die letzte Zeile schreiben",
+    }
+    /// `/`.
+    OPTIONAL_LINE: OptionalLine {
+        en: "a switch at the machine can leave this line out; it is read as if it were run",
+        de: "ein Schalter an der Maschine kann diese Zeile auslassen; sie wird gelesen, als würde sie ausgeführt",
+        help_en: "remove `/`, or the line",
+        help_de: "`/` entfernen, oder die Zeile",
+    }
+    /// `/` that does nothing.
+    SLASH_DROPPED: OptionalLine {
+        en: "{dialect} drops `/` and runs the line",
+        de: "{dialect} lässt `/` weg und führt die Zeile aus",
+        help_en: "remove the line if it is not meant",
+        help_de: "die Zeile entfernen, wenn sie nicht gemeint ist",
+    }
+    /// A G or M code.
+    UNKNOWN_CODE: UnknownWord {
+        en: "{dialect} does not know {word}",
+        de: "{dialect} kennt {word} nicht",
+        help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
+        help_de: "die Datei mit --dialect als anderen Dialekt lesen, oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
+    }
+    /// A letter.
+    UNKNOWN_LETTER: UnknownWord {
+        en: "{dialect} does not know the letter {word}",
+        de: "{dialect} kennt den Buchstaben {word} nicht",
+        help_en: "read the file as another dialect with --dialect, or remove the word",
+        help_de: "die Datei mit --dialect als anderen Dialekt lesen, oder das Wort entfernen",
+    }
+    /// `#` or `[ ]`.
+    UNKNOWN_EXPRESSION: UnknownWord {
+        en: "{dialect} knows no parameters and expressions; the line is left out",
+        de: "{dialect} kennt keine Parameter und Ausdrücke; die Zeile bleibt unbeachtet",
+        help_en: "write numbers, or read the file as another dialect with --dialect",
+        help_de: "Zahlen schreiben, oder die Datei mit --dialect als anderen Dialekt lesen",
+    }
+    /// `%` for GRBL.
+    UNKNOWN_PERCENT: UnknownWord {
+        en: "{dialect} does not know `%`",
+        de: "{dialect} kennt `%` nicht",
+        help_en: "remove the line, unless your sender does it",
+        help_de: "die Zeile entfernen, wenn das nicht das Sendeprogramm tut",
+    }
+    /// A drilling cycle in a dialect without.
+    UNKNOWN_CYCLE: UnknownWord {
+        en: "{dialect} does not take the drilling cycle {word}: what it does is missing from the result",
+        de: "{dialect} nimmt den Bohrzyklus {word} nicht: was er tut, fehlt im Ergebnis",
+        help_en: "write the cycle out as moves",
+        help_de: "den Zyklus als einzelne Bewegungen schreiben",
+    }
+    /// Subroutines and branches.
+    O_WORD: WordNotFollowed {
+        en: "subroutines and branches (O words) are not followed; the lines below are read once, in the order of the file",
+        de: "Unterprogramme und Verzweigungen (O-Wörter) werden nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
+        help_en: "write the moves out, or check the program at the control",
+        help_de: "die Bewegungen ausschreiben, oder das Programm an der Steuerung prüfen",
+    }
+    /// A command.
+    NOT_FOLLOWED: WordNotFollowed {
+        en: "{word} is not followed: moves from here on may be others than those of the machine",
+        de: "{word} wird nicht verfolgt: ab hier können die Bewegungen andere sein als die der Maschine",
+        help_en: "check the program at the control, or write the moves out",
+        help_de: "das Programm an der Steuerung prüfen, oder die Bewegungen ausschreiben",
+    }
+    /// An axis.
+    AXIS_NOT_FOLLOWED: WordNotFollowed {
+        en: "the axis {word} is not followed",
+        de: "die Achse {word} wird nicht verfolgt",
+        help_en: "only X, Y and Z are read",
+        help_de: "nur X, Y und Z werden gelesen",
+    }
+    /// The dialect knows it and does nothing.
+    IGNORED: IgnoredWord {
+        en: "{dialect} passes over {word}",
+        de: "{dialect} übergeht {word}",
+        help_en: "remove it, or switch it by hand",
+        help_de: "entfernen, oder von Hand schalten",
+    }
+    /// F, by option.
+    FEED_IGNORED: IgnoredWord {
+        en: "F is passed over, as asked: the layers' feeds hold",
+        de: "F wird wie verlangt übergangen: es gilt der Vorschub der Ebenen",
+    }
+    /// The last one wins.
+    SPEED_REPLACED: IgnoredWord {
+        en: "layer {layer} already has the speed {old}; {new} takes its place",
+        de: "die Ebene {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
+        help_en: "give each layer one S",
+        help_de: "jeder Ebene nur ein S geben",
+    }
+    /// Two of a modal group.
+    SAME_GROUP: ConflictingWords {
+        en: "{first} and {second} exclude each other in one line",
+        de: "{first} und {second} schließen einander in einer Zeile aus",
+        help_en: "put them into two lines",
+        help_de: "auf zwei Zeilen verteilen",
+    }
+    /// A letter twice.
+    LETTER_TWICE: ConflictingWords {
+        en: "{letter} is there twice in one line",
+        de: "{letter} kommt in einer Zeile zweimal vor",
+        help_en: "put the second into a line of its own; a letter may be missing between them",
+        help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt dazwischen ein Buchstabe",
+    }
+    /// Two words want the coordinates.
+    AXES_WANTED_TWICE: ConflictingWords {
+        en: "{first} and {second} both use the coordinates of this line",
+        de: "{first} und {second} verwenden beide die Koordinaten dieser Zeile",
+        help_en: "put them into two lines",
+        help_de: "auf zwei Zeilen verteilen",
+    }
+    /// A word that another needs.
+    NEEDS: MissingWord {
+        en: "{word} needs {missing}",
+        de: "{word} braucht {missing}",
+        help_en: "add the word to the line",
+        help_de: "das Wort in die Zeile schreiben",
+    }
+    /// Coordinates and no motion mode.
+    NO_MOTION: MissingWord {
+        en: "coordinates without a motion: none of G0 to G3 holds here",
+        de: "Koordinaten ohne Bewegung: hier gilt keines von G0 bis G3",
+        help_en: "put G0 or G1 in front",
+        help_de: "G0 oder G1 davorsetzen",
+    }
+    /// Limits of a value.
+    OUT_OF_RANGE: ValueOutOfRange {
+        en: "{word} cannot be {value}",
+        de: "{word} kann nicht {value} sein",
+        help_en: "{word} is {limits}",
+        help_de: "{word} ist {limits}",
+    }
+    /// G53 with G91.
+    MACHINE_COORDINATES_RELATIVE: ConflictingWords {
+        en: "G53 counts from the machine's zero, and G91 from where the tool is",
+        de: "G53 zählt ab Maschinennull, und G91 von da, wo das Werkzeug ist",
+        help_en: "switch to G90 before",
+        help_de: "vorher auf G90 schalten",
+    }
+    /// G53 without G0 or G1.
+    MACHINE_COORDINATES_MOTION: ConflictingWords {
+        en: "G53 goes with G0 and G1 only",
+        de: "G53 geht nur mit G0 und G1",
+        help_en: "write G0 or G1 in the same line",
+        help_de: "G0 oder G1 in dieselbe Zeile schreiben",
+    }
+    /// No use for a word.
+    UNUSED: UnusedWord {
+        en: "nothing in this line uses {word}",
+        de: "nichts in dieser Zeile verwendet {word}",
+        help_en: "remove it, or add the G word that it belongs to",
+        help_de: "entfernen, oder das G-Wort ergänzen, zu dem es gehört",
+    }
+    /// Division by zero and the like.
+    NO_VALUE: CannotEvaluate {
+        en: "this has no value: {reason}; the line is left out",
+        de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
+    }
+    /// Probe results, positions.
+    MACHINE_VALUE: MachineValue {
+        en: "only the machine knows #{parameter}; {value} is taken for it",
+        de: "nur die Maschine kennt #{parameter}; {value} wird dafür genommen",
+        help_en: "what depends on it can be different at the machine",
+        help_de: "was davon abhängt, kann an der Maschine anders sein",
+    }
+    /// G55 and so on.
+    OFFSET_UNKNOWN: UnknownOffset {
+        en: "where {system} lies is not known here; it is taken to be where {base} is",
+        de: "wo {system} liegt, ist hier nicht bekannt; es wird da angenommen, wo {base} ist",
+        help_en: "lengths and the box hold only within one system",
+        help_de: "Längen und Größe gelten nur innerhalb eines Systems",
+    }
+    /// G28, G30, G53.
+    POSITION_UNKNOWN: UnknownOffset {
+        en: "where {word} goes is not known here: the next move begins at an unknown place",
+        de: "wohin {word} führt, ist hier nicht bekannt: die nächste Bewegung beginnt an unbekannter Stelle",
+        help_en: "lengths and checks leave these moves out",
+        help_de: "Längen und Prüfungen lassen diese Bewegungen aus",
+    }
+    /// No unit.
+    UNITS_NOT_STATED: UnitsNotStated {
+        en: "no {inch} or {mm} before the first move; millimetres are taken",
+        de: "kein {inch} oder {mm} vor der ersten Bewegung; Millimeter werden angenommen",
+        help_en: "state the unit: the control keeps that of the program before",
+        help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
+    }
+    /// The comment says otherwise.
+    UNITS_CONTRADICTED: UnitsNotStated {
+        en: "{word} is read as {unit}, but the comment says {comment}",
+        de: "{word} wird als {unit} gelesen, aber der Kommentar sagt {comment}",
+        help_en: "the filter's own table and its examples contradict each other; `unit-codes` chooses between them",
+        help_de: "die Tabelle des Filters und seine Beispiele widersprechen einander; `unit-codes` wählt zwischen ihnen",
+    }
+    /// G90, G17.
+    MODES_NOT_STATED: ModesNotStated {
+        en: "no {words} before the first move that depends on it; {taken} is taken",
+        de: "kein {words} vor der ersten Bewegung, die davon abhängt; {taken} wird angenommen",
+        help_en: "state it: the control keeps that of the program before",
+        help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
+    }
+    /// XpertMILL.
+    MOTION_NOT_STATED: MotionNotStated {
+        en: "coordinates without a motion word are read as {word} again; {dialect} is not known to do so",
+        de: "Koordinaten ohne Bewegungswort werden wieder als {word} gelesen; von {dialect} ist das nicht bekannt",
+        help_en: "write the motion word in every line",
+        help_de: "das Bewegungswort in jede Zeile schreiben",
+    }
+    /// A helix where there is none.
+    HELIX_DOUBTFUL: DoubtfulArc {
+        en: "an arc with Z: {dialect} is not known to take it",
+        de: "ein Bogen mit Z: von {dialect} ist nicht bekannt, dass es das nimmt",
+        help_en: "write short lines instead",
+        help_de: "stattdessen kurze Strecken schreiben",
+    }
+    /// F missing.
+    NO_FEED: MissingFeed {
+        en: "a cutting move without a feed",
+        de: "eine Fräsbewegung ohne Vorschub",
+        help_en: "write F in this line or before",
+        help_de: "F in diese Zeile oder davor schreiben",
+    }
+    /// F cleared by G94.
+    FEED_CLEARED: MissingFeed {
+        en: "a cutting move without a feed: {word} in line {line} has cleared F",
+        de: "eine Fräsbewegung ohne Vorschub: {word} in Zeile {line} hat F gelöscht",
+        help_en: "write F behind {word}",
+        help_de: "F nach {word} schreiben",
+    }
+    /// G93 without F.
+    INVERSE_TIME_WITHOUT_FEED: MissingFeed {
+        en: "with G93 every cutting move needs its own F",
+        de: "mit G93 braucht jede Fräsbewegung ihr eigenes F",
+        help_en: "write F in this line, or switch to G94",
+        help_de: "F in diese Zeile schreiben, oder auf G94 schalten",
+    }
+    /// G95 with the spindle standing.
+    FEED_PER_TURN_WITHOUT_SPEED: MissingFeed {
+        en: "with G95 the feed depends on the spindle, and no speed is set",
+        de: "mit G95 hängt der Vorschub von der Spindel ab, und es ist keine Drehzahl gesetzt",
+        help_en: "set S, or switch to G94",
+        help_de: "S setzen, oder auf G94 schalten",
+    }
+    /// Radii.
+    RADII_DIFFER: ArcRadiiDiffer {
+        en: "the arc begins with the radius {start} and ends with {end}: {difference} mm more than {dialect} takes",
+        de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: {difference} mm mehr, als {dialect} nimmt",
+        help_en: "write I and J with more decimals, or check the centre",
+        help_de: "I und J mit mehr Nachkommastellen schreiben, oder den Mittelpunkt prüfen",
+    }
+    /// No centre, no radius.
+    ARC_WITHOUT_CENTRE: InvalidArc {
+        en: "an arc needs {centre} or R",
+        de: "ein Bogen braucht {centre} oder R",
+    }
+    /// Both.
+    ARC_WITH_CENTRE_AND_RADIUS: InvalidArc {
+        en: "an arc with R and {centre}: one of them says otherwise than the other",
+        de: "ein Bogen mit R und {centre}: eins von beiden sagt anderes als das andere",
+        help_en: "keep I and J: they are more exact",
+        help_de: "I und J behalten: sie sind genauer",
+    }
+    /// Needs an axis word.
+    ARC_WITHOUT_END: InvalidArc {
+        en: "{dialect} wants {axes} in an arc, even when they do not change",
+        de: "{dialect} verlangt {axes} in einem Bogen, auch wenn sie sich nicht ändern",
+        help_en: "repeat the coordinates",
+        help_de: "die Koordinaten wiederholen",
+    }
+    /// R form full circle.
+    RADIUS_FULL_CIRCLE: InvalidArc {
+        en: "an arc with R cannot end where it begins",
+        de: "ein Bogen mit R kann nicht enden, wo er beginnt",
+        help_en: "write a full circle with {centre}",
+        help_de: "einen Vollkreis mit {centre} schreiben",
+    }
+    /// R too short.
+    RADIUS_TOO_SMALL: InvalidArc {
+        en: "the radius {radius} is too small: the arc's ends are {chord} apart",
+        de: "der Radius {radius} ist zu klein: die Enden des Bogens liegen {chord} auseinander",
+        help_en: "R is at least half of that",
+        help_de: "R ist mindestens die Hälfte davon",
+    }
+    /// No radius at all.
+    RADIUS_ZERO: InvalidArc {
+        en: "the arc's radius is 0",
+        de: "der Radius des Bogens ist 0",
+        help_en: "check I and J: they count from the arc's beginning, unless the file means absolute centres",
+        help_de: "I und J prüfen: sie zählen ab dem Beginn des Bogens, außer die Datei meint absolute Mittelpunkte",
+    }
+    /// Nearly 180 degrees by R.
+    NEAR_HALF_CIRCLE: DoubtfulArc {
+        en: "a half circle by R: its centre moves by {shift} mm when the last digit changes",
+        de: "ein Halbkreis mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer ändert",
+        help_en: "write it with I and J",
+        help_de: "mit I und J schreiben",
+    }
+    /// Nearly 360 degrees.
+    NEAR_FULL_CIRCLE: DoubtfulArc {
+        en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, and the last digit decides",
+        de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, und die letzte Ziffer entscheidet",
+        help_en: "write a full circle with equal ends, and leave out an arc that is none",
+        help_de: "einen Vollkreis mit gleichen Enden schreiben, und einen Bogen, der keiner ist, weglassen",
+    }
+    /// M5 with motion.
+    STOP_BEFORE_MOTION: StopBeforeMotion {
+        en: "{word} is obeyed before the move of this line, while the cutter is still in the material",
+        de: "{word} wird vor der Bewegung dieser Zeile ausgeführt, während der Fräser noch im Material ist",
+        help_en: "put {word} into the next line",
+        help_de: "{word} in die nächste Zeile setzen",
+    }
+    /// Rapid in the plane.
+    RAPID_IN_MATERIAL: RapidInMaterial {
+        en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
+        de: "eine Eilgangbewegung auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
+        help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
+        help_de: "den Fräser vorher anheben, oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+    }
+    /// Rapid down.
+    RAPID_PLUNGE: RapidPlunge {
+        en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
+        de: "eine Eilgangbewegung hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
+        help_en: "go down with G1 and a feed (stock known at {resolution} mm)",
+        help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
+    }
+    /// First move in the plane.
+    START_NOT_RAISED: StartNotRaised {
+        en: "the program moves in the plane before it raises the cutter",
+        de: "das Programm fährt in der Ebene, bevor es den Fräser anhebt",
+        help_en: "begin with G0 Z above the material",
+        help_de: "mit G0 Z über dem Material beginnen",
+    }
+    /// At the end.
+    END_NOT_RAISED: EndNotRaised {
+        en: "the program ends at Z {z}, below the material's surface at {surface}",
+        de: "das Programm endet auf Z {z}, unter der Oberfläche des Materials bei {surface}",
+        help_en: "end with G0 Z above the material",
+        help_de: "mit G0 Z über dem Material enden",
+    }
+    /// X, Y and Z at once.
+    DIAGONAL_RAPID: DiagonalRapid {
+        en: "a rapid move in the plane and down to Z {z} at once: many machines do not go straight",
+        de: "eine Eilgangbewegung in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
+        help_en: "move in the plane first, then down",
+        help_de: "zuerst in der Ebene fahren, dann hinunter",
+    }
+    /// Cutting with M5.
+    SPINDLE_OFF: SpindleOff {
+        en: "a cutting move with the spindle off",
+        de: "eine Fräsbewegung bei stehender Spindel",
+        help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
+        help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
+    }
+    /// S of a running spindle.
+    SPINDLE_SPEED: SpindleSpeed {
+        en: "S {speed} is outside the machine's {least} to {most}",
+        de: "S {speed} liegt außerhalb der {least} bis {most} der Maschine",
+        help_en: "change S, or the spindle's range under [machine]",
+        help_de: "S ändern, oder den Bereich der Spindel unter [machine]",
+    }
+    /// F.
+    FEED_TOO_HIGH: FeedTooHigh {
+        en: "a feed of {feed} mm/min, {axis} of which are more than the machine's {most}",
+        de: "ein Vorschub von {feed} mm/min, der in {axis} mehr ist als die {most} der Maschine",
+        help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder die Geschwindigkeit unter [machine]",
+    }
+    /// Placed box.
+    OUTSIDE_MACHINE: OutsideMachine {
+        en: "{axis} {value} is outside the machine's {least} to {most}",
+        de: "{axis} {value} liegt außerhalb der {least} bis {most} der Maschine",
+        help_en: "move the part, or change the travel under [machine]",
+        help_de: "das Werkstück versetzen, oder den Verfahrweg unter [machine] ändern",
+    }
+    /// Size only.
+    LARGER_THAN_MACHINE: OutsideMachine {
+        en: "the program needs {size} mm in {axis}, the machine has {most}",
+        de: "das Programm braucht {size} mm in {axis}, die Maschine hat {most}",
+        help_en: "wherever the part is clamped, it does not fit",
+        help_de: "wo immer das Werkstück gespannt ist, es passt nicht",
+    }
+    /// M6.
+    TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {
+        en: "a tool change at Z {z}, below the material's surface at {surface}",
+        de: "ein Werkzeugwechsel auf Z {z}, unter der Oberfläche des Materials bei {surface}",
+        help_en: "raise the cutter before M6",
+        help_de: "den Fräser vor M6 anheben",
+    }
+    /// Up, or nowhere.
+    USELESS_PROBE: UselessProbe {
+        en: "the probing move does not go down: it meets nothing",
+        de: "die Messbewegung führt nicht nach unten: sie trifft nichts",
+        help_en: "probe towards the material; G38.4 and G38.5 go away from it",
+        help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
+    }
+    /// No movement.
+    PROBE_WITHOUT_WAY: UselessProbe {
+        en: "the probing move ends where it begins",
+        de: "die Messbewegung endet, wo sie beginnt",
+        help_en: "probe to a height below the material",
+        help_de: "bis zu einer Höhe unter dem Material messen",
+    }
+    /// Where the paths part.
+    PATHS_DIFFER: MovesDiffer {
+        en: "the moves differ: here the tool goes to {found}, in line {line} of the other to {expected}",
+        de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen nach {expected}",
+    }
+    /// Arc against line, other way round.
+    SHAPES_DIFFER: MovesDiffer {
+        en: "the moves differ: this one and that in line {line} of the other part between their ends",
+        de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen trennen sich zwischen ihren Enden",
+    }
+    /// Rapid against feed.
+    KINDS_DIFFER: MovesDiffer {
+        en: "the moves differ: this is {found}, in line {line} of the other it is {expected}",
+        de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen {expected}",
+    }
+    /// Feed.
+    FEEDS_DIFFER: MovesDiffer {
+        en: "the feeds differ: {found} here, {expected} in line {line} of the other",
+        de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen {expected}",
+    }
+    /// Too short.
+    MOVES_MISSING: MovesDiffer {
+        en: "the moves end here; the other goes on in line {line}",
+        de: "die Bewegungen enden hier; das andere fährt in Zeile {line} weiter",
+    }
+    /// Too long.
+    MOVES_TOO_MANY: MovesDiffer {
+        en: "the other's moves end in line {line}; these go on",
+        de: "die Bewegungen des anderen enden in Zeile {line}; diese gehen weiter",
+    }
+    /// Said under the last of many.
+    MORE: DoubtfulSpelling {
+        en: "this is said of {count} more lines, which are not shown",
+        de: "das gilt für {count} weitere Zeilen, die nicht gezeigt werden",
+    }
+}

@@ -1,0 +1,127 @@
+//! Which words a dialect takes. (`reference/cad6_xpertmill_gcode.md`, section 5.6)
+
+/// The words of a dialect. G and M codes are ten times their number: `G38.2` is 382.
+#[derive(Debug)]
+pub struct Words {
+    /// Letters, in capitals.
+    pub letters: &'static [u8],
+    /// G codes that it takes, in rising order.
+    pub g: &'static [u16],
+    /// G codes that it knows and passes over.
+    pub g_ignored: &'static [u16],
+    /// M codes that it takes, in rising order.
+    pub m: &'static [u16],
+    /// M codes that it knows and passes over.
+    pub m_ignored: &'static [u16],
+    /// M100 to M199 run programs of the machine's owner.
+    pub own_m_codes: bool,
+    /// What it does not know is passed over with a warning, where others stop.
+    pub lenient: bool,
+}
+
+/// What a dialect does with a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acceptance {
+    /// Takes it.
+    Taken,
+    /// Knows it and does nothing.
+    Ignored,
+    /// Does not know it.
+    Unknown,
+}
+
+impl Words {
+    /// What the dialect does with a G code.
+    pub fn g(&self, code: u16) -> Acceptance {
+        look_up(code, self.g, self.g_ignored)
+    }
+
+    /// What the dialect does with an M code.
+    pub fn m(&self, code: u16) -> Acceptance {
+        if self.own_m_codes && (1000..2000).contains(&code) {
+            return Acceptance::Taken;
+        }
+        look_up(code, self.m, self.m_ignored)
+    }
+}
+
+fn look_up(code: u16, taken: &[u16], ignored: &[u16]) -> Acceptance {
+    if taken.binary_search(&code).is_ok() {
+        Acceptance::Taken
+    } else if ignored.contains(&code) {
+        Acceptance::Ignored
+    } else {
+        Acceptance::Unknown
+    }
+}
+
+pub(super) static RS274: Words = Words {
+    letters: b"ABCDFGHIJKLMNPQRSTXYZ",
+    g: &[
+        0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 300, 382, 400, 410, 420, 430, 490, 530, 540,
+        550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 800, 810, 820, 830, 840, 850, 860, 870, 880,
+        890, 900, 910, 920, 921, 922, 923, 930, 940, 980, 990,
+    ],
+    g_ignored: &[],
+    m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
+    m_ignored: &[],
+    own_m_codes: false,
+    lenient: false,
+};
+
+pub(super) static LINUXCNC: Words = Words {
+    letters: b"ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$",
+    g: &[
+        0, 10, 20, 30, 40, 50, 51, 52, 53, 70, 80, 100, 170, 171, 180, 181, 190, 191, 200, 210, 280, 281,
+        300, 301, 330, 331, 382, 383, 384, 385, 400, 410, 411, 420, 421, 430, 431, 432, 490, 520, 530, 540,
+        550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 700, 710, 711, 712, 720, 721, 722, 730, 740,
+        760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930,
+        940, 950, 960, 970, 980, 990,
+    ],
+    g_ignored: &[],
+    m: &[
+        0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300, 480, 490, 500, 510, 520, 530, 600, 610, 620, 630,
+        640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
+    ],
+    m_ignored: &[],
+    own_m_codes: true,
+    lenient: false,
+};
+
+pub(super) static GRBL: Words = Words {
+    letters: b"FGIJKLMNPRSTXYZ",
+    g: &[
+        0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 431,
+        490, 530, 540, 550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940,
+    ],
+    g_ignored: &[],
+    m: &[0, 20, 30, 40, 50, 70, 80, 90, 300],
+    m_ignored: &[10],
+    own_m_codes: false,
+    lenient: false,
+};
+
+pub(super) static XPERTMILL: Words = Words {
+    letters: b"FGIJMRSTXYZ",
+    g: &[0, 10, 20, 30, 700, 710],
+    g_ignored: &[],
+    m: &[60, 300],
+    m_ignored: &[30, 40, 50, 70, 80, 90],
+    own_m_codes: false,
+    lenient: true,
+};
+
+/// What GRBL or RS274/NGC takes: the native program is written for senders of both.
+pub(super) static NATIVE: Words = Words {
+    letters: b"ABCDFGHIJKLMNPQRSTXYZ",
+    g: &[
+        0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 410,
+        420, 430, 431, 490, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 730, 800, 810,
+        820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930, 940, 980, 990,
+    ],
+    g_ignored: &[],
+    m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
+    m_ignored: &[],
+    own_m_codes: false,
+    lenient: false,
+};

@@ -1,0 +1,71 @@
+//! What the controls differ in: spelling, words, arcs, order. (spec/90-gcode-import.md; `reference/cad6_xpertmill_gcode.md`, sections 3 and 5)
+//!
+//! A dialect is data, one [`Rules`] each; reader and interpreter ask the rules and never which dialect it is.
+
+mod codes;
+mod rules;
+mod spelling;
+
+use std::fmt;
+use std::str::FromStr;
+
+pub use codes::{Acceptance, Words};
+pub use rules::{ArcRules, FeedMode, RadiusTolerance, Rules, StartMotion};
+pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
+
+/// The kinds of G-code that are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Dialect {
+    /// RS274/NGC version 3 of the NIST, the common ancestor.
+    Rs274,
+    /// LinuxCNC 2.9.
+    LinuxCnc,
+    /// GRBL 1.1.
+    Grbl,
+    /// The import filter of XpertMILL (STEP-FOUR).
+    Xpertmill,
+    /// What pathbuild and its predecessor write (spec/60-gcode.md), with correction formulas as data (spec/70-z-probes.md).
+    Native,
+}
+
+impl Dialect {
+    /// Every dialect, in the order in which they are listed to a person.
+    pub const ALL: &[Self] = &[Self::Native, Self::Rs274, Self::LinuxCnc, Self::Grbl, Self::Xpertmill];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rs274 => "rs274",
+            Self::LinuxCnc => "linuxcnc",
+            Self::Grbl => "grbl",
+            Self::Xpertmill => "xpertmill",
+            Self::Native => "native",
+        }
+    }
+
+    /// What it accepts and how it is read.
+    pub fn rules(self) -> &'static Rules {
+        match self {
+            Self::Rs274 => &rules::RS274,
+            Self::LinuxCnc => &rules::LINUXCNC,
+            Self::Grbl => &rules::GRBL,
+            Self::Xpertmill => &rules::XPERTMILL,
+            Self::Native => &rules::NATIVE,
+        }
+    }
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Reads a [`name`](Dialect::name).
+impl FromStr for Dialect {
+    type Err = ();
+
+    fn from_str(name: &str) -> Result<Self, ()> {
+        Self::ALL.iter().find(|dialect| dialect.name() == name).copied().ok_or(())
+    }
+}

@@ -1,0 +1,214 @@
+//! The rules of each dialect, side by side.
+
+use super::Dialect;
+use super::codes::{self, Words};
+use super::spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
+
+/// Everything in which a dialect differs from the others.
+#[derive(Debug)]
+pub struct Rules {
+    /// Whose rules these are.
+    pub dialect: Dialect,
+    /// How it is spelt.
+    pub spelling: Spelling,
+    /// Which words it takes.
+    pub words: &'static Words,
+    /// How it reads arcs.
+    pub arcs: ArcRules,
+    /// What G93, G94 and G95 do to the feed that was set before.
+    pub feed_mode: FeedMode,
+    /// What a line of coordinates means before any motion word.
+    pub start_motion: StartMotion,
+    /// The words that switch to inches and to millimetres (G codes times ten).
+    pub unit_words: [u16; 2],
+    /// Moves go to layers by M6, and S belongs to the layer.
+    pub layers: bool,
+    /// A motion word holds only for its own line; repeating it by coordinates alone is read with a warning.
+    pub motion_is_stated: bool,
+}
+
+/// How a dialect reads arcs. (`reference/cad6_xpertmill_gcode.md`, section 5.4)
+#[derive(Debug)]
+pub struct ArcRules {
+    /// How much the radius at the end may differ from that at the start.
+    pub radius: RadiusTolerance,
+    /// An axis word of the arc's plane has to be there even when its value does not change.
+    pub axis_word: bool,
+    /// By how many mm half the chord of an arc in R form may exceed the radius.
+    pub short_radius: f64,
+    /// P counts turns.
+    pub turns: bool,
+    /// A third coordinate (a helix) is the dialect's own.
+    pub helix: bool,
+}
+
+/// How much the radius at the end of an arc may differ from that at its start, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RadiusTolerance {
+    /// In millimetres programs `mm`; in inch programs `inch` (in mm, too).
+    Fixed {
+        /// Tolerance where the program is in millimetres.
+        mm: f64,
+        /// Tolerance where it is in inches, in mm.
+        inch: f64,
+    },
+    /// Never more than `most`, nor more than both `least` and this share of the radius.
+    Relative {
+        /// The most, in mm.
+        most: f64,
+        /// Less than this, in mm, is never too much.
+        least: f64,
+        /// The share of the radius.
+        share: f64,
+    },
+}
+
+/// What a feed mode word (G93, G94, G95) does to F.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMode {
+    /// F stays as it is.
+    KeepsFeed,
+    /// F is 0 until the next F, even when the mode does not change.
+    ClearsFeed,
+}
+
+/// What a line of coordinates means before any motion word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartMotion {
+    /// A rapid move.
+    Rapid,
+    /// An error.
+    None,
+}
+
+const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
+
+const BASE_SPELLING: Spelling = Spelling {
+    round_comments: Style::Usual,
+    nested_comments: false,
+    semicolon_comments: Style::Unknown,
+    slash_comments: Style::Unknown,
+    bang_comments: Style::Unknown,
+    blanks: Blanks::Ignored,
+    percent: Percent::Frame,
+    slash: Slash::Optional,
+    line_length: None,
+    block_numbers: Some(99_999),
+    fractional_block_numbers: false,
+    grammar: None,
+    decimal_comma: false,
+    formulas: false,
+    bare_tool_number: false,
+    real_time_bytes: false,
+};
+
+const BASE: Rules = Rules {
+    dialect: Dialect::Rs274,
+    spelling: BASE_SPELLING,
+    words: &codes::RS274,
+    arcs: ArcRules { radius: GRBL_RADIUS, axis_word: true, short_radius: 0.0, turns: false, helix: true },
+    feed_mode: FeedMode::KeepsFeed,
+    start_motion: StartMotion::Rapid,
+    unit_words: [200, 210],
+    layers: false,
+    motion_is_stated: false,
+};
+
+pub(super) static RS274: Rules = Rules {
+    spelling: Spelling {
+        line_length: Some(LineLength::Whole(256)),
+        grammar: Some(Grammar {
+            operators: Operators::Nist,
+            names: false,
+            signs: false,
+            parameters: 5399,
+            o_words: false,
+        }),
+        ..BASE_SPELLING
+    },
+    arcs: ArcRules { radius: RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 }, ..BASE.arcs },
+    start_motion: StartMotion::None,
+    ..BASE
+};
+
+pub(super) static LINUXCNC: Rules = Rules {
+    dialect: Dialect::LinuxCnc,
+    spelling: Spelling {
+        semicolon_comments: Style::Usual,
+        line_length: Some(LineLength::Whole(255)),
+        block_numbers: Some(u32::MAX),
+        fractional_block_numbers: true,
+        grammar: Some(Grammar {
+            operators: Operators::LinuxCnc,
+            names: true,
+            signs: true,
+            parameters: 5602,
+            o_words: true,
+        }),
+        ..BASE_SPELLING
+    },
+    words: &codes::LINUXCNC,
+    arcs: ArcRules {
+        radius: RadiusTolerance::Relative { most: 2.83, least: 0.0283, share: 0.001 },
+        axis_word: false,
+        short_radius: 0.001_27,
+        turns: true,
+        helix: true,
+    },
+    feed_mode: FeedMode::ClearsFeed,
+    start_motion: StartMotion::None,
+    ..BASE
+};
+
+pub(super) static GRBL: Rules = Rules {
+    dialect: Dialect::Grbl,
+    spelling: Spelling {
+        nested_comments: true,
+        semicolon_comments: Style::Usual,
+        percent: Percent::Refused,
+        slash: Slash::Dropped,
+        line_length: Some(LineLength::Bare(79)),
+        block_numbers: Some(10_000_000),
+        real_time_bytes: true,
+        ..BASE_SPELLING
+    },
+    words: &codes::GRBL,
+    ..BASE
+};
+
+pub(super) static XPERTMILL: Rules = Rules {
+    dialect: Dialect::Xpertmill,
+    spelling: Spelling {
+        round_comments: Style::Doubtful,
+        nested_comments: true,
+        semicolon_comments: Style::Doubtful,
+        slash_comments: Style::Usual,
+        bang_comments: Style::Usual,
+        blanks: Blanks::Separate,
+        percent: Percent::Start,
+        slash: Slash::Unknown,
+        block_numbers: None,
+        decimal_comma: true,
+        bare_tool_number: true,
+        ..BASE_SPELLING
+    },
+    words: &codes::XPERTMILL,
+    arcs: ArcRules { axis_word: false, helix: false, ..BASE.arcs },
+    unit_words: [700, 710],
+    layers: true,
+    motion_is_stated: true,
+    ..BASE
+};
+
+pub(super) static NATIVE: Rules = Rules {
+    dialect: Dialect::Native,
+    spelling: Spelling {
+        nested_comments: true,
+        semicolon_comments: Style::Usual,
+        block_numbers: Some(10_000_000),
+        formulas: true,
+        ..BASE_SPELLING
+    },
+    words: &codes::NATIVE,
+    ..BASE
+};

@@ -1,0 +1,254 @@
+//! G codes by what they do.
+
+/// A plane of arcs and cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Plane {
+    /// G17.
+    #[default]
+    Xy,
+    /// G18.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WorkSystem(u8);
+
+impl WorkSystem {
+    /// The system with this number, from 1 (G54) to 9 (G59.3).
+    pub fn from_number(number: u32) -> Option<Self> {
+        u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
+    }
+
+    /// From 0 (G54) to 8 (G59.3).
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// Such as `G54`.
+    pub fn name(self) -> &'static str {
+        ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"][self.index()]
+    }
+}
+
+/// What a G code does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Command {
+    Motion(Motion),
+    Dwell,
+    SetOffsets,
+    Plane(Plane),
+    Inches(bool),
+    Home(usize),
+    StoreHome(usize),
+    /// G40, G43, G49, G61, G64 and the like: nothing that changes where the program says the tool's tip goes.
+    NoEffect(Group),
+    LocalOffset,
+    MachineCoordinates,
+    System(WorkSystem),
+    Incremental(bool),
+    IncrementalCentres(bool),
+    /// G92: here is so.
+    SetOrigin,
+    Origin(Origin),
+    FeedMode(FeedUnit),
+    RetractToR(bool),
+    NotFollowed(Group),
+}
+
+/// What coordinates without a G word do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Motion {
+    None,
+    Rapid,
+    Feed,
+    Arc {
+        clockwise: bool,
+    },
+    Probe {
+        toward: bool,
+        must_answer: bool,
+    },
+    Cycle(Cycle),
+    /// A motion that is not followed; it has been reported.
+    Unfollowed,
+}
+
+/// The drilling cycles that are followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cycle {
+    /// G73: in steps, lifting a little to break the chip.
+    ChipBreaking,
+    /// G81.
+    Plain,
+    /// G82: waits at the bottom.
+    Dwelling,
+    /// G83: in steps, lifting out each time.
+    Pecking,
+    /// G85: lifts at the feed.
+    Boring,
+    /// G89: waits at the bottom and lifts at the feed.
+    BoringDwelling,
+}
+
+/// What F counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum FeedUnit {
+    /// G94: mm or inches a minute.
+    #[default]
+    PerMinute,
+    /// G93: moves a minute.
+    InverseTime,
+    /// G95: mm or inches a turn of the spindle.
+    PerTurn,
+}
+
+/// G92.1 and its kin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// G92.1: forgets it.
+    Clear,
+    /// G92.2: leaves it aside.
+    Suspend,
+    /// G92.3: takes it up again.
+    Resume,
+}
+
+/// Of these, one in a line. (NIST RS274/NGC, table 4)
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    NonModal,
+    Motion,
+    Plane,
+    Distance,
+    ArcDistance,
+    FeedMode,
+    Units,
+    CutterCompensation,
+    ToolLength,
+    Retract,
+    System,
+    PathControl,
+    SpindleMode,
+    LatheMode,
+    /// G53 goes beside a motion.
+    MachineCoordinates,
+    /// G4, which takes no coordinates.
+    Dwell,
+}
+
+impl Command {
+    pub(super) fn group(self) -> Group {
+        match self {
+            Self::Motion(_) => Group::Motion,
+            Self::Dwell => Group::Dwell,
+            Self::SetOffsets
+            | Self::Home(_)
+            | Self::StoreHome(_)
+            | Self::LocalOffset
+            | Self::SetOrigin
+            | Self::Origin(_) => Group::NonModal,
+            Self::Plane(_) => Group::Plane,
+            Self::Inches(_) => Group::Units,
+            Self::MachineCoordinates => Group::MachineCoordinates,
+            Self::System(_) => Group::System,
+            Self::Incremental(_) => Group::Distance,
+            Self::IncrementalCentres(_) => Group::ArcDistance,
+            Self::FeedMode(_) => Group::FeedMode,
+            Self::RetractToR(_) => Group::Retract,
+            Self::NoEffect(group) | Self::NotFollowed(group) => group,
+        }
+    }
+
+    /// Whether it takes the line's coordinates for itself.
+    pub(super) fn takes_coordinates(self) -> bool {
+        match self {
+            Self::SetOffsets | Self::Home(_) | Self::LocalOffset | Self::SetOrigin => true,
+            Self::Motion(motion) => motion != Motion::None,
+            _ => false,
+        }
+    }
+
+    /// What a G code (times ten) does; unit words are the dialect's and looked up before.
+    pub(super) fn of(code: u16) -> Self {
+        use Group::{CutterCompensation, LatheMode, PathControl, SpindleMode, ToolLength};
+        let system =
+            |index| WorkSystem::from_number(index).map_or(Self::NotFollowed(Group::System), Self::System);
+        match code {
+            40 => Self::Dwell,
+            100 => Self::SetOffsets,
+            170 => Self::Plane(Plane::Xy),
+            180 => Self::Plane(Plane::Zx),
+            190 => Self::Plane(Plane::Yz),
+            171 | 181 | 191 => Self::NotFollowed(Group::Plane),
+            200 => Self::Inches(true),
+            210 => Self::Inches(false),
+            280 => Self::Home(0),
+            281 => Self::StoreHome(0),
+            300 => Self::Home(1),
+            301 => Self::StoreHome(1),
+            400 => Self::NoEffect(CutterCompensation),
+            410 | 411 | 420 | 421 => Self::NotFollowed(CutterCompensation),
+            430 | 431 | 432 | 490 => Self::NoEffect(ToolLength),
+            520 => Self::LocalOffset,
+            530 => Self::MachineCoordinates,
+            540 | 550 | 560 | 570 | 580 | 590 => system(u32::from(code - 540) / 10 + 1),
+            591..=593 => system(u32::from(code - 591) + 7),
+            610 | 611 | 640 => Self::NoEffect(PathControl),
+            70 => Self::NotFollowed(LatheMode),
+            80 => Self::NoEffect(LatheMode),
+            900 => Self::Incremental(false),
+            910 => Self::Incremental(true),
+            901 => Self::IncrementalCentres(false),
+            911 => Self::IncrementalCentres(true),
+            920 => Self::SetOrigin,
+            921 => Self::Origin(Origin::Clear),
+            922 => Self::Origin(Origin::Suspend),
+            923 => Self::Origin(Origin::Resume),
+            930 => Self::FeedMode(FeedUnit::InverseTime),
+            940 => Self::FeedMode(FeedUnit::PerMinute),
+            950 => Self::FeedMode(FeedUnit::PerTurn),
+            960 => Self::NotFollowed(SpindleMode),
+            970 => Self::NoEffect(SpindleMode),
+            980 => Self::RetractToR(false),
+            990 => Self::RetractToR(true),
+            _ => motion(code).map_or(Self::NotFollowed(Group::Motion), Self::Motion),
+        }
+    }
+}
+
+fn motion(code: u16) -> Option<Motion> {
+    Some(match code {
+        0 => Motion::Rapid,
+        10 => Motion::Feed,
+        20 => Motion::Arc { clockwise: true },
+        30 => Motion::Arc { clockwise: false },
+        382 => Motion::Probe { toward: true, must_answer: true },
+        383 => Motion::Probe { toward: true, must_answer: false },
+        384 => Motion::Probe { toward: false, must_answer: true },
+        385 => Motion::Probe { toward: false, must_answer: false },
+        730 => Motion::Cycle(Cycle::ChipBreaking),
+        800 => Motion::None,
+        810 => Motion::Cycle(Cycle::Plain),
+        820 => Motion::Cycle(Cycle::Dwelling),
+        830 => Motion::Cycle(Cycle::Pecking),
+        850 => Motion::Cycle(Cycle::Boring),
+        890 => Motion::Cycle(Cycle::BoringDwelling),
+        _ => return None,
+    })
+}
+
+/// Whether a G code is a drilling cycle in every dialect that has cycles.
+pub(super) fn is_cycle(code: u16) -> bool {
+    matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
+}
+
+/// What a G or M code is called: `G1`, `G38.2`.
+pub(super) fn name(letter: char, code: u16) -> String {
+    match code % 10 {
+        0 => format!("{letter}{}", code / 10),
+        tenth => format!("{letter}{}.{tenth}", code / 10),
+    }
+}

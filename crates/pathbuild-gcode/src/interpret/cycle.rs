@@ -1,0 +1,196 @@
+//! Drilling cycles, as the moves that they stand for, along the axis across the plane. (RS274/NGC, 3.5.16)
+//!
+//! "Height" and the names of Z are those of the plane XY, which is nearly always meant.
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::codes::{self, Cycle};
+use super::execute::{Interpreter, whole};
+use super::gather::Slot;
+use super::state::CycleState;
+use super::step::{Action, Axes, Move, Pace, Path, Position};
+use crate::read::{Block, Span};
+
+/// So far above the last depth a pecking cycle comes back down at rapid speed, and so far a chip-breaking one lifts: 0.010 inches.
+const CLEARANCE: f64 = 0.254;
+
+/// The most moves that one line may stand for, so that `Q0.000001 L99999` is no way to fill the memory.
+const MOST_MOVES: f64 = 100_000.0;
+
+/// The numbers of one cycle, in mm and seconds.
+#[derive(Clone, Copy, Debug)]
+struct Hole {
+    cycle: Cycle,
+    /// Where the rapid moves end above the material.
+    r: f64,
+    bottom: f64,
+    /// Where it lifts to in the end.
+    clear: f64,
+    /// Depth of a step.
+    step: f64,
+    dwell: f64,
+}
+
+impl Interpreter<'_> {
+    /// Forgets the numbers of the cycle before; where the tool was is remembered for a whole series of cycles.
+    pub(super) fn begin_cycle(&mut self, series_goes_on: bool) {
+        let initial = if series_goes_on { self.state.cycle.initial } else { self.state.position.at };
+        self.state.cycle = CycleState { initial, ..CycleState::default() };
+    }
+
+    pub(super) fn cycle(&mut self, block: &Block<'_>, cycle: Cycle) {
+        let coordinates = self.words.values.take_coordinates();
+        let repeats = self.repeats(block);
+        let axis = self.state.plane.third();
+        self.remember(coordinates[axis]);
+        let Some(hole) = self.hole(block, cycle) else { return };
+        let mut old = self.old_height();
+        if old < hole.r {
+            self.lift_to(block, hole.r);
+            old = hole.r;
+        }
+        let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { old }, ..hole };
+        if f64::from(repeats) * moves_of(&hole) > MOST_MOVES {
+            return self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
+                d.with("word", "Q, L")
+                    .with("value", f64::from(repeats))
+                    .with("limits", "at most 100000 moves in all")
+            });
+        }
+        for _ in 0..repeats {
+            let mut beside = coordinates;
+            beside[axis] = None;
+            let mut over = self.target(beside);
+            over.at[axis] = old;
+            over.known = over.known.with(Axes::of(axis));
+            self.rapid(block, over);
+            if old != hole.r {
+                self.lift_to(block, hole.r);
+            }
+            self.drill(block, &hole);
+            old = hole.clear;
+        }
+    }
+
+    fn repeats(&mut self, block: &Block<'_>) -> u32 {
+        let Some(slot) = self.words.values.take_slot(b'L') else { return 1 };
+        match whole(slot.value) {
+            Some(repeats) if repeats >= 1 => repeats,
+            _ => {
+                self.out_of_range(block, "L", slot, "a whole number of holes, 1 or more");
+                1
+            }
+        }
+    }
+
+    /// Keeps R, Z, P and Q for this line and the next ones of the same cycle. R and Z are kept as heights, so that in relative mode the
+    /// next line drills as deep as this one.
+    fn remember(&mut self, z: Option<Slot>) {
+        let shift = self.state.offsets.shift(self.state.plane.third());
+        let old = self.old_height();
+        let r = self.words.values.take_slot(b'R').map(|slot| self.millimetres(slot));
+        let q = self.words.values.take_slot(b'Q').map(|slot| self.millimetres(slot));
+        let p = self.words.values.take(b'P');
+        let z = z.map(|slot| self.millimetres(slot));
+        let incremental = self.state.incremental;
+        let kept = &mut self.state.cycle;
+        kept.r = r.map(|r| if incremental { old + r } else { r + shift }).or(kept.r);
+        kept.z = z.map(|z| if incremental { kept.r.unwrap_or(old) + z } else { z + shift }).or(kept.z);
+        kept.p = p.or(kept.p);
+        kept.q = q.or(kept.q);
+    }
+
+    fn hole(&mut self, block: &Block<'_>, cycle: Cycle) -> Option<Hole> {
+        let CycleState { r, z, p, q, .. } = self.state.cycle;
+        let needs_step = matches!(cycle, Cycle::ChipBreaking | Cycle::Pecking);
+        let needs_dwell = matches!(cycle, Cycle::Dwelling | Cycle::BoringDwelling);
+        let missing = [
+            ("R", r.is_none()),
+            ("Z", z.is_none()),
+            ("Q", needs_step && q.is_none()),
+            ("P", needs_dwell && p.is_none()),
+        ];
+        if let Some((letter, _)) = missing.into_iter().find(|(_, is_missing)| *is_missing) {
+            let word = codes::name('G', self.state.motion_code);
+            self.report(block, &say::NEEDS, Span::new(0, block.text.len()), |d| {
+                d.with("word", word).with("missing", letter)
+            });
+            return None;
+        }
+        let step = if needs_step { q? } else { f64::INFINITY };
+        let dwell = if needs_dwell { p? } else { 0.0 };
+        if step <= 0.0 || dwell < 0.0 {
+            let (word, value) = if step <= 0.0 { ("Q", step) } else { ("P", dwell) };
+            self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
+                d.with("word", word).with("value", value).with("limits", "more than 0")
+            });
+            return None;
+        }
+        let (r, bottom) = (r?, z?);
+        if bottom > r {
+            self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
+                d.with("word", "R").with("value", r).with("limits", "not below Z")
+            });
+            return None;
+        }
+        Some(Hole { cycle, r, bottom, clear: r, step, dwell })
+    }
+
+    /// The height that is the tool's before a hole: where the series began (G98), or where it is (G99).
+    fn old_height(&self) -> f64 {
+        let axis = self.state.plane.third();
+        if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }
+    }
+
+    fn drill(&mut self, block: &Block<'_>, hole: &Hole) {
+        let mut depth = hole.r - hole.step;
+        while depth > hole.bottom {
+            self.feed_to(block, depth);
+            if hole.cycle == Cycle::Pecking {
+                self.lift_to(block, hole.r);
+            }
+            self.lift_to(block, (depth + CLEARANCE).min(hole.r));
+            depth -= hole.step;
+        }
+        self.feed_to(block, hole.bottom);
+        if matches!(hole.cycle, Cycle::Dwelling | Cycle::BoringDwelling) {
+            self.step(block, Action::Dwell(hole.dwell));
+        }
+        match hole.cycle {
+            Cycle::Boring => self.feed_to(block, hole.r),
+            Cycle::BoringDwelling => return self.feed_to(block, hole.clear),
+            _ => {}
+        }
+        self.lift_to(block, hole.clear);
+    }
+
+    fn feed_to(&mut self, block: &Block<'_>, z: f64) {
+        let it = self.vertical(Pace::Feed(0.0), z);
+        let feed = self.feed(block, &it);
+        self.emit_move(block, Move { pace: Pace::Feed(feed), ..it });
+    }
+
+    fn lift_to(&mut self, block: &Block<'_>, z: f64) {
+        let it = self.vertical(Pace::Rapid, z);
+        self.emit_move(block, it);
+    }
+
+    fn vertical(&self, pace: Pace, z: f64) -> Move {
+        let from = self.state.position;
+        let mut to = from;
+        let axis = self.state.plane.third();
+        to.at[axis] = z;
+        to.known = to.known.with(Axes::of(axis));
+        Move { from, to, path: Path::Line, pace, named: None }
+    }
+
+    fn rapid(&mut self, block: &Block<'_>, to: Position) {
+        let from = self.state.position;
+        self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None });
+    }
+}
+
+/// About how many moves a hole takes.
+fn moves_of(hole: &Hole) -> f64 {
+    5.0 + 3.0 * (hole.r - hole.bottom) / hole.step
+}

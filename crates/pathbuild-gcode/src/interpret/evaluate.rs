@@ -1,0 +1,171 @@
+//! Parameters, and the values of expressions. (`reference/cad6_xpertmill_gcode.md`, section 5.2)
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::Word;
+
+use crate::read::{Binary, Block, Code, Function, Op, Span};
+
+/// LinuxCNC takes numbers this near to each other as equal.
+const EQUAL: f64 = 1e-6;
+
+/// Why an expression has no value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fault(pub(super) &'static Word);
+
+/// The parameters of a program. Those that were never set are 0 by number, and nothing by name.
+#[derive(Debug, Default)]
+pub(super) struct Parameters {
+    numbered: BTreeMap<u32, f64>,
+    named: BTreeMap<Box<str>, f64>,
+    stack: Vec<f64>,
+    /// Parameters read that only the machine knows.
+    pub(super) machine_values: Vec<u32>,
+}
+
+impl Parameters {
+    pub(super) fn set(&mut self, number: u32, value: f64) {
+        self.numbered.insert(number, value);
+    }
+
+    pub(super) fn set_named(&mut self, name: Box<str>, value: f64) {
+        self.named.insert(name, value);
+    }
+
+    /// The value of an expression of a block; parameters go from 1 to `most`.
+    pub(super) fn evaluate(&mut self, block: &Block<'_>, code: Code, most: u32) -> Result<f64, Fault> {
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.clear();
+        let result = self.run(block, block.code(code), most, &mut stack);
+        self.stack = stack;
+        result
+    }
+
+    fn run(&mut self, block: &Block<'_>, code: &[Op], most: u32, stack: &mut Vec<f64>) -> Result<f64, Fault> {
+        for op in code {
+            let value = match *op {
+                Op::Number(value) => value,
+                Op::Named(name) => self.by_name(block, name)?,
+                Op::Exists(name) => f64::from(u8::from(self.named.contains_key(&name_of(block, name)))),
+                Op::Parameter => {
+                    let index = pop(stack);
+                    self.by_number(index, most)?
+                }
+                Op::Function(function) => apply(function, pop(stack))?,
+                Op::Atan => {
+                    let x = pop(stack);
+                    libm::atan2(pop(stack), x).to_degrees()
+                }
+                Op::Binary(operator) => {
+                    let right = pop(stack);
+                    combine(operator, pop(stack), right)?
+                }
+            };
+            if !value.is_finite() {
+                return Err(NOT_FINITE);
+            }
+            stack.push(value);
+        }
+        Ok(pop(stack))
+    }
+
+    fn by_number(&mut self, index: f64, most: u32) -> Result<f64, Fault> {
+        let number = parameter_number(index, most)?;
+        if (5061..=5070).contains(&number) || (5400..=5433).contains(&number) {
+            self.machine_values.push(number);
+        }
+        Ok(self.numbered.get(&number).copied().unwrap_or(0.0))
+    }
+
+    fn by_name(&self, block: &Block<'_>, name: Span) -> Result<f64, Fault> {
+        self.named.get(&name_of(block, name)).copied().ok_or(NEVER_SET)
+    }
+}
+
+/// Names do not depend on case or blanks.
+pub(super) fn name_of(block: &Block<'_>, name: Span) -> Box<str> {
+    let name = block.text_of(name);
+    name.chars().filter(|letter| !letter.is_whitespace()).flat_map(char::to_lowercase).collect()
+}
+
+/// A number as that of a parameter.
+pub(super) fn parameter_number(index: f64, most: u32) -> Result<u32, Fault> {
+    let whole = libm::round(index);
+    if libm::fabs(index - whole) > 0.0001 || whole < 1.0 || whole > f64::from(most) {
+        return Err(NO_SUCH_PARAMETER);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, from 1 to a u32")]
+    Ok(whole as u32)
+}
+
+/// The reader has compiled the code: there is an operand for every operator.
+fn pop(stack: &mut Vec<f64>) -> f64 {
+    stack.pop().unwrap_or(0.0)
+}
+
+fn apply(function: Function, x: f64) -> Result<f64, Fault> {
+    let within_one = |x: f64| if (-1.0..=1.0).contains(&x) { Ok(x) } else { Err(OUTSIDE_ONE) };
+    Ok(match function {
+        Function::Negate => -x,
+        Function::Abs => x.abs(),
+        Function::Acos => libm::acos(within_one(x)?).to_degrees(),
+        Function::Asin => libm::asin(within_one(x)?).to_degrees(),
+        Function::Cos => libm::cos(x.to_radians()),
+        Function::Exp => libm::exp(x),
+        Function::Fix => x.floor(),
+        Function::Fup => x.ceil(),
+        Function::Ln if x > 0.0 => libm::log(x),
+        Function::Ln => return Err(LOGARITHM),
+        Function::Round => libm::round(x),
+        Function::Sin => libm::sin(x.to_radians()),
+        Function::Sqrt if x >= 0.0 => libm::sqrt(x),
+        Function::Sqrt => return Err(NEGATIVE_ROOT),
+        Function::Tan => libm::tan(x.to_radians()),
+    })
+}
+
+fn combine(operator: Binary, left: f64, right: f64) -> Result<f64, Fault> {
+    let truth = |is_true: bool| Ok(f64::from(u8::from(is_true)));
+    let equal = libm::fabs(left - right) < EQUAL;
+    match operator {
+        Binary::Power if left < 0.0 && libm::floor(right) != right => Err(NEGATIVE_POWER),
+        Binary::Power => Ok(libm::pow(left, right)),
+        Binary::Times => Ok(left * right),
+        Binary::Divide | Binary::Modulo if right == 0.0 => Err(DIVISION_BY_ZERO),
+        Binary::Divide => Ok(left / right),
+        Binary::Modulo => {
+            let rest = libm::fmod(left, right);
+            Ok(if rest < 0.0 { rest + right.abs() } else { rest })
+        }
+        Binary::Plus => Ok(left + right),
+        Binary::Minus => Ok(left - right),
+        Binary::And => truth(left != 0.0 && right != 0.0),
+        Binary::Or => truth(left != 0.0 || right != 0.0),
+        Binary::Xor => truth((left != 0.0) != (right != 0.0)),
+        Binary::Equal => truth(equal),
+        Binary::NotEqual => truth(!equal),
+        Binary::Less => truth(left < right),
+        Binary::LessOrEqual => truth(left <= right || equal),
+        Binary::Greater => truth(left > right),
+        Binary::GreaterOrEqual => truth(left >= right || equal),
+    }
+}
+
+const NOT_FINITE: Fault = Fault(&Word { en: "the result is too large", de: "das Ergebnis ist zu groß" });
+const NEVER_SET: Fault =
+    Fault(&Word { en: "the parameter was never set", de: "der Parameter wurde nie gesetzt" });
+const NO_SUCH_PARAMETER: Fault =
+    Fault(&Word { en: "there is no parameter of that number", de: "es gibt keinen Parameter dieser Nummer" });
+const OUTSIDE_ONE: Fault =
+    Fault(&Word { en: "the number is not between -1 and 1", de: "die Zahl liegt nicht zwischen -1 und 1" });
+const LOGARITHM: Fault = Fault(&Word {
+    en: "the logarithm of a number that is not positive",
+    de: "der Logarithmus einer nicht positiven Zahl",
+});
+const NEGATIVE_ROOT: Fault =
+    Fault(&Word { en: "the root of a negative number", de: "die Wurzel einer negativen Zahl" });
+const NEGATIVE_POWER: Fault = Fault(&Word {
+    en: "a negative number to a power that is not whole",
+    de: "eine negative Zahl mit einem nicht ganzen Exponenten",
+});
+const DIVISION_BY_ZERO: Fault = Fault(&Word { en: "division by zero", de: "Division durch null" });

@@ -1,0 +1,144 @@
+//! Block by block, in the order of execution that the standard gives the words of a block, whatever their order in the text.
+//! (`reference/cad6_xpertmill_gcode.md`, section 5.3)
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message, Severity};
+
+use super::evaluate::Parameters;
+use super::gather::{Gathered, Slot};
+use super::options::{Heights, Options};
+use super::state::State;
+use super::step::{Action, Move, Step};
+use crate::dialect::{Percent, Rules};
+use crate::read::{At, Block, Problems, Span};
+
+/// A program's state, and what its blocks do.
+pub(super) struct Interpreter<'i> {
+    pub(super) rules: &'static Rules,
+    pub(super) options: &'i Options,
+    pub(super) state: State,
+    pub(super) words: Gathered,
+    pub(super) problems: Problems,
+    pub(super) parameters: Parameters,
+    each: &'i mut dyn FnMut(Step),
+    pub(super) ended: bool,
+}
+
+impl<'i> Interpreter<'i> {
+    pub(super) fn new(rules: &'static Rules, options: &'i Options, each: &'i mut dyn FnMut(Step)) -> Self {
+        Self {
+            rules,
+            options,
+            state: State::new(rules, options.offsets.as_ref()),
+            words: Gathered::default(),
+            problems: Problems::default(),
+            parameters: Parameters::default(),
+            each,
+            ended: false,
+        }
+    }
+
+    /// Whether M2 or M30 has ended the program.
+    pub(super) fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// What was wrong, when the file ends in this line.
+    pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
+        if !self.ended && !is_framed {
+            let words = match self.rules.spelling.percent {
+                Percent::Frame => "M2, M30, %",
+                Percent::Start => "M30",
+                Percent::Refused => "M2, M30",
+            };
+            self.problems.add_at_line(&say::NO_END, last_line, |d| d.with("words", words));
+        }
+        self.problems
+    }
+
+    /// Executes a block.
+    pub(super) fn block(&mut self, block: &Block<'_>) {
+        for comment in block.comments {
+            self.step(block, Action::Comment(block.text_of(comment.text).into()));
+        }
+        if let Some(o_word) = block.o_word {
+            self.report(block, &say::O_WORD, o_word, |d| d);
+        }
+        self.words.clear();
+        if let Err((fault, span)) = self.gather(block) {
+            self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
+            return;
+        }
+        self.set_parameters();
+        self.check_conflicts(block);
+        self.execute(block);
+        self.report_unused(block);
+    }
+
+    pub(super) fn step(&mut self, block: &Block<'_>, action: Action) {
+        (self.each)(Step { line: block.line, action });
+    }
+
+    pub(super) fn emit_move(&mut self, block: &Block<'_>, it: Move) {
+        self.state.position = it.to;
+        self.step(block, Action::Move(it));
+    }
+
+    pub(super) fn report(
+        &mut self,
+        block: &Block<'_>,
+        message: &'static Message,
+        span: Span,
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        let dialect = self.rules.dialect.name();
+        self.problems.add(message, At::block(block, span), |d| values(d).with("dialect", dialect));
+    }
+
+    /// Reports what the dialect does not know: a warning where it passes over such things.
+    pub(super) fn report_unknown(
+        &mut self,
+        block: &Block<'_>,
+        message: &'static Message,
+        span: Span,
+        word: String,
+    ) {
+        let severity = if self.rules.words.lenient { Severity::Warning } else { Severity::Error };
+        self.report(block, message, span, |mut diagnostic| {
+            diagnostic.severity = severity;
+            diagnostic.with("word", word)
+        });
+    }
+
+    fn execute(&mut self, block: &Block<'_>) {
+        self.feed_mode(block);
+        self.set_feed(block);
+        self.set_speed(block);
+        self.tool(block);
+        self.spindle_and_coolant(block);
+        self.dwell(block);
+        self.modes(block);
+        let has_moved = self.coordinates_taken(block) || self.motion(block);
+        if has_moved {
+            self.check_stop_before_motion(block);
+        }
+        self.stop(block);
+    }
+
+    /// The height or coordinate that a slot stands for, in mm.
+    pub(super) fn millimetres(&self, slot: Slot) -> f64 {
+        let value = match self.options.heights {
+            Heights::Nominal => slot.nominal.unwrap_or(slot.value),
+            Heights::AsWritten => slot.value,
+        };
+        value * self.state.unit
+    }
+}
+
+/// A number of tools, layers, repeats.
+pub(super) fn whole(value: f64) -> Option<u32> {
+    let nearest = libm::round(value);
+    let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and within a u32")]
+    fits.then_some(nearest as u32)
+}

@@ -1,0 +1,121 @@
+//! F, S, units: what numbers count.
+
+use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::codes::{self, Command, FeedUnit, Group};
+use super::execute::Interpreter;
+use super::state::INCH;
+use super::step::Move;
+use crate::dialect::FeedMode;
+use crate::read::{Block, Span};
+
+const MILLIMETRES: Word = Word { en: "millimetres", de: "Millimeter" };
+const INCHES: Word = Word { en: "inches", de: "Zoll" };
+
+impl Interpreter<'_> {
+    pub(super) fn feed_mode(&mut self, block: &Block<'_>) {
+        let Some((Command::FeedMode(unit), code, _)) = self.words.of_group(Group::FeedMode) else { return };
+        if self.rules.feed_mode == FeedMode::ClearsFeed || unit != self.state.feed_unit {
+            self.state.feed = 0.0;
+            self.state.feed_cleared = Some((block.line, code));
+        }
+        self.state.feed_unit = unit;
+    }
+
+    pub(super) fn set_feed(&mut self, block: &Block<'_>) {
+        let Some(slot) = self.words.values.take_slot(b'F') else { return };
+        if self.rules.layers && self.options.ignore_feed {
+            return self.report(block, &say::FEED_IGNORED, slot.span, |d| d);
+        }
+        let unit = match self.words.of_group(Group::Units) {
+            Some((Command::Inches(inches), ..)) => unit_of(inches),
+            _ => self.state.unit,
+        };
+        self.state.feed =
+            if self.state.feed_unit == FeedUnit::InverseTime { slot.value } else { slot.value * unit };
+        self.state.feed_cleared = None;
+        self.state.stated.feed_missing = false;
+    }
+
+    pub(super) fn set_speed(&mut self, block: &Block<'_>) {
+        let Some(slot) = self.words.values.take_slot(b'S') else { return };
+        if slot.value < 0.0 {
+            return self.out_of_range(block, "S", slot, "0 or more");
+        }
+        self.state.spindle.speed = slot.value;
+        if !self.rules.layers {
+            return;
+        }
+        if let Some(old) = self.state.layer_speed.filter(|old| *old != slot.value) {
+            let layer = u64::from(self.state.layer);
+            self.report(block, &say::SPEED_REPLACED, slot.span, |d| {
+                d.with("layer", layer).with("old", old).with("new", slot.value)
+            });
+        }
+        self.state.layer_speed = Some(slot.value);
+    }
+
+    pub(super) fn units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {
+        self.state.unit = unit_of(inches);
+        self.state.stated.units = true;
+        let Some(said) = self.rules.layers.then(|| unit_said(block)).flatten() else { return };
+        if said != inches {
+            let (taken, comment) = if inches { (&INCHES, &MILLIMETRES) } else { (&MILLIMETRES, &INCHES) };
+            self.report(block, &say::UNITS_CONTRADICTED, span, |d| {
+                d.with("word", codes::name('G', code)).with("unit", taken).with("comment", comment)
+            });
+        }
+    }
+
+    /// The feed of a cutting move, in mm/min; 0, with a report, if there is none.
+    pub(super) fn feed(&mut self, block: &Block<'_>, it: &Move) -> f64 {
+        let per_minute = match self.state.feed_unit {
+            FeedUnit::PerMinute => self.state.feed,
+            FeedUnit::PerTurn => self.state.feed * self.state.spindle.speed,
+            FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * it.length(),
+            FeedUnit::InverseTime => 0.0,
+        };
+        if per_minute == 0.0 && !it.is_nothing() {
+            self.report_missing_feed(block);
+        }
+        per_minute
+    }
+
+    /// Once until the next F: it is one mistake, however many moves follow.
+    fn report_missing_feed(&mut self, block: &Block<'_>) {
+        if std::mem::replace(&mut self.state.stated.feed_missing, true) {
+            return;
+        }
+        let whole = Span::new(0, block.text.len());
+        match (self.state.feed_unit, self.state.feed_cleared) {
+            (FeedUnit::InverseTime, _) => self.report(block, &say::INVERSE_TIME_WITHOUT_FEED, whole, |d| d),
+            (FeedUnit::PerTurn, _) if self.state.feed > 0.0 => {
+                self.report(block, &say::FEED_PER_TURN_WITHOUT_SPEED, whole, |d| d);
+            }
+            (_, Some((line, code))) => self.report(block, &say::FEED_CLEARED, whole, |d| {
+                d.with("word", codes::name('G', code)).with("line", u64::from(line))
+            }),
+            _ => self.report(block, &say::NO_FEED, whole, |d| d),
+        }
+    }
+}
+
+fn unit_of(inches: bool) -> f64 {
+    if inches { INCH } else { 1.0 }
+}
+
+/// Whether a comment of the block names inches (true) or millimetres (false).
+fn unit_said(block: &Block<'_>) -> Option<bool> {
+    block.comments.iter().find_map(|comment| {
+        let text = block.text_of(comment.text).to_lowercase();
+        let names = |words: &[&str]| words.iter().any(|word| text.contains(word));
+        if names(&["inch", "zoll"]) {
+            Some(true)
+        } else if names(&["millimet", "mm"]) {
+            Some(false)
+        } else {
+            None
+        }
+    })
+}

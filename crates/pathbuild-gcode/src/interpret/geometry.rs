@@ -1,0 +1,141 @@
+//! Lengths and extents of moves.
+
+use std::f64::consts::{PI, TAU};
+
+use super::codes::Plane;
+use super::step::{Arc, Axes, Move, Path, Position};
+
+/// Ends of an arc whose directions from the centre differ by less (in radians) are one direction: it is a full circle.
+const SAME_DIRECTION: f64 = 5e-7;
+
+impl Move {
+    /// Its length in space, in mm. An axis of which one end is not known adds nothing.
+    pub fn length(&self) -> f64 {
+        let known = self.from.known.and(self.to.known);
+        let step =
+            |axis: usize| if known.has(Axes::of(axis)) { self.to.at[axis] - self.from.at[axis] } else { 0.0 };
+        match self.path {
+            Path::Arc(arc) if known.has(arc.plane.axes_of_plane()) => {
+                libm::hypot(arc.radius(&self.from) * arc.sweep(&self.from, &self.to), step(arc.plane.third()))
+            }
+            _ => libm::hypot(libm::hypot(step(0), step(1)), step(2)),
+        }
+    }
+
+    /// The smallest box that it stays in, as lowest and highest coordinates; unknown ends are left out, and an axis with none known
+    /// is `None`.
+    pub fn extent(&self) -> [Option<(f64, f64)>; 3] {
+        let mut extent = [0, 1, 2].map(|axis| {
+            let known = |end: &Position| end.known.has(Axes::of(axis)).then(|| end.at[axis]);
+            match (known(&self.from), known(&self.to)) {
+                (Some(from), Some(to)) => Some((from.min(to), from.max(to))),
+                (from, to) => from.or(to).map(|at| (at, at)),
+            }
+        });
+        if let Path::Arc(arc) = self.path {
+            arc.widen(&self.from, &self.to, &mut extent);
+        }
+        extent
+    }
+
+    /// Whether it goes nowhere.
+    pub fn is_nothing(&self) -> bool {
+        matches!(self.path, Path::Line) && self.from == self.to
+    }
+}
+
+impl Plane {
+    /// The indices of the plane's first and second axis; turning the first to the second is counterclockwise.
+    pub fn axes(self) -> [usize; 2] {
+        match self {
+            Self::Xy => [0, 1],
+            Self::Zx => [2, 0],
+            Self::Yz => [1, 2],
+        }
+    }
+
+    /// The index of the axis across.
+    pub fn third(self) -> usize {
+        match self {
+            Self::Xy => 2,
+            Self::Zx => 1,
+            Self::Yz => 0,
+        }
+    }
+
+    pub(crate) fn axes_of_plane(self) -> Axes {
+        Axes::ALL.without(Axes::of(self.third()))
+    }
+
+    pub(crate) fn project(self, at: &[f64; 3]) -> [f64; 2] {
+        self.axes().map(|axis| at[axis])
+    }
+}
+
+impl Arc {
+    /// The radius at a place, in mm.
+    pub fn radius(&self, end: &Position) -> f64 {
+        let [a, b] = self.spoke(&end.at);
+        libm::hypot(a, b)
+    }
+
+    /// The angle that it goes through, in radians, extra turns included; never negative.
+    pub fn sweep(&self, from: &Position, to: &Position) -> f64 {
+        let ([a, b], [c, d]) = (self.spoke(&from.at), self.spoke(&to.at));
+        let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
+        let sweep = if self.clockwise { -counterclockwise } else { counterclockwise };
+        let sweep = if sweep <= SAME_DIRECTION { sweep + TAU } else { sweep };
+        sweep + TAU * f64::from(self.extra_turns)
+    }
+
+    /// The place that a share (0 to 1) of the way from `from` to `to` leads to.
+    pub fn point(&self, from: &Position, to: &Position, share: f64) -> [f64; 3] {
+        let sweep = self.sweep(from, to) * share;
+        let (sin, cos) = libm::sincos(if self.clockwise { -sweep } else { sweep });
+        let [a, b] = self.spoke(&from.at);
+        let (start, end) = (self.radius(from), self.radius(to));
+        let stretch = if start > 0.0 { 1.0 + share * (end / start - 1.0) } else { 1.0 };
+        let [first, second] = self.plane.axes();
+        let third = self.plane.third();
+        let mut at = [0.0; 3];
+        at[first] = self.centre[0] + (a * cos - b * sin) * stretch;
+        at[second] = self.centre[1] + (a * sin + b * cos) * stretch;
+        at[third] = from.at[third] + share * (to.at[third] - from.at[third]);
+        at
+    }
+
+    /// The direction of travel in the plane at one of its ends, as a unit vector in the plane's axes.
+    pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
+        let [a, b] = self.spoke(at);
+        let radius = libm::hypot(a, b);
+        if radius == 0.0 {
+            return [0.0, 0.0];
+        }
+        if self.clockwise { [b / radius, -a / radius] } else { [-b / radius, a / radius] }
+    }
+
+    fn spoke(&self, at: &[f64; 3]) -> [f64; 2] {
+        let [a, b] = self.plane.project(at);
+        [a - self.centre[0], b - self.centre[1]]
+    }
+
+    /// Adds the outermost points of the circle that the arc comes through.
+    fn widen(&self, from: &Position, to: &Position, extent: &mut [Option<(f64, f64)>; 3]) {
+        if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
+            return;
+        }
+        let [a, b] = self.spoke(&from.at);
+        let (radius, sweep) = (libm::hypot(a, b), self.sweep(from, to));
+        let start = libm::atan2(b, a);
+        for (quarter, (slot, sign)) in [(0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)].into_iter().enumerate() {
+            let outermost = quarter as f64 * PI / 2.0;
+            let way = if self.clockwise { start - outermost } else { outermost - start };
+            let way = way - TAU * libm::floor(way / TAU);
+            if way <= sweep {
+                let at = self.centre[slot] + sign * radius;
+                let axis = &mut extent[self.plane.axes()[slot]];
+                *axis = axis.map(|(low, high)| (low.min(at), high.max(at)));
+            }
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Which dialect a file is in, and why that is thought. (spec/90-gcode-import.md: "else guessed and said")
+
+use memchr::memmem;
+use pathbuild_diagnostic::{Code, Word};
+
+use super::{Options, interpret_each};
+use crate::dialect::Dialect;
+
+/// So much of a file is looked at, in bytes.
+const LOOKED_AT: usize = 65_536;
+
+/// A dialect, and what speaks for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Guess {
+    pub dialect: Dialect,
+    pub evidence: Evidence,
+}
+
+/// What speaks for a dialect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Evidence {
+    /// A phrase such as "it has correction formulas".
+    pub reason: &'static Word,
+    /// The line that shows it, from 1.
+    pub line: Option<u32>,
+}
+
+/// Guesses the dialect of a file from signs that only one dialect has, else from which one knows its words.
+pub fn guess(text: &[u8]) -> Guess {
+    let head = &text[..text.len().min(LOOKED_AT)];
+    by_sign(head).unwrap_or_else(|| by_words(head))
+}
+
+/// A sign of a dialect: whether a line has it.
+type Sign = (Dialect, fn(&[u8]) -> bool, &'static Word);
+
+const SIGNS: &[Sign] = &[
+    (
+        Dialect::Native,
+        |line| has(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
+        &Word { en: "it has correction formulas", de: "es hat Korrekturformeln" },
+    ),
+    (
+        Dialect::Native,
+        |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
+        &Word { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
+    ),
+    (
+        Dialect::Xpertmill,
+        |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
+        &Word { en: "it has comments with //", de: "es hat Kommentare mit //" },
+    ),
+    (
+        Dialect::Xpertmill,
+        |line| {
+            line.starts_with(b"M6 ") && is_number(&line[3..])
+                || line.starts_with(b"M06 ") && is_number(&line[4..])
+        },
+        &Word {
+            en: "it has a tool number without T behind M6",
+            de: "es hat hinter M6 eine Werkzeugnummer ohne T",
+        },
+    ),
+    (
+        Dialect::LinuxCnc,
+        |line| has(line, b"#<"),
+        &Word { en: "it has parameters with names", de: "es hat Parameter mit Namen" },
+    ),
+    (
+        Dialect::LinuxCnc,
+        |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
+        &Word { en: "it has O words", de: "es hat O-Wörter" },
+    ),
+    (
+        Dialect::Grbl,
+        |line| matches!(line.first(), Some(b'(' | b';')) && has(&line.to_ascii_lowercase(), b"grbl"),
+        &Word { en: "a comment names it", de: "ein Kommentar nennt es" },
+    ),
+];
+
+fn by_sign(head: &[u8]) -> Option<Guess> {
+    let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
+    SIGNS.iter().find_map(|&(dialect, has_sign, reason)| {
+        let (line, _) = lines().find(|(_, line)| has_sign(line))?;
+        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line) } })
+    })
+}
+
+/// The first of the dialects that knows most of the words.
+fn by_words(head: &[u8]) -> Guess {
+    let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
+    let strangers = candidates.map(|dialect| unknown_words(head, dialect));
+    let fewest = strangers.iter().min().copied().unwrap_or(0);
+    let dialect =
+        candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
+    let reason = if fewest == 0 {
+        &Word { en: "it knows every word", de: "es kennt jedes Wort" }
+    } else {
+        &Word { en: "it knows most of the words", de: "es kennt die meisten Wörter" }
+    };
+    Guess { dialect: dialect.unwrap_or(Dialect::Rs274), evidence: Evidence { reason, line: None } }
+}
+
+fn unknown_words(head: &[u8], dialect: Dialect) -> usize {
+    let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
+    let is_stranger =
+        |code| matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment);
+    problems.iter().filter(|problem| is_stranger(problem.code())).count()
+}
+
+fn has(line: &[u8], sign: &[u8]) -> bool {
+    memmem::find(line, sign).is_some()
+}
+
+fn without_round_comments(line: &[u8]) -> &[u8] {
+    &line[..memchr::memchr(b'(', line).unwrap_or(line.len())]
+}
+
+fn is_number(text: &[u8]) -> bool {
+    let text = text.trim_ascii();
+    !text.is_empty() && text.iter().all(u8::is_ascii_digit)
+}
+
+/// Subroutines and branches; a bare `O1234` is another control's program number.
+fn ends_in_keyword(line: &[u8]) -> bool {
+    const KEYWORDS: [&[u8]; 10] =
+        [b"sub", b"endsub", b"call", b"if", b"else", b"endif", b"while", b"do", b"repeat", b"return"];
+    let lower = line.to_ascii_lowercase();
+    KEYWORDS.iter().any(|keyword| has(&lower, keyword))
+}

@@ -1,0 +1,80 @@
+//! What a program in G-code makes the machine do. (spec/90-gcode-import.md, "Interpreter"; `reference/cad6_xpertmill_gcode.md`, section 5)
+//!
+//! The result is a list of canonical [`Step`]s: everything in millimetres, absolute, with the position before and after, whatever the
+//! program's units, distance mode, coordinate system or cycles were. Every problem is a diagnostic with its line; a line that cannot
+//! be understood is left out, and what a later stage would get wrong because of it is left to the reader of the diagnostic.
+
+mod arc;
+mod codes;
+mod conflicts;
+mod cycle;
+mod evaluate;
+mod execute;
+mod feed;
+mod gather;
+mod geometry;
+mod guess;
+mod motion;
+mod offsets;
+mod options;
+mod places;
+mod program;
+mod state;
+mod step;
+mod switches;
+mod words;
+
+use pathbuild_diagnostic::Diagnostic;
+
+pub use codes::{Plane, WorkSystem};
+pub use guess::{Evidence, Guess, guess};
+pub use options::{Heights, MachineOffsets, Options, UnitCodes};
+pub use program::moves_of;
+pub use step::{Action, Arc, Axes, Coolant, Move, Named, Pace, Path, Position, Spindle, Step, Turning};
+
+use crate::dialect::Dialect;
+use crate::read::Reader;
+
+/// A program that has been interpreted.
+#[derive(Clone, Debug, Default)]
+pub struct Interpretation {
+    /// What the machine does, in order.
+    pub steps: Vec<Step>,
+    /// What is wrong with the file, by line.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Interpretation {
+    /// Its moves, with their lines.
+    pub fn moves(&self) -> Vec<(u32, Move)> {
+        self.steps.iter().filter_map(Step::as_move).collect()
+    }
+}
+
+/// Interprets a file and keeps everything it does.
+pub fn interpret(text: &[u8], dialect: Dialect, options: &Options) -> Interpretation {
+    let mut steps = Vec::new();
+    let problems = interpret_each(text, dialect, options, &mut |step| steps.push(step));
+    Interpretation { steps, problems }
+}
+
+/// Interprets a file of any size and hands on each step.
+pub fn interpret_each(
+    text: &[u8],
+    dialect: Dialect,
+    options: &Options,
+    each: &mut dyn FnMut(Step),
+) -> Vec<Diagnostic> {
+    let rules = dialect.rules();
+    let mut reader = Reader::new(text, rules);
+    let mut interpreter = execute::Interpreter::new(rules, options, each);
+    while let Some(block) = reader.next_block() {
+        interpreter.block(&block);
+        if interpreter.has_ended() {
+            reader.end_program();
+        }
+    }
+    let mut problems = interpreter.finish(reader.line(), reader.is_ended());
+    problems.append(reader.into_problems());
+    problems.into_diagnostics()
+}

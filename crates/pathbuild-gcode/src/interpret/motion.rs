@@ -1,0 +1,162 @@
+//! Moves: straight lines, probing, named places, and the commands that take coordinates without moving.
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::codes::{self, Command, Group, Motion};
+use super::execute::Interpreter;
+use super::gather::{Slot, Values};
+use super::step::{Axes, Move, Named, Pace, Path, Position};
+use crate::read::{Block, Span};
+
+impl Interpreter<'_> {
+    /// The motion of the block, if it has one; whether it moves.
+    pub(super) fn motion(&mut self, block: &Block<'_>) -> bool {
+        let stated = self.words.of_group(Group::Motion);
+        let has_coordinates = self.words.values.has_coordinates();
+        if let Some((command, code, span)) = stated {
+            self.change_motion(block, command, code, span);
+        }
+        let motion = self.state.motion;
+        let is_machine = self.words.of_group(Group::MachineCoordinates);
+        if let Some((.., span)) = is_machine {
+            self.check_machine_coordinates(block, motion, span);
+        }
+        let moves_without = stated.is_some() && matches!(motion, Motion::Arc { .. } | Motion::Cycle(_));
+        if !has_coordinates && !moves_without {
+            return false;
+        }
+        self.check_stated(block, stated.is_some(), motion);
+        self.state.offsets.fix_base();
+        match motion {
+            Motion::None => {
+                self.report(block, &say::NO_MOTION, self.coordinates_span(block), |d| d);
+                self.words.values.take_coordinates();
+            }
+            Motion::Rapid => self.straight(block, Pace::Rapid, is_machine.is_some()),
+            Motion::Feed => self.straight(block, Pace::Feed(0.0), is_machine.is_some()),
+            Motion::Arc { clockwise } => self.arc(block, clockwise),
+            Motion::Probe { toward, must_answer } => {
+                self.straight(block, Pace::Probe { feed: 0.0, toward, must_answer }, false);
+            }
+            Motion::Cycle(cycle) => self.cycle(block, cycle),
+            Motion::Unfollowed => self.jump(),
+        }
+        motion != Motion::None
+    }
+
+    pub(super) fn change_motion(&mut self, block: &Block<'_>, command: Command, code: u16, span: Span) {
+        let motion = if let Command::Motion(motion) = command {
+            motion
+        } else {
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", codes::name('G', code)));
+            Motion::Unfollowed
+        };
+        if motion != self.state.motion {
+            let goes_on = matches!((self.state.motion, motion), (Motion::Cycle(_), Motion::Cycle(_)));
+            self.begin_cycle(goes_on);
+        }
+        self.state.motion = motion;
+        self.state.motion_code = code;
+    }
+
+    fn check_machine_coordinates(&mut self, block: &Block<'_>, motion: Motion, span: Span) {
+        if self.state.incremental {
+            self.report(block, &say::MACHINE_COORDINATES_RELATIVE, span, |d| d);
+        } else if !matches!(motion, Motion::Rapid | Motion::Feed) {
+            self.report(block, &say::MACHINE_COORDINATES_MOTION, span, |d| d);
+        }
+    }
+
+    pub(super) fn coordinates_span(&self, block: &Block<'_>) -> Span {
+        let span = Values::AXES.iter().find_map(|axis| self.words.values.peek(*axis)).map(|slot| slot.span);
+        span.unwrap_or(Span::new(0, block.text.len()))
+    }
+
+    /// What should have been said before a move.
+    fn check_stated(&mut self, block: &Block<'_>, motion_is_stated: bool, motion: Motion) {
+        let span = self.coordinates_span(block);
+        if !std::mem::replace(&mut self.state.stated.units, true) {
+            let [inch, mm] = self.rules.unit_words.map(|code| codes::name('G', code));
+            self.report(block, &say::UNITS_NOT_STATED, span, |d| d.with("inch", inch).with("mm", mm));
+        }
+        if self.rules.layers {
+            if !motion_is_stated && motion != Motion::None && self.rules.motion_is_stated {
+                let word = codes::name('G', self.state.motion_code);
+                self.report(block, &say::MOTION_NOT_STATED, span, |d| d.with("word", word));
+            }
+            return;
+        }
+        if !std::mem::replace(&mut self.state.stated.distance, true) {
+            self.report(block, &say::MODES_NOT_STATED, span, |d| {
+                d.with("words", "G90, G91").with("taken", "G90")
+            });
+        }
+        let is_arc = matches!(motion, Motion::Arc { .. });
+        if is_arc && !std::mem::replace(&mut self.state.stated.plane, true) {
+            self.report(block, &say::MODES_NOT_STATED, span, |d| d.with("words", "G17").with("taken", "G17"));
+        }
+    }
+
+    /// Where coordinates lead from the present position.
+    pub(super) fn target(&self, coordinates: [Option<Slot>; 3]) -> Position {
+        let mut to = self.state.position;
+        for (axis, slot) in coordinates.into_iter().enumerate() {
+            let Some(slot) = slot else { continue };
+            if self.state.incremental {
+                to.at[axis] += self.millimetres(slot);
+            } else {
+                to.at[axis] = self.millimetres(slot) + self.state.offsets.shift(axis);
+                to.known = to.known.with(Axes::of(axis));
+            }
+        }
+        to
+    }
+
+    fn machine_target(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) -> Position {
+        let mut to = self.state.position;
+        for (axis, slot) in coordinates.into_iter().enumerate() {
+            let Some(slot) = slot else { continue };
+            match self.state.offsets.of_machine(axis, self.millimetres(slot)) {
+                Some(at) => {
+                    to.at[axis] = at;
+                    to.known = to.known.with(Axes::of(axis));
+                }
+                None => to.known = to.known.without(Axes::of(axis)),
+            }
+        }
+        if to.known != Axes::ALL {
+            let span = self.coordinates_span(block);
+            self.report(block, &say::POSITION_UNKNOWN, span, |d| d.with("word", "G53"));
+        }
+        to
+    }
+
+    fn straight(&mut self, block: &Block<'_>, pace: Pace, is_machine: bool) {
+        let coordinates = self.words.values.take_coordinates();
+        let to = if is_machine { self.machine_target(block, coordinates) } else { self.target(coordinates) };
+        let from = self.state.position;
+        let named = is_machine.then_some(Named::Machine);
+        let mut it = Move { from, to, path: Path::Line, pace, named };
+        it.pace = match pace {
+            Pace::Rapid => Pace::Rapid,
+            Pace::Feed(_) => Pace::Feed(self.feed(block, &it)),
+            Pace::Probe { toward, must_answer, .. } => {
+                Pace::Probe { feed: self.feed(block, &it), toward, must_answer }
+            }
+        };
+        self.emit_move(block, it);
+        if matches!(pace, Pace::Probe { .. }) {
+            let moved = (0..3)
+                .filter(|axis| coordinates[*axis].is_some())
+                .fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)));
+            self.state.position.known = to.known.without(moved);
+        }
+    }
+
+    /// The end of a motion that is not followed: where the tool is then, if the words say it.
+    fn jump(&mut self) {
+        let coordinates = self.words.values.take_coordinates();
+        self.state.position = self.target(coordinates);
+        self.use_all_words();
+    }
+}

@@ -1,0 +1,150 @@
+//! Commands that take a block's coordinates and are no motion (G10, G28, G30, G52, G92), and coordinate systems.
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::codes::{self, Command, Group, Origin, WorkSystem};
+use super::execute::{Interpreter, whole};
+use super::step::{Action, Axes, Move, Named, Pace, Path};
+use crate::read::{Block, Span};
+
+impl Interpreter<'_> {
+    /// Executes the command of the block that takes coordinates and is no motion; whether there is one.
+    pub(super) fn coordinates_taken(&mut self, block: &Block<'_>) -> bool {
+        let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
+        match command {
+            Command::SetOffsets => self.set_offsets(block, span),
+            Command::Home(which) => self.home(block, which, code),
+            Command::StoreHome(which) => {
+                let here = self.state.position;
+                self.state.offsets.store_home(which, &here);
+                return false;
+            }
+            Command::LocalOffset => self.local_offset(),
+            Command::SetOrigin => self.set_origins(block, span),
+            Command::Origin(other) => {
+                self.change_origin(other);
+                return false;
+            }
+            _ => return false,
+        }
+        // A motion word beside it still sets the mode; its coordinates are spent.
+        if let Some((command @ Command::Motion(_), code, span)) = self.words.of_group(Group::Motion) {
+            self.change_motion(block, command, code, span);
+        }
+        true
+    }
+
+    fn set_offsets(&mut self, block: &Block<'_>, span: Span) {
+        let kind = self.words.values.take(b'L').and_then(whole);
+        let slot = self.words.values.take_slot(b'P');
+        let coordinates = self.words.values.take_coordinates();
+        let number = slot.and_then(|slot| whole(slot.value));
+        let system = number.and_then(WorkSystem::from_number);
+        let (Some(kind @ (2 | 20)), Some(number)) = (kind, number) else {
+            self.use_all_words();
+            return self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", "G10"));
+        };
+        if number > 9 {
+            return self.report(block, &say::OUT_OF_RANGE, span, |d| {
+                d.with("word", "P").with("value", f64::from(number)).with("limits", "0 to 9")
+            });
+        }
+        if self.words.values.take(b'R').is_some() {
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", "G10 R"));
+        }
+        for (axis, slot) in coordinates.into_iter().enumerate() {
+            let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
+            if kind == 2 {
+                self.state.offsets.place(system, axis, coordinate);
+            } else {
+                let here = self.state.position.at[axis];
+                self.state.offsets.place_here(system, axis, coordinate, here);
+            }
+        }
+    }
+
+    fn home(&mut self, block: &Block<'_>, which: usize, code: u16) {
+        self.state.offsets.fix_base();
+        let coordinates = self.words.values.take_coordinates();
+        let given = (0..3)
+            .filter(|axis| coordinates[*axis].is_some())
+            .fold(Axes::NONE, |axes, axis| axes.with(Axes::of(axis)));
+        if !given.is_empty() {
+            let to = self.target(coordinates);
+            let from = self.state.position;
+            self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None });
+        }
+        let from = self.state.position;
+        let mut to = from;
+        for axis in (0..3).filter(|axis| given.is_empty() || given.has(Axes::of(*axis))) {
+            match self.state.offsets.home(which, axis) {
+                Some(at) => {
+                    to.at[axis] = at;
+                    to.known = to.known.with(Axes::of(axis));
+                }
+                None => to.known = to.known.without(Axes::of(axis)),
+            }
+        }
+        if to.known != Axes::ALL {
+            let word = codes::name('G', code);
+            self.report(block, &say::POSITION_UNKNOWN, Span::new(0, block.text.len()), |d| {
+                d.with("word", word)
+            });
+        }
+        let named = Some(if which == 0 { Named::Home1 } else { Named::Home2 });
+        self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named });
+    }
+
+    fn local_offset(&mut self) {
+        for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
+            if let Some(slot) = slot {
+                let offset = self.millimetres(slot);
+                self.state.offsets.set_local(axis, offset);
+            }
+        }
+    }
+
+    fn change_origin(&mut self, origin: Origin) {
+        match origin {
+            Origin::Clear => self.state.offsets.clear_origin(false),
+            Origin::Suspend => self.state.offsets.clear_origin(true),
+            Origin::Resume => self.state.offsets.resume_origin(),
+        }
+    }
+
+    fn set_origins(&mut self, block: &Block<'_>, span: Span) {
+        if !self.words.values.has_coordinates() {
+            self.report(block, &say::NEEDS, span, |d| d.with("word", "G92").with("missing", "X, Y, Z"));
+        }
+        for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
+            if let Some(slot) = slot {
+                let coordinate = self.millimetres(slot);
+                self.set_origin(axis, coordinate);
+            }
+        }
+    }
+
+    /// Where the tool is gets this coordinate. If that was not known, it is what the program counts from, and known now.
+    fn set_origin(&mut self, axis: usize, coordinate: f64) {
+        let position = &mut self.state.position;
+        if position.known.has(Axes::of(axis)) {
+            self.state.offsets.set_origin(axis, coordinate, position.at[axis]);
+        } else {
+            position.at[axis] = coordinate + self.state.offsets.shift(axis);
+            position.known = position.known.with(Axes::of(axis));
+        }
+    }
+
+    pub(super) fn select_system(&mut self, block: &Block<'_>, system: WorkSystem, span: Span) {
+        let before = self.state.offsets.active();
+        if before == system {
+            return;
+        }
+        if !self.state.offsets.select(system) {
+            self.report(block, &say::OFFSET_UNKNOWN, span, |d| {
+                d.with("system", system.name()).with("base", before.name())
+            });
+        }
+        self.step(block, Action::System(system));
+    }
+}

@@ -1,0 +1,67 @@
+//! The moves of a program that was never text.
+
+use pathbuild_toolpath as toolpath;
+use pathbuild_toolpath::{Program, Xy};
+
+use super::codes::Plane;
+use super::step::{Arc, Move, Pace, Path, Position};
+
+/// F as the native program's head sets it, in mm/min: a plunge before any F runs with it. (spec/60-gcode.md)
+const FIRST_FEED: f64 = 150.0;
+
+/// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0; each with the
+/// number of its step, from 1, in place of a line.
+pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
+    let mut tool = Tool { position: Position::known(0.0, 0.0, program.start_height()), feed: FIRST_FEED };
+    let numbers = 1_u32..;
+    let mut moves: Vec<(u32, Move)> = numbers
+        .zip(&program.steps)
+        .filter_map(|(number, step)| match step {
+            toolpath::Step::Move { to, .. } => Some((number, tool.go(to))),
+            toolpath::Step::Comment(_) => None,
+        })
+        .collect();
+    let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
+    moves.push((last, tool.straight(tool.at(None, program.start_height()), Pace::Rapid)));
+    moves
+}
+
+struct Tool {
+    position: Position,
+    /// The F last set.
+    feed: f64,
+}
+
+impl Tool {
+    fn go(&mut self, to: &toolpath::Move) -> Move {
+        match *to {
+            toolpath::Move::Sweep { to } => self.straight(self.at(Some(to), self.position.z()), Pace::Rapid),
+            toolpath::Move::Lift { z } => self.straight(self.at(None, z.z), Pace::Rapid),
+            toolpath::Move::Drill { z } => self.straight(self.at(None, z.z), Pace::Feed(self.feed)),
+            toolpath::Move::Line { feed, to, z } => {
+                self.feed = feed;
+                self.straight(self.at(Some(to), z.z), Pace::Feed(feed))
+            }
+            toolpath::Move::Arc { feed, clockwise, centre, to, z } => {
+                self.feed = feed;
+                let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
+                let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
+                self.along(self.at(Some(to), z.z), Path::Arc(arc), Pace::Feed(feed))
+            }
+        }
+    }
+
+    fn at(&self, plane: Option<Xy>, z: f64) -> Position {
+        let Xy { x, y } = plane.unwrap_or(Xy { x: self.position.x(), y: self.position.y() });
+        Position::known(x, y, z)
+    }
+
+    fn straight(&mut self, to: Position, pace: Pace) -> Move {
+        self.along(to, Path::Line, pace)
+    }
+
+    fn along(&mut self, to: Position, path: Path, pace: Pace) -> Move {
+        let from = std::mem::replace(&mut self.position, to);
+        Move { from, to, path, pace, named: None }
+    }
+}

@@ -1,0 +1,91 @@
+//! What a control remembers from block to block.
+
+use super::codes::{FeedUnit, Motion, Plane};
+use super::offsets::Offsets;
+use super::options::MachineOffsets;
+use super::step::{Coolant, Position, Spindle, Turning};
+use crate::dialect::{Rules, StartMotion};
+
+/// Millimetres in an inch.
+pub(super) const INCH: f64 = 25.4;
+
+/// Modal state.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) position: Position,
+    pub(super) motion: Motion,
+    /// The code of the motion (times ten), for messages.
+    pub(super) motion_code: u16,
+    pub(super) plane: Plane,
+    pub(super) incremental: bool,
+    pub(super) incremental_centres: bool,
+    /// Millimetres in the program's unit.
+    pub(super) unit: f64,
+    pub(super) feed_unit: FeedUnit,
+    /// F as [`feed_unit`](Self::feed_unit) counts it, lengths in mm.
+    pub(super) feed: f64,
+    /// The line and code (times ten) of the feed mode word that cleared F.
+    pub(super) feed_cleared: Option<(u32, u16)>,
+    pub(super) spindle: Spindle,
+    pub(super) coolant: Coolant,
+    /// T.
+    pub(super) tool: Option<u32>,
+    /// XpertMILL's layer.
+    pub(super) layer: u32,
+    pub(super) layer_speed: Option<f64>,
+    pub(super) retract_to_r: bool,
+    pub(super) cycle: CycleState,
+    pub(super) offsets: Offsets,
+    pub(super) stated: Stated,
+}
+
+/// What drilling cycles remember until another motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CycleState {
+    /// Where the tool was before the first cycle of the series.
+    pub(super) initial: [f64; 3],
+    /// R and Z as heights, P and Q.
+    pub(super) r: Option<f64>,
+    pub(super) z: Option<f64>,
+    pub(super) p: Option<f64>,
+    pub(super) q: Option<f64>,
+}
+
+/// What the program has said, or has been told that it has not.
+#[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
+pub(super) struct Stated {
+    pub(super) units: bool,
+    pub(super) distance: bool,
+    pub(super) plane: bool,
+    pub(super) feed_missing: bool,
+}
+
+impl State {
+    pub(super) fn new(rules: &Rules, offsets: Option<&MachineOffsets>) -> Self {
+        Self {
+            position: Position::default(),
+            motion: match rules.start_motion {
+                StartMotion::Rapid => Motion::Rapid,
+                StartMotion::None => Motion::None,
+            },
+            motion_code: 0,
+            plane: Plane::Xy,
+            incremental: false,
+            incremental_centres: true,
+            unit: 1.0,
+            feed_unit: FeedUnit::PerMinute,
+            feed: 0.0,
+            feed_cleared: None,
+            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            coolant: Coolant::default(),
+            tool: None,
+            layer: 1,
+            layer_speed: None,
+            retract_to_r: true,
+            cycle: CycleState::default(),
+            offsets: Offsets::new(offsets),
+            stated: Stated::default(),
+        }
+    }
+}

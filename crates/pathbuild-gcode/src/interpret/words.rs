@@ -1,0 +1,168 @@
+//! Reading the words of a block: what each is, and whether the dialect knows it. (`reference/cad6_xpertmill_gcode.md`, section 5.6)
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::codes::{self, Command, Motion};
+use super::evaluate::{name_of, parameter_number};
+use super::execute::Interpreter;
+use super::gather::{Setting, Slot, ValueFault};
+use super::options::UnitCodes;
+use crate::dialect::Acceptance;
+use crate::read::{Block, Op, Span, Target, Value, Word};
+
+impl Interpreter<'_> {
+    /// Sorts the words of a block, and gives their values.
+    pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
+        for (index, word) in block.words.iter().enumerate() {
+            let (value, decimals) = self.value(block, word.value, word.span)?;
+            match word.letter {
+                b'G' => self.g_word(block, word, value),
+                b'M' => self.m_word(block, word, value),
+                letter => {
+                    let nominal =
+                        block.formula(index).and_then(|formula| leading_number(block.code(formula.code)));
+                    self.letter(block, letter, Slot { value, decimals, span: word.span, nominal });
+                }
+            }
+        }
+        for setting in block.settings {
+            let (value, _) = self.value(block, setting.value, setting.span)?;
+            let target = match setting.target {
+                Target::Numbered(code) => {
+                    let (number, _) = self.value(block, Value::Expression(code), setting.span)?;
+                    let number = parameter_number(number, self.most_parameters());
+                    Setting::Numbered(number.map_err(|fault| (fault, setting.span))?)
+                }
+                Target::Named(name) => Setting::Named(name_of(block, name)),
+            };
+            self.words.settings.push((target, value));
+        }
+        Ok(())
+    }
+
+    fn value(&mut self, block: &Block<'_>, value: Value, span: Span) -> Result<(f64, u8), ValueFault> {
+        let code = match value {
+            Value::Number(number) => return Ok((number.value, number.decimals)),
+            Value::Expression(code) => code,
+        };
+        let most = self.most_parameters();
+        let value = self.parameters.evaluate(block, code, most).map_err(|fault| (fault, span))?;
+        for parameter in std::mem::take(&mut self.parameters.machine_values) {
+            self.report(block, &say::MACHINE_VALUE, span, |d| {
+                d.with("parameter", u64::from(parameter)).with("value", value)
+            });
+        }
+        Ok((value, u8::MAX))
+    }
+
+    fn most_parameters(&self) -> u32 {
+        self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
+    }
+
+    fn letter(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
+        if !self.rules.words.letters.contains(&letter) {
+            return self.report_unknown(
+                block,
+                &say::UNKNOWN_LETTER,
+                slot.span,
+                char::from(letter).to_string(),
+            );
+        }
+        if matches!(letter, b'A' | b'B' | b'C' | b'U' | b'V' | b'W' | b'@' | b'^' | b'$') {
+            let word = char::from(letter);
+            return self.report(block, &say::AXIS_NOT_FOLLOWED, slot.span, |d| d.with("word", word));
+        }
+        if letter == b'F' && slot.value < 0.0 {
+            return self.out_of_range(block, "F", slot, "0 or more");
+        }
+        if !self.words.values.set(letter, slot) {
+            self.report(block, &say::LETTER_TWICE, slot.span, |d| d.with("letter", char::from(letter)));
+        }
+    }
+
+    pub(super) fn out_of_range(
+        &mut self,
+        block: &Block<'_>,
+        word: &'static str,
+        slot: Slot,
+        limits: &'static str,
+    ) {
+        self.report(block, &say::OUT_OF_RANGE, slot.span, |d| {
+            d.with("word", word).with("value", slot.value).with("limits", limits)
+        });
+    }
+
+    fn g_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
+        let Some(code) = code_of(value) else {
+            let name = block.text_of(word.span).into_owned();
+            return self.report_unknown(block, &say::UNKNOWN_CODE, word.span, name);
+        };
+        match self.rules.words.g(code) {
+            Acceptance::Taken => {
+                let command = self.unit_word(code).unwrap_or_else(|| Command::of(code));
+                self.words.commands.push((command, code, word.span));
+            }
+            Acceptance::Ignored => self.ignored(block, 'G', code, word.span),
+            Acceptance::Unknown if self.rules.words.lenient && codes::is_cycle(code) => {
+                let name = codes::name('G', code);
+                self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
+                self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.with("word", name));
+            }
+            Acceptance::Unknown => {
+                self.report_unknown(block, &say::UNKNOWN_CODE, word.span, codes::name('G', code));
+            }
+        }
+    }
+
+    fn unit_word(&self, code: u16) -> Option<Command> {
+        let [mut inch, mut mm] = self.rules.unit_words;
+        if self.rules.layers && self.options.unit_codes == UnitCodes::Table {
+            std::mem::swap(&mut inch, &mut mm);
+        }
+        (code == inch || code == mm).then_some(Command::Inches(code == inch))
+    }
+
+    fn m_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
+        let Some(code) = code_of(value) else {
+            let name = block.text_of(word.span).into_owned();
+            return self.report_unknown(block, &say::UNKNOWN_CODE, word.span, name);
+        };
+        match self.rules.words.m(code) {
+            Acceptance::Taken => self.words.m_codes.push((code, word.span)),
+            Acceptance::Ignored => self.ignored(block, 'M', code, word.span),
+            Acceptance::Unknown => {
+                self.report_unknown(block, &say::UNKNOWN_CODE, word.span, codes::name('M', code));
+            }
+        }
+    }
+
+    fn ignored(&mut self, block: &Block<'_>, letter: char, code: u16, span: Span) {
+        self.report(block, &say::IGNORED, span, |d| d.with("word", codes::name(letter, code)));
+    }
+
+    pub(super) fn set_parameters(&mut self) {
+        for (target, value) in self.words.settings.drain(..) {
+            match target {
+                Setting::Numbered(number) => self.parameters.set(number, value),
+                Setting::Named(name) => self.parameters.set_named(name, value),
+            }
+        }
+    }
+}
+
+/// The number that a correction formula begins with: `1.000` of `1.000+0.5*[#51-2.000]`.
+fn leading_number(code: &[Op]) -> Option<f64> {
+    match code {
+        [Op::Number(number), ..] => Some(*number),
+        _ => None,
+    }
+}
+
+/// A G or M number times ten, if it has no more than one decimal.
+fn code_of(value: f64) -> Option<u16> {
+    let tenths = value * 10.0;
+    let nearest = libm::round(tenths);
+    let fits = libm::fabs(tenths - nearest) < 0.001 && (0.0..f64::from(u16::MAX)).contains(&nearest);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and within a u16")]
+    fits.then_some(nearest as u16)
+}

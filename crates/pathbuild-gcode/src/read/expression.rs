@@ -1,0 +1,347 @@
+//! Expressions, compiled as they are read: operands first, then the operator, so that their value needs a stack and no recursion.
+//! (`reference/cad6_xpertmill_gcode.md`, section 5.2)
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::block::Span;
+use super::line::{Broken, Line};
+use super::number;
+use crate::dialect::Operators;
+
+/// So deep brackets, functions and `#` may be nested. (LinuxCNC, too, stops well before 50.)
+const DEEPEST: u8 = 40;
+
+/// A stretch of a block's operations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Code {
+    pub(super) first: u32,
+    pub(super) end: u32,
+}
+
+impl Code {
+    pub(super) fn range(self) -> Range<usize> {
+        self.first as usize..self.end as usize
+    }
+}
+
+/// One operation on a stack of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// Puts a number onto the stack.
+    Number(f64),
+    /// Replaces a number by the value of the parameter of that number.
+    Parameter,
+    /// Puts the value of a named parameter onto the stack; its name is this part of the line.
+    Named(Span),
+    /// Puts 1 onto the stack if there is a parameter of this name, else 0.
+    Exists(Span),
+    /// Replaces the uppermost number.
+    Function(Function),
+    /// Replaces the two uppermost numbers y, x by the angle of (x, y) in degrees.
+    Atan,
+    /// Replaces the two uppermost numbers.
+    Binary(Binary),
+}
+
+/// Functions of one number; angles are degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Function {
+    Negate,
+    Abs,
+    Acos,
+    Asin,
+    Cos,
+    Exp,
+    /// Down to a whole number.
+    Fix,
+    /// Up to a whole number.
+    Fup,
+    Ln,
+    Round,
+    Sin,
+    Sqrt,
+    Tan,
+}
+
+/// Operators between two numbers; comparisons and logic give 1 or 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Binary {
+    Power,
+    Times,
+    Divide,
+    Modulo,
+    Plus,
+    Minus,
+    And,
+    Or,
+    Xor,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+const FUNCTIONS: [(&[u8], Function); 12] = [
+    (b"ABS", Function::Abs),
+    (b"ACOS", Function::Acos),
+    (b"ASIN", Function::Asin),
+    (b"COS", Function::Cos),
+    (b"EXP", Function::Exp),
+    (b"FIX", Function::Fix),
+    (b"FUP", Function::Fup),
+    (b"LN", Function::Ln),
+    (b"ROUND", Function::Round),
+    (b"SIN", Function::Sin),
+    (b"SQRT", Function::Sqrt),
+    (b"TAN", Function::Tan),
+];
+
+const WORDS: [(&[u8], Binary); 10] = [
+    (b"MOD", Binary::Modulo),
+    (b"AND", Binary::And),
+    (b"OR", Binary::Or),
+    (b"XOR", Binary::Xor),
+    (b"EQ", Binary::Equal),
+    (b"NE", Binary::NotEqual),
+    (b"LT", Binary::Less),
+    (b"LE", Binary::LessOrEqual),
+    (b"GT", Binary::Greater),
+    (b"GE", Binary::GreaterOrEqual),
+];
+
+/// Which operators and brackets an expression may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Syntax {
+    /// That of a dialect.
+    Dialect { operators: Operators, names: bool, signs: bool },
+    /// That of correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (spec/70-z-probes.md)
+    Formula,
+}
+
+impl Syntax {
+    fn names(self) -> bool {
+        matches!(self, Self::Dialect { names: true, .. })
+    }
+
+    fn signs(self) -> bool {
+        matches!(self, Self::Formula | Self::Dialect { signs: true, .. })
+    }
+
+    /// How tightly an operator binds; `None` if there is no such operator here.
+    fn level(self, operator: Binary) -> Option<u8> {
+        use Binary::{And, Divide, Minus, Modulo, Or, Plus, Power, Times, Xor};
+        let is_nist = matches!(self, Self::Dialect { operators: Operators::Nist, .. });
+        match operator {
+            Power if self == Self::Formula => None,
+            Power => Some(5),
+            Times | Divide => Some(4),
+            Modulo if self != Self::Formula => Some(4),
+            Plus | Minus => Some(3),
+            And | Or | Xor if is_nist => Some(3),
+            _ if is_nist || self == Self::Formula => None,
+            And | Or | Xor => Some(1),
+            _ => Some(2),
+        }
+    }
+
+    fn closing(self, opening: u8) -> Option<u8> {
+        match opening {
+            b'[' => Some(b']'),
+            b'(' if self == Self::Formula => Some(b')'),
+            _ => None,
+        }
+    }
+}
+
+impl Line<'_> {
+    /// Reads a value (a number, a parameter, a function, brackets) and gives its code.
+    pub(super) fn compiled_value(&mut self, syntax: Syntax) -> Result<Code, Broken> {
+        let first = self.out.code.len();
+        self.value(syntax, 0)?;
+        Ok(self.code_since(first))
+    }
+
+    /// Reads operators and operands up to a closing bracket, which is left.
+    pub(super) fn compiled_expression(&mut self, syntax: Syntax) -> Result<Code, Broken> {
+        let first = self.out.code.len();
+        self.expression(syntax, 0, 0)?;
+        Ok(self.code_since(first))
+    }
+
+    fn code_since(&self, first: usize) -> Code {
+        let span = Span::new(first, self.out.code.len());
+        Code { first: span.start, end: span.end }
+    }
+
+    fn expression(&mut self, syntax: Syntax, loosest: u8, depth: u8) -> Result<(), Broken> {
+        self.value(syntax, depth)?;
+        while let Some((operator, level, length)) = self.operator(syntax) {
+            if level < loosest {
+                break;
+            }
+            self.at += length;
+            self.expression(syntax, level + 1, depth)?;
+            self.out.code.push(Op::Binary(operator));
+        }
+        Ok(())
+    }
+
+    fn operator(&mut self, syntax: Syntax) -> Option<(Binary, u8, usize)> {
+        self.skip_blanks();
+        let rest = &self.bytes[self.at..];
+        let (operator, length) = match rest.first()? {
+            b'*' if rest.get(1) == Some(&b'*') => (Binary::Power, 2),
+            b'*' => (Binary::Times, 1),
+            b'/' => (Binary::Divide, 1),
+            b'+' => (Binary::Plus, 1),
+            b'-' => (Binary::Minus, 1),
+            letter if letter.is_ascii_alphabetic() => {
+                let (word, operator) = WORDS.iter().find(|(word, _)| begins_with(rest, word))?;
+                (*operator, word.len())
+            }
+            _ => return None,
+        };
+        Some((operator, syntax.level(operator)?, length))
+    }
+
+    fn value(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+        self.skip_blanks();
+        if depth > DEEPEST {
+            return Err(
+                self.fault(&say::NESTED_TOO_DEEPLY, self.here(), |d| d.with("most", u64::from(DEEPEST)))
+            );
+        }
+        match self.peek() {
+            Some(sign @ (b'+' | b'-')) if syntax.signs() && !self.number_follows_sign() => {
+                self.at += 1;
+                self.value(syntax, depth + 1)?;
+                if sign == b'-' {
+                    self.out.code.push(Op::Function(Function::Negate));
+                }
+                Ok(())
+            }
+            Some(byte) if number::begins(byte) => {
+                let number = self.number()?;
+                self.out.code.push(Op::Number(number.value));
+                Ok(())
+            }
+            Some(b'#') => self.parameter(syntax, depth),
+            Some(byte) if syntax.closing(byte).is_some() => self.bracketed(syntax, depth),
+            Some(byte) if byte.is_ascii_alphabetic() && syntax != Syntax::Formula => {
+                self.function(syntax, depth)
+            }
+            _ => Err(self.fault(&say::VALUE_EXPECTED, self.here(), |d| d)),
+        }
+    }
+
+    fn number_follows_sign(&self) -> bool {
+        let after = self.bytes[self.at + 1..].iter().find(|byte| !matches!(byte, b' ' | b'\t'));
+        after.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
+    }
+
+    fn bracketed(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+        let Some(closing) = self.peek().and_then(|opening| syntax.closing(opening)) else {
+            return Err(self.bracket_expected(b'['));
+        };
+        self.at += 1;
+        self.expression(syntax, 0, depth + 1)?;
+        self.closing_bracket(closing)
+    }
+
+    /// Passes over the bracket that ends an expression.
+    pub(super) fn closing_bracket(&mut self, closing: u8) -> Result<(), Broken> {
+        self.skip_blanks();
+        if self.peek() == Some(closing) {
+            self.at += 1;
+            return Ok(());
+        }
+        Err(self.fault(&say::OPERATOR_EXPECTED, self.here(), |d| {
+            d.with("bracket", char::from(closing)).with("operators", "+ - * / ** MOD AND OR XOR")
+        }))
+    }
+
+    fn bracket_expected(&mut self, bracket: u8) -> Broken {
+        self.fault(&say::BRACKET_EXPECTED, self.here(), |d| d.with("bracket", char::from(bracket)))
+    }
+
+    fn parameter(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+        self.at += 1;
+        self.skip_blanks();
+        if syntax.names() && self.peek() == Some(b'<') {
+            let name = self.name()?;
+            self.out.code.push(Op::Named(name));
+        } else {
+            self.value(syntax, depth + 1)?;
+            self.out.code.push(Op::Parameter);
+        }
+        Ok(())
+    }
+
+    /// Reads `<name>`.
+    pub(super) fn name(&mut self) -> Result<Span, Broken> {
+        let start = self.at + 1;
+        let Some(length) = self.bytes[start..].iter().position(|byte| *byte == b'>') else {
+            return Err(self.bracket_expected(b'>'));
+        };
+        self.at = start + length + 1;
+        Ok(Span::new(start, start + length))
+    }
+
+    fn function(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+        let rest = &self.bytes[self.at..];
+        if begins_with(rest, b"ATAN") {
+            return self.atan(syntax, depth);
+        }
+        if syntax.names() && begins_with(rest, b"EXISTS") {
+            return self.exists();
+        }
+        let Some((spelling, function)) = FUNCTIONS.iter().find(|(spelling, _)| begins_with(rest, spelling))
+        else {
+            return Err(self.fault(&say::VALUE_EXPECTED, self.here(), |d| d));
+        };
+        self.at += spelling.len();
+        self.skip_blanks();
+        self.bracketed(syntax, depth)?;
+        self.out.code.push(Op::Function(*function));
+        Ok(())
+    }
+
+    fn atan(&mut self, syntax: Syntax, depth: u8) -> Result<(), Broken> {
+        self.at += b"ATAN".len();
+        self.skip_blanks();
+        self.bracketed(syntax, depth)?;
+        self.skip_blanks();
+        if self.peek() != Some(b'/') {
+            return Err(self.bracket_expected(b'/'));
+        }
+        self.at += 1;
+        self.skip_blanks();
+        self.bracketed(syntax, depth)?;
+        self.out.code.push(Op::Atan);
+        Ok(())
+    }
+
+    fn exists(&mut self) -> Result<(), Broken> {
+        self.at += b"EXISTS".len();
+        for expected in *b"[#<" {
+            self.skip_blanks();
+            if self.peek() != Some(expected) {
+                return Err(self.bracket_expected(expected));
+            }
+            self.at += usize::from(expected != b'<');
+        }
+        let name = self.name()?;
+        self.out.code.push(Op::Exists(name));
+        self.closing_bracket(b']')
+    }
+}
+
+fn begins_with(bytes: &[u8], spelling: &[u8]) -> bool {
+    bytes.get(..spelling.len()).is_some_and(|start| start.eq_ignore_ascii_case(spelling))
+}

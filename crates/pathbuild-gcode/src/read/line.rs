@@ -1,0 +1,168 @@
+//! One line, cut into words, settings and comments.
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message};
+
+use super::block::{Comment, Formula, Number, Setting, Span, Value, Word};
+use super::expression::Op;
+use super::number::{self};
+use super::problems::{At, Problems};
+use super::text::decode;
+use crate::dialect::{Rules, Slash, Spelling};
+
+/// The line cannot be read; why has been reported.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Broken;
+
+/// The parts of the line that is being read, kept from line to line for their memory.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    pub(super) number: Option<Number>,
+    pub(super) optional: bool,
+    pub(super) words: Vec<Word>,
+    pub(super) settings: Vec<Setting>,
+    pub(super) comments: Vec<Comment>,
+    pub(super) formulas: Vec<Formula>,
+    pub(super) o_word: Option<Span>,
+    pub(super) code: Vec<Op>,
+}
+
+impl Parts {
+    pub(super) fn clear(&mut self) {
+        self.number = None;
+        self.optional = false;
+        self.words.clear();
+        self.settings.clear();
+        self.comments.clear();
+        self.formulas.clear();
+        self.o_word = None;
+        self.code.clear();
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.settings.is_empty() && self.number.is_none()
+    }
+}
+
+/// Reads words as long as there is nothing special about them; gives the byte where that ends.
+#[inline]
+pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> usize {
+    let mut at = start;
+    while let Some(&letter) = bytes.get(at) {
+        if letter == b' ' {
+            at += 1;
+            continue;
+        }
+        if !letter.is_ascii_uppercase() || matches!(letter, b'N' | b'O') {
+            break;
+        }
+        let Some((number, end)) = number::plain(bytes, at + 1) else { break };
+        words.push(Word { letter, value: Value::Number(number), span: Span::new(at, end) });
+        at = end;
+    }
+    at
+}
+
+/// A line and how far it has been read.
+pub(super) struct Line<'l> {
+    pub(super) bytes: &'l [u8],
+    pub(super) at: usize,
+    pub(super) out: &'l mut Parts,
+    pub(super) rules: &'static Rules,
+    pub(super) problems: &'l mut Problems,
+    /// From 1.
+    pub(super) number: u32,
+}
+
+impl Line<'_> {
+    /// Reads from where it stands to the end.
+    pub(super) fn read(&mut self) -> Result<(), Broken> {
+        self.block_delete();
+        loop {
+            self.at = plain_words(self.bytes, self.at, &mut self.out.words);
+            let Some(byte) = self.peek() else { return Ok(()) };
+            match byte {
+                b' ' | b'\t' | b'\r' => self.at += 1,
+                b'a'..=b'z' | b'A'..=b'Z' => self.word(byte.to_ascii_uppercase())?,
+                b'(' => self.round_comment()?,
+                b';' | b'!' | b'/' => self.comment_to_end(byte)?,
+                b'#' => self.setting()?,
+                b'0'..=b'9' | b'+' | b'-' | b'.' => self.bare_number()?,
+                b'@' | b'^' | b'$' if self.rules.words.letters.contains(&byte) => self.word(byte)?,
+                _ => self.unknown_character()?,
+            }
+        }
+    }
+
+    pub(super) fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    pub(super) fn skip_blanks(&mut self) {
+        while matches!(self.peek(), Some(b' ' | b'\t')) {
+            self.at += 1;
+        }
+    }
+
+    /// The character that is next.
+    pub(super) fn here(&self) -> Span {
+        let length = self.bytes[self.at..]
+            .iter()
+            .skip(1)
+            .position(|byte| byte & 0xC0 != 0x80)
+            .map_or(1, |rest| rest + 1);
+        Span::new(self.at, (self.at + length).min(self.bytes.len()))
+    }
+
+    /// Reports what makes the line unreadable.
+    pub(super) fn fault(
+        &mut self,
+        message: &'static Message,
+        span: Span,
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) -> Broken {
+        self.report(message, span, values);
+        Broken
+    }
+
+    pub(super) fn report(
+        &mut self,
+        message: &'static Message,
+        span: Span,
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        let dialect = self.rules.dialect.name();
+        let at = At { line: self.number, text: self.bytes, span };
+        self.problems.add(message, at, |diagnostic| values(diagnostic).with("dialect", dialect));
+    }
+
+    pub(super) fn spelling(&self) -> &'static Spelling {
+        &self.rules.spelling
+    }
+
+    fn block_delete(&mut self) {
+        self.skip_blanks();
+        if self.peek() != Some(b'/') || self.spelling().slash == Slash::Unknown {
+            return;
+        }
+        match self.spelling().slash {
+            Slash::Optional => {
+                self.out.optional = true;
+                self.report(&say::OPTIONAL_LINE, self.here(), |d| d);
+            }
+            _ => self.report(&say::SLASH_DROPPED, self.here(), |d| d),
+        }
+        self.at += 1;
+    }
+
+    pub(super) fn unknown_character(&mut self) -> Result<(), Broken> {
+        let span = self.here();
+        let found = decode(&self.bytes[span.range()]).into_owned();
+        if !self.rules.words.lenient {
+            return Err(self.fault(&say::UNKNOWN_CHARACTER, span, |d| d.with("found", found)));
+        }
+        self.report(&say::UNKNOWN_CHARACTER_PASSED, span, |d| d.with("found", found));
+        self.at = span.end as usize;
+        Ok(())
+    }
+}

@@ -1,0 +1,20 @@
+//! G-code text to blocks of words, line by line. (spec/90-gcode-import.md; `reference/cad6_xpertmill_gcode.md`, section 5.1)
+//!
+//! Purely lexical: which letters and codes there are, and what they do, is the interpreter's business. A line that cannot be read is
+//! reported and left out; reading goes on with the next one.
+
+mod block;
+mod comment;
+mod expression;
+mod line;
+mod number;
+mod problems;
+mod reader;
+mod real_time;
+mod text;
+mod word;
+
+pub use block::{Block, Comment, CommentStyle, Formula, Number, Setting, Span, Target, Value, Word};
+pub use expression::{Binary, Code, Function, Op};
+pub use problems::{At, Problems};
+pub use reader::Reader;

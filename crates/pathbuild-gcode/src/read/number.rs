@@ -1,0 +1,199 @@
+//! Numbers as G-code writes them: sign, digits, one point; no exponent.
+
+use super::block::Number;
+use super::text::decode;
+use crate::dialect::{Blanks, Spelling};
+
+/// Powers of ten that a double holds exactly.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
+];
+
+/// Up to so many digits an integer is a double without loss, so that one division gives the nearest double.
+const EXACT_DIGITS: usize = 15;
+
+/// A number found in a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scanned {
+    pub(super) number: Number,
+    /// The byte behind it.
+    pub(super) end: usize,
+    /// What is odd about how it is written.
+    pub(super) oddity: Option<Oddity>,
+}
+
+/// Spellings that are read with a warning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Oddity {
+    BlankInside,
+    DecimalComma,
+}
+
+/// No number: the byte behind what looks like one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Malformed {
+    pub(super) end: usize,
+}
+
+/// Whether a number begins with this byte.
+pub(super) fn begins(byte: u8) -> bool {
+    byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')
+}
+
+/// Reads the number that begins at `start`.
+pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Scanned, Malformed> {
+    let digits = Digits::scan(line, start);
+    match line.get(digits.end) {
+        Some(b'.') => Err(Malformed { end: run_end(line, digits.end, begins) }),
+        Some(b' ' | b'\t') if spelling.blanks == Blanks::Ignored && goes_on(line, digits.end) => {
+            rewritten(line, start, Oddity::BlankInside)
+        }
+        Some(b',') if spelling.decimal_comma && !digits.point && is_digit(line, digits.end + 1) => {
+            rewritten(line, start, Oddity::DecimalComma)
+        }
+        _ => digits.number(line, start).map(|number| Scanned { number, end: digits.end, oddity: None }),
+    }
+}
+
+/// Reads a number that is written in the plainest way; anything else is for [`scan`].
+///
+/// Nearly every number of every program is such a one, and reading them is most of what the reader does.
+#[inline]
+pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
+    let mut at = start;
+    let negative = line.get(at) == Some(&b'-');
+    at += usize::from(negative);
+    let mut mantissa = 0_i64;
+    let mut point = None;
+    let mut follows = b'\n';
+    while let Some(&byte) = line.get(at) {
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(i64::from(digit));
+        } else if byte == b'.' && point.is_none() {
+            point = Some(at + 1);
+        } else {
+            follows = byte;
+            break;
+        }
+        at += 1;
+    }
+    let decimals = point.map_or(0, |point| at - point);
+    let digits = at - start - usize::from(negative) - usize::from(point.is_some());
+    let is_plain = match follows {
+        b' ' => !line.get(at + 1).is_some_and(|byte| matches!(byte, b'0'..=b'9' | b'.' | b' ' | b'\t')),
+        b'.' | b',' | b'\t' => false,
+        _ => true,
+    };
+    if !is_plain || digits == 0 || digits > EXACT_DIGITS {
+        return None;
+    }
+    // The sign goes to the integer, where it costs no branch: signs are what a processor guesses worst.
+    let signed = if negative { -mantissa } else { mantissa };
+    let value = signed as f64 / POWERS[decimals];
+    Some((Number { value, decimals: u8::try_from(decimals).unwrap_or(u8::MAX) }, at))
+}
+
+/// The longest run of plain number at some place.
+struct Digits {
+    negative: bool,
+    mantissa: u64,
+    count: usize,
+    decimals: usize,
+    point: bool,
+    end: usize,
+}
+
+impl Digits {
+    fn scan(line: &[u8], start: usize) -> Self {
+        let negative = line.get(start) == Some(&b'-');
+        let mut digits = Self { negative, mantissa: 0, count: 0, decimals: 0, point: false, end: start };
+        if matches!(line.get(start), Some(b'+' | b'-')) {
+            digits.end += 1;
+        }
+        digits.run(line);
+        if line.get(digits.end) == Some(&b'.') {
+            digits.point = true;
+            digits.end += 1;
+            let whole = digits.count;
+            digits.run(line);
+            digits.decimals = digits.count - whole;
+        }
+        digits
+    }
+
+    fn run(&mut self, line: &[u8]) {
+        let from = self.end;
+        while let Some(digit) =
+            line.get(self.end).map(|byte| byte.wrapping_sub(b'0')).filter(|digit| *digit < 10)
+        {
+            self.mantissa = self.mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            self.end += 1;
+        }
+        self.count += self.end - from;
+    }
+
+    fn number(&self, line: &[u8], start: usize) -> Result<Number, Malformed> {
+        if self.count == 0 {
+            return Err(Malformed { end: self.end });
+        }
+        let value = if self.count <= EXACT_DIGITS {
+            let value = self.mantissa as f64 / POWERS[self.decimals];
+            if self.negative { -value } else { value }
+        } else {
+            decode(&line[start..self.end]).parse().map_err(|_| Malformed { end: self.end })?
+        };
+        if value.is_finite() {
+            Ok(Number { value, decimals: u8::try_from(self.decimals).unwrap_or(u8::MAX) })
+        } else {
+            Err(Malformed { end: self.end })
+        }
+    }
+}
+
+/// Reads a number with blanks inside or a decimal comma, by writing it the usual way first.
+fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<Scanned, Malformed> {
+    let end = match oddity {
+        Oddity::BlankInside => last_digit(line, start),
+        Oddity::DecimalComma => run_end(line, start, |byte| begins(byte) || byte == b','),
+    };
+    let usual: Vec<u8> = line[start..end]
+        .iter()
+        .filter(|byte| !matches!(byte, b' ' | b'\t'))
+        .map(|&byte| if byte == b',' { b'.' } else { byte })
+        .collect();
+    let digits = Digits::scan(&usual, 0);
+    if digits.end < usual.len() {
+        return Err(Malformed { end });
+    }
+    let number = digits.number(&usual, 0).map_err(|_| Malformed { end })?;
+    Ok(Scanned { number, end, oddity: Some(oddity) })
+}
+
+/// Behind the last digit or point of a number with blanks in it.
+fn last_digit(line: &[u8], start: usize) -> usize {
+    let mut end = run_end(line, start, begins);
+    while goes_on(line, end) {
+        let next = run_end(line, end, |byte| matches!(byte, b' ' | b'\t'));
+        end = run_end(line, next, |byte| byte.is_ascii_digit() || byte == b'.');
+    }
+    end
+}
+
+/// Whether blanks and then more of a number follow.
+fn goes_on(line: &[u8], at: usize) -> bool {
+    let next = run_end(line, at, |byte| matches!(byte, b' ' | b'\t'));
+    next > at && line.get(next).is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
+}
+
+fn is_digit(line: &[u8], at: usize) -> bool {
+    line.get(at).is_some_and(u8::is_ascii_digit)
+}
+
+fn run_end(line: &[u8], start: usize, belongs: impl Fn(u8) -> bool) -> usize {
+    line[start.min(line.len())..]
+        .iter()
+        .position(|&byte| !belongs(byte))
+        .map_or(line.len(), |length| start + length)
+}

@@ -1,0 +1,301 @@
+//! A file, line by line.
+
+use memchr::memchr;
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message};
+
+use super::block::{Block, Comment, CommentStyle, Span};
+use super::line::{Line, Parts, plain_words};
+use super::problems::{At, Problems};
+use super::real_time;
+use crate::dialect::{LineLength, Percent, Rules};
+
+/// The longest line that is read at all, in bytes. Nothing that a machine takes comes near it.
+const LONGEST_LINE: usize = 65_536;
+
+/// Reads blocks off a file.
+///
+/// ```
+/// # use pathbuild_gcode::{dialect::Dialect, read::Reader};
+/// let mut reader = Reader::new(b"G01 X1.5\n", Dialect::Rs274.rules());
+/// let block = reader.next_block().expect("one line");
+/// assert_eq!((block.line, block.words.len()), (1, 2));
+/// ```
+#[derive(Debug)]
+pub struct Reader<'t> {
+    text: &'t [u8],
+    rules: &'static Rules,
+    end_of_line: u8,
+    /// Where the next line begins.
+    at: usize,
+    /// The line last read, from 1.
+    line: u32,
+    state: State,
+    parts: Parts,
+    problems: Problems,
+}
+
+/// How far the program in the file has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// Nothing but comments so far.
+    Leader,
+    Program,
+    /// It ended in this line.
+    Ended(u32),
+}
+
+impl<'t> Reader<'t> {
+    /// A reader at the beginning of a file's bytes.
+    pub fn new(text: &'t [u8], rules: &'static Rules) -> Self {
+        let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+        let end_of_line = if memchr(b'\n', text).is_none() { b'\r' } else { b'\n' };
+        Self {
+            text,
+            rules,
+            end_of_line,
+            at: 0,
+            line: 0,
+            state: State::Leader,
+            parts: Parts::default(),
+            problems: Problems::default(),
+        }
+    }
+
+    /// The next line that is not blank and can be read.
+    pub fn next_block(&mut self) -> Option<Block<'_>> {
+        let text = loop {
+            self.parts.clear();
+            if let Some(line) = self.next_plain_line() {
+                break line;
+            }
+            let line = self.next_line()?;
+            if self.read(line) {
+                break line;
+            }
+        };
+        Some(Block {
+            line: self.line,
+            text,
+            number: self.parts.number,
+            optional: self.parts.optional,
+            words: &self.parts.words,
+            settings: &self.parts.settings,
+            comments: &self.parts.comments,
+            formulas: &self.parts.formulas,
+            o_word: self.parts.o_word,
+            code: &self.parts.code,
+        })
+    }
+
+    /// Ends the program here (M2, M30): what follows is not read, and reported unless it is `%` or blank.
+    pub fn end_program(&mut self) {
+        if !matches!(self.state, State::Ended(_)) {
+            self.state = State::Ended(self.line);
+        }
+    }
+
+    /// Whether `%` or [`end_program`](Self::end_program) ended the program.
+    pub fn is_ended(&self) -> bool {
+        matches!(self.state, State::Ended(_))
+    }
+
+    /// The line last read, from 1.
+    pub fn line(&self) -> u32 {
+        self.line
+    }
+
+    /// What was wrong with the lines so far.
+    pub fn into_problems(self) -> Problems {
+        self.problems
+    }
+
+    /// The next line of the program that is not blank, without its end.
+    fn next_line(&mut self) -> Option<&'t [u8]> {
+        while self.at < self.text.len() {
+            let rest = &self.text[self.at..];
+            let length = memchr(self.end_of_line, rest).unwrap_or(rest.len());
+            self.at += length + 1;
+            self.line = self.line.saturating_add(1);
+            let line = trim_end(&rest[..length]);
+            if line.is_empty() {
+                continue;
+            }
+            if let State::Ended(end) = self.state {
+                if line == b"%" {
+                    continue;
+                }
+                self.report(&say::AFTER_END, line, |d| d.with("line", u64::from(end)));
+                self.at = self.text.len();
+                return None;
+            }
+            return Some(line);
+        }
+        None
+    }
+
+    /// Reads a line of plain words, which most lines are, without looking for its end first. A line with anything else in it is left
+    /// as it was.
+    fn next_plain_line(&mut self) -> Option<&'t [u8]> {
+        if self.state != State::Program {
+            return None;
+        }
+        let rest = &self.text[self.at.min(self.text.len())..];
+        let length = plain_words(&rest[..rest.len().min(LONGEST_LINE)], 0, &mut self.parts.words);
+        let end = match rest.get(length..)? {
+            [b'\n', ..] => 1,
+            [b'\r', b'\n', ..] => 2,
+            _ => 0,
+        };
+        if end == 0 || self.parts.words.is_empty() || length > self.surely_short_enough() {
+            self.parts.words.clear();
+            return None;
+        }
+        self.at += length + end;
+        self.line = self.line.saturating_add(1);
+        Some(&rest[..length])
+    }
+
+    /// A length that no limit forbids.
+    fn surely_short_enough(&self) -> usize {
+        match self.rules.spelling.line_length {
+            Some(LineLength::Whole(most) | LineLength::Bare(most)) => most,
+            None => LONGEST_LINE,
+        }
+    }
+
+    /// Reads a line into the parts; whether it is a block.
+    fn read(&mut self, line: &[u8]) -> bool {
+        if line.len() > LONGEST_LINE {
+            let shown = &line[..256];
+            self.report(&say::LINE_MUCH_TOO_LONG, shown, |d| {
+                d.with("length", line.len()).with("most", LONGEST_LINE)
+            });
+            return false;
+        }
+        if self.rules.spelling.real_time_bytes {
+            self.check_real_time(line);
+        }
+        let start = match self.percent(line) {
+            Beginning::Nothing => 0,
+            Beginning::Passed(start) => start,
+            Beginning::Comment(text) => {
+                self.parts.comments.push(Comment { style: CommentStyle::Percent, text });
+                return !text.range().is_empty();
+            }
+        };
+        if self.words_of(line, start).is_err() {
+            return false;
+        }
+        self.check_length(line);
+        if self.state == State::Leader && !(self.parts.words.is_empty() && self.parts.settings.is_empty()) {
+            self.state = State::Program;
+        }
+        true
+    }
+
+    fn words_of(&mut self, line: &[u8], start: usize) -> Result<(), super::line::Broken> {
+        Line {
+            bytes: line,
+            at: start,
+            out: &mut self.parts,
+            rules: self.rules,
+            problems: &mut self.problems,
+            number: self.line,
+        }
+        .read()
+    }
+
+    fn percent(&mut self, line: &[u8]) -> Beginning {
+        let blanks = line.iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+        if line.get(blanks) != Some(&b'%') {
+            return Beginning::Nothing;
+        }
+        let behind = blanks + 1;
+        match self.rules.spelling.percent {
+            Percent::Start => Beginning::Passed(behind),
+            Percent::Refused => {
+                self.report(&say::UNKNOWN_PERCENT, &line[..behind], |d| d);
+                Beginning::Passed(behind)
+            }
+            Percent::Frame => {
+                let text = Span::new(behind, line.len());
+                if self.state == State::Leader {
+                    self.state = State::Program;
+                } else {
+                    self.end_program();
+                }
+                if !text.range().is_empty() {
+                    self.report(&say::TEXT_AFTER_PERCENT, line, |d| d);
+                }
+                Beginning::Comment(text)
+            }
+        }
+    }
+
+    fn check_real_time(&mut self, line: &[u8]) {
+        let Some((byte, effect)) = real_time::first(line) else { return };
+        let found = match line[byte] {
+            printable @ b' '..=b'~' => char::from(printable).to_string(),
+            other => format!("0x{other:02X}"),
+        };
+        let at = At { line: self.line, text: line, span: Span::new(byte, byte + 1) };
+        let dialect = self.rules.dialect.name();
+        self.problems.add(&say::REAL_TIME_CHARACTER, at, |d| {
+            d.with("dialect", dialect).with("found", found).with("effect", effect)
+        });
+    }
+
+    fn check_length(&mut self, line: &[u8]) {
+        let (length, most) = match self.rules.spelling.line_length {
+            Some(LineLength::Whole(most)) if line.len() > most => (line.len(), most),
+            Some(LineLength::Bare(most)) if line.len() > most => (self.bare_length(line), most),
+            _ => return,
+        };
+        if length > most {
+            self.report(&say::LINE_TOO_LONG, line, |d| d.with("length", length).with("most", most));
+        }
+    }
+
+    /// The line's length without blanks and comments.
+    fn bare_length(&self, line: &[u8]) -> usize {
+        let words: usize = self.parts.words.iter().map(|word| bare(&line[word.span.range()])).sum();
+        let settings: usize =
+            self.parts.settings.iter().map(|setting| bare(&line[setting.span.range()])).sum();
+        let number = self.parts.number.map_or(0, |_| {
+            let digits = line.iter().skip_while(|byte| !byte.is_ascii_alphabetic()).skip(1);
+            1 + digits.take_while(|byte| byte.is_ascii_digit()).count()
+        });
+        words + settings + number
+    }
+
+    fn report(
+        &mut self,
+        message: &'static Message,
+        line: &[u8],
+        values: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        let at = At { line: self.line, text: line, span: Span::new(0, line.len()) };
+        let dialect = self.rules.dialect.name();
+        self.problems.add(message, at, |diagnostic| values(diagnostic).with("dialect", dialect));
+    }
+}
+
+/// What `%` at the beginning of a line makes of it.
+enum Beginning {
+    /// There is none.
+    Nothing,
+    /// The line goes on at this byte.
+    Passed(usize),
+    /// The rest is a comment.
+    Comment(Span),
+}
+
+fn bare(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t')).count()
+}
+
+fn trim_end(line: &[u8]) -> &[u8] {
+    let blanks = line.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t' | b'\r')).count();
+    &line[..line.len() - blanks]
+}

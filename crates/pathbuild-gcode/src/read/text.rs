@@ -1,0 +1,50 @@
+//! Bytes of a file as text for a person.
+
+use std::borrow::Cow;
+
+use pathbuild_diagnostic::TextFault;
+
+use super::block::Span;
+
+/// As much of a line as is shown on either side of a fault, in bytes.
+const SHOWN: usize = 160;
+
+/// UTF-8, or Windows-1252 where it is not.
+pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0,
+    }
+}
+
+/// The column of a byte, in characters from 1.
+pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
+    let before = decode(&line[..byte.min(line.len())]).chars().count();
+    u32::try_from(before + 1).unwrap_or(u32::MAX)
+}
+
+/// The line with the faulty part of it marked; of a long line the surroundings of the fault.
+pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
+    let start = (span.start as usize).min(line.len());
+    let end = (span.end as usize).clamp(start, line.len()).min(start + SHOWN);
+    let before = shown_before(&line[..start]);
+    let marked = decode(&line[start..end]);
+    let after = shown_after(&line[end..]);
+    TextFault::new(&format!("{before}{marked}{after}"), before.len()..before.len() + marked.len())
+}
+
+fn shown_before(bytes: &[u8]) -> Cow<'_, str> {
+    if bytes.len() <= SHOWN {
+        return decode(bytes);
+    }
+    let cut = (bytes.len() - SHOWN..bytes.len()).find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(bytes.len());
+    format!("...{}", decode(&bytes[cut..])).into()
+}
+
+fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
+    if bytes.len() <= SHOWN {
+        return decode(bytes);
+    }
+    let cut = (0..SHOWN).rev().find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(0);
+    format!("{}...", decode(&bytes[..cut])).into()
+}

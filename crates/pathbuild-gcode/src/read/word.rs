@@ -1,0 +1,181 @@
+//! Words and settings of a line that are not of the plainest kind.
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::block::{Number, Setting, Span, Target, Value, Word};
+use super::comment::comment_sign;
+use super::expression::Syntax;
+use super::line::{Broken, Line};
+use super::number::{self, Oddity};
+use super::text::decode;
+use crate::dialect::{Blanks, Grammar};
+
+impl Line<'_> {
+    pub(super) fn word(&mut self, letter: u8) -> Result<(), Broken> {
+        let start = self.at;
+        if letter == b'O' && self.spelling().grammar.as_ref().is_some_and(|grammar| grammar.o_words) {
+            self.out.o_word = Some(Span::new(start, self.bytes.len()));
+            self.at = self.bytes.len();
+            return Ok(());
+        }
+        self.at += 1;
+        if matches!(self.peek(), Some(b' ' | b'\t')) {
+            self.blank_after_letter(start);
+        }
+        let value = match self.peek() {
+            Some(byte) if number::begins(byte) && !self.signed_expression(byte) => {
+                Value::Number(self.number()?)
+            }
+            Some(b'#' | b'[' | b'+' | b'-' | b'a'..=b'z' | b'A'..=b'Z') => {
+                self.value_of_word(start, letter)?
+            }
+            _ => return Err(self.word_without_number(start, letter)),
+        };
+        let span = Span::new(start, self.at);
+        if letter == b'N' && self.spelling().block_numbers.is_some() {
+            return self.block_number(value, span);
+        }
+        self.out.words.push(Word { letter, value, span });
+        Ok(())
+    }
+
+    fn blank_after_letter(&mut self, start: usize) {
+        if self.spelling().blanks == Blanks::Separate {
+            self.report(&say::BLANK_AFTER_LETTER, Span::new(start, self.at + 1), |d| d);
+        }
+        self.skip_blanks();
+    }
+
+    /// `-[`, `-#` and `-SIN[` are expressions.
+    fn signed_expression(&self, byte: u8) -> bool {
+        matches!(byte, b'+' | b'-')
+            && self.bytes[self.at + 1..]
+                .iter()
+                .find(|byte| !matches!(byte, b' ' | b'\t'))
+                .is_some_and(|byte| matches!(byte, b'#' | b'[') || byte.is_ascii_alphabetic())
+    }
+
+    fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, Broken> {
+        let syntax = match self.spelling().grammar.as_ref() {
+            Some(grammar) if !self.letter_follows_without_bracket() => syntax_of(grammar),
+            None if matches!(self.peek(), Some(b'#' | b'[')) => return Err(self.no_expressions(start)),
+            _ => return Err(self.word_without_number(start, letter)),
+        };
+        self.compiled_value(syntax).map(Value::Expression)
+    }
+
+    /// A letter that is the next word and not the beginning of a function's name.
+    fn letter_follows_without_bracket(&self) -> bool {
+        let letters = self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        letters == 1
+    }
+
+    fn word_without_number(&mut self, start: usize, letter: u8) -> Broken {
+        let span = Span::new(start, start + 1);
+        self.fault(&say::WORD_WITHOUT_NUMBER, span, |d| d.with("letter", char::from(letter)))
+    }
+
+    fn no_expressions(&mut self, start: usize) -> Broken {
+        self.fault(&say::UNKNOWN_EXPRESSION, Span::new(start, self.bytes.len()), |d| d)
+    }
+
+    /// Reads a number and reports what is odd about it.
+    pub(super) fn number(&mut self) -> Result<Number, Broken> {
+        let start = self.at;
+        if let Some((number, end)) = number::plain(self.bytes, start) {
+            self.at = end;
+            return Ok(number);
+        }
+        match number::scan(self.bytes, start, self.spelling()) {
+            Ok(scanned) => {
+                self.at = scanned.end;
+                if let Some(oddity) = scanned.oddity {
+                    self.odd_number(oddity, Span::new(start, scanned.end));
+                }
+                Ok(scanned.number)
+            }
+            Err(malformed) => {
+                let end = malformed.end.max(start + 1);
+                let found = decode(&self.bytes[start..end]).into_owned();
+                Err(self.fault(&say::NOT_A_NUMBER, Span::new(start, end), |d| d.with("found", found)))
+            }
+        }
+    }
+
+    fn odd_number(&mut self, oddity: Oddity, span: Span) {
+        let letter = self.bytes[..span.start as usize].iter().rev().find(|byte| byte.is_ascii_alphabetic());
+        let letter = letter.map_or(String::new(), |byte| char::from(byte.to_ascii_uppercase()).to_string());
+        let number: String = decode(&self.bytes[span.range()])
+            .chars()
+            .filter(|character| !character.is_whitespace())
+            .collect();
+        let message = match oddity {
+            Oddity::BlankInside => &say::BLANK_IN_NUMBER,
+            Oddity::DecimalComma => &say::DECIMAL_COMMA,
+        };
+        self.report(message, span, |d| d.with("letter", letter).with("number", number));
+    }
+
+    fn block_number(&mut self, value: Value, span: Span) -> Result<(), Broken> {
+        let most = self.spelling().block_numbers.unwrap_or(u32::MAX);
+        let fits = |number: &Number| {
+            let whole = number.decimals == 0 || self.spelling().fractional_block_numbers;
+            whole && number.value >= 0.0 && number.value <= f64::from(most)
+        };
+        match value {
+            Value::Number(number) if fits(&number) && self.out.is_empty() => {
+                self.out.number = Some(number);
+                Ok(())
+            }
+            _ => {
+                let found = decode(&self.bytes[span.range()]).into_owned();
+                Err(self.fault(&say::BLOCK_NUMBER, span, |d| {
+                    d.with("found", found).with("most", u64::from(most))
+                }))
+            }
+        }
+    }
+
+    /// A number without a letter: the tool behind M6 in some dialects, else an error.
+    pub(super) fn bare_number(&mut self) -> Result<(), Broken> {
+        let start = self.at;
+        let follows_tool_change = self.out.words.last().is_some_and(|word| {
+            word.letter == b'M' && matches!(word.value, Value::Number(Number { value, .. }) if value == 6.0)
+        });
+        let number = self.number()?;
+        let span = Span::new(start, self.at);
+        if self.spelling().bare_tool_number && follows_tool_change {
+            self.out.words.push(Word { letter: b'T', value: Value::Number(number), span });
+            return Ok(());
+        }
+        let found = decode(&self.bytes[span.range()]).into_owned();
+        let comment = comment_sign(self.spelling());
+        Err(self
+            .fault(&say::NUMBER_WITHOUT_LETTER, span, |d| d.with("found", found).with("comment", comment)))
+    }
+
+    pub(super) fn setting(&mut self) -> Result<(), Broken> {
+        let start = self.at;
+        let Some(grammar) = self.spelling().grammar.as_ref() else { return Err(self.no_expressions(start)) };
+        let syntax = syntax_of(grammar);
+        self.at += 1;
+        self.skip_blanks();
+        let target = if grammar.names && self.peek() == Some(b'<') {
+            Target::Named(self.name()?)
+        } else {
+            Target::Numbered(self.compiled_value(syntax)?)
+        };
+        self.skip_blanks();
+        if self.peek() != Some(b'=') {
+            return Err(self.fault(&say::ASSIGNMENT_EXPECTED, self.here(), |d| d));
+        }
+        self.at += 1;
+        let value = Value::Expression(self.compiled_value(syntax)?);
+        self.out.settings.push(Setting { target, value, span: Span::new(start, self.at) });
+        Ok(())
+    }
+}
+
+fn syntax_of(grammar: &Grammar) -> Syntax {
+    Syntax::Dialect { operators: grammar.operators, names: grammar.names, signs: grammar.signs }
+}

@@ -1,0 +1,260 @@
+//! Whether two programs move alike: the same way in the plane and in Z, at the same feeds, in the same order.
+//!
+//! They need not be cut into the same pieces: a circle may be two halves, or chords within a tolerance.
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message, Word};
+
+use super::walk::{Stretch, Walker};
+use crate::interpret::{Axes, Move, Pace, Position};
+
+/// How far apart two programs may be and still be the same, in mm and mm/min.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Of the coordinate of an end. Between ends, where both sides are rounded, it is twice that.
+    pub place: f64,
+    /// Of a feed.
+    pub feed: f64,
+    /// Between an arc and the chords that stand for it.
+    pub chord: f64,
+    /// Which moves count.
+    pub ends: Ends,
+}
+
+/// Which rapid moves at the ends of programs count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// All of them, from where the position is first known.
+    All,
+    /// Those between the first and the last cut: heads and feet of a post-processor are the machine's own.
+    Cutting,
+}
+
+impl Tolerance {
+    /// Half a unit of the last digit of numbers with so many decimals, and what a double adds to that.
+    pub fn of_decimals(decimals: i32) -> Self {
+        let half = 0.5 * libm::pow(10.0, f64::from(-decimals)) * (1.0 + 1e-6);
+        Self { place: half, feed: half, chord: 0.0, ends: Ends::All }
+    }
+}
+
+/// The first place where two programs differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// In what.
+    pub kind: Kind,
+    /// The move that was found, with its line; `None` when there is none left.
+    pub found: Option<(u32, Move)>,
+    /// The move that was expected, with its line; `None` when there is none left.
+    pub expected: Option<(u32, Move)>,
+}
+
+/// In what two moves differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// They lead to different places, or one has no counterpart.
+    Place,
+    /// They part between their ends.
+    Shape,
+    /// One is rapid, the other is not.
+    Pace,
+    /// Their feeds.
+    Feed,
+}
+
+/// Compares the moves that were found with those that were expected; `None` if they are the same.
+pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tolerance) -> Option<Difference> {
+    let (found, expected) = (counting(found, tolerance.ends), counting(expected, tolerance.ends));
+    let (mut found, mut expected) = (Walker::new(&found), Walker::new(&expected));
+    if let Err(kind) = begin_together(&mut found, &mut expected, tolerance) {
+        return Some(difference(kind, &found, &expected));
+    }
+    loop {
+        skip_standing(&mut found, &expected, tolerance);
+        skip_standing(&mut expected, &found, tolerance);
+        let (Some(ours), Some(theirs)) = (found.stretch(), expected.stretch()) else { break };
+        if let Err(kind) = step(&mut found, &ours, &mut expected, &theirs, tolerance) {
+            return Some(difference(kind, &found, &expected));
+        }
+    }
+    let both_are_done = found.stretch().is_none() && expected.stretch().is_none();
+    (!both_are_done).then(|| difference(Kind::Place, &found, &expected))
+}
+
+impl Difference {
+    /// What is said of it, in the line of the move that was found.
+    pub fn diagnostic(&self) -> Diagnostic {
+        let diagnostic = match (&self.found, &self.expected) {
+            (Some(found), Some(expected)) => between(self.kind, found, expected),
+            (None, Some((line, _))) => Diagnostic::new(&say::MOVES_MISSING).with("line", u64::from(*line)),
+            (Some(_), None) => Diagnostic::new(&say::MOVES_TOO_MANY).with("line", 0_u64),
+            (None, None) => Diagnostic::new(&say::SHAPES_DIFFER).with("line", 0_u64),
+        };
+        match self.found {
+            Some((line, _)) => diagnostic.at_line(line, None),
+            None => diagnostic,
+        }
+    }
+}
+
+fn between(kind: Kind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
+    let said = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
+    match kind {
+        Kind::Place => {
+            said(&say::PATHS_DIFFER).with("found", place(&found.1.to)).with("expected", place(&expected.1.to))
+        }
+        Kind::Shape => said(&say::SHAPES_DIFFER),
+        Kind::Pace => {
+            said(&say::KINDS_DIFFER).with("found", pace(&found.1)).with("expected", pace(&expected.1))
+        }
+        Kind::Feed => {
+            let feed = |it: &Move| it.pace.feed().unwrap_or(0.0);
+            said(&say::FEEDS_DIFFER).with("found", feed(&found.1)).with("expected", feed(&expected.1))
+        }
+    }
+}
+
+fn place(at: &Position) -> String {
+    format!("X{:.3} Y{:.3} Z{:.3}", at.x(), at.y(), at.z())
+}
+
+fn pace(it: &Move) -> &'static Word {
+    match it.pace {
+        Pace::Rapid => &Word { en: "a rapid move", de: "eine Eilgangbewegung" },
+        Pace::Feed(_) => &Word { en: "a cutting move", de: "eine Fräsbewegung" },
+        Pace::Probe { .. } => &Word { en: "a probing move", de: "eine Messbewegung" },
+    }
+}
+
+fn difference(kind: Kind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
+    // What is left of a move is no move without counterpart: its counterpart is the one that ended too early.
+    let shown = |one: &Walker<'_>, other: &Walker<'_>| {
+        one.current().or_else(|| other.is_within().then(|| one.last()).flatten())
+    };
+    Difference { kind, found: shown(found, expected), expected: shown(expected, found) }
+}
+
+/// The moves that count: those to places that are known, and of those at the ends what the tolerance says.
+fn counting(moves: &[(u32, Move)], ends: Ends) -> Vec<(u32, Move)> {
+    let is_cut = |(_, it): &&(u32, Move)| it.pace != Pace::Rapid;
+    let known = moves.iter().filter(|(_, it)| it.to.known == Axes::ALL);
+    match ends {
+        // The position becomes known bit by bit; the way there is nobody's business.
+        Ends::All => known.skip_while(|(_, it)| it.from.known != Axes::ALL).copied().collect(),
+        Ends::Cutting => {
+            let mut kept: Vec<(u32, Move)> = known.skip_while(|it| !is_cut(it)).copied().collect();
+            while kept.last().is_some_and(|it| !is_cut(&it)) {
+                kept.pop();
+            }
+            kept
+        }
+    }
+}
+
+/// Brings both to the first place that they have in common, over rapid moves of one of them.
+fn begin_together(
+    found: &mut Walker<'_>,
+    expected: &mut Walker<'_>,
+    tolerance: &Tolerance,
+) -> Result<(), Kind> {
+    let (Some(here), Some(there)) = (found.place(), expected.place()) else { return Ok(()) };
+    let is_there = |a: &[f64; 3], b: &[f64; 3]| is_near(a, b, tolerance.place);
+    if is_there(&here, &there)
+        || expected.skip_rapids_to(|at| is_there(at, &here))
+        || found.skip_rapids_to(|at| is_there(at, &there))
+    {
+        return Ok(());
+    }
+    Err(Kind::Place)
+}
+
+/// Leaves out what is too short to be anything but rounding, if it ends where the other is.
+fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) {
+    let standing = 4.0 * tolerance.place;
+    while let Some(stretch) = one.stretch() {
+        let here = other.place().unwrap_or(stretch.end());
+        if stretch.length > standing || !is_near(&stretch.end(), &here, tolerance.place) {
+            return;
+        }
+        one.finish_move();
+    }
+}
+
+/// Walks both as far as the one that ends first.
+fn step(
+    found: &mut Walker<'_>,
+    ours: &Stretch,
+    expected: &mut Walker<'_>,
+    theirs: &Stretch,
+    tolerance: &Tolerance,
+) -> Result<(), Kind> {
+    check_pace(&ours.it, &theirs.it, tolerance)?;
+    if ours.end_together(theirs, tolerance.place) {
+        check_shape(ours, 1.0, theirs, 1.0, tolerance)?;
+        found.finish_move();
+        expected.finish_move();
+        return Ok(());
+    }
+    if ours.length < theirs.length {
+        let share = meet(ours, theirs, tolerance)?;
+        found.finish_move();
+        expected.go_to(share);
+    } else {
+        let share = meet(theirs, ours, tolerance)?;
+        expected.finish_move();
+        found.go_to(share);
+    }
+    Ok(())
+}
+
+/// Where on the longer stretch the shorter one ends.
+fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f64, Kind> {
+    let end = shorter.end();
+    let share = longer.nearest(&end, shorter.length).ok_or(Kind::Place)?;
+    let slack = 2.0 * tolerance.place + tolerance.chord;
+    if !is_near(&longer.point(share), &end, slack) {
+        return Err(Kind::Place);
+    }
+    check_shape(shorter, 1.0, longer, share, tolerance)?;
+    Ok(share)
+}
+
+fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), Kind> {
+    match (ours.pace, theirs.pace) {
+        (Pace::Rapid, Pace::Rapid) => Ok(()),
+        (Pace::Feed(ours), Pace::Feed(theirs)) if libm::fabs(ours - theirs) <= tolerance.feed => Ok(()),
+        (
+            Pace::Probe { feed: ours, toward, must_answer },
+            Pace::Probe { feed: theirs, toward: toward_too, must_answer: must_answer_too },
+        ) if (toward, must_answer) == (toward_too, must_answer_too) => {
+            if libm::fabs(ours - theirs) <= tolerance.feed { Ok(()) } else { Err(Kind::Feed) }
+        }
+        (Pace::Feed(_), Pace::Feed(_)) => Err(Kind::Feed),
+        _ => Err(Kind::Pace),
+    }
+}
+
+/// Compares two stretches between their beginnings and these shares of them.
+fn check_shape(
+    one: &Stretch,
+    one_end: f64,
+    other: &Stretch,
+    other_end: f64,
+    tolerance: &Tolerance,
+) -> Result<(), Kind> {
+    if !one.is_arc() && !other.is_arc() {
+        return Ok(());
+    }
+    let chord = if one.is_arc() && other.is_arc() { 0.0 } else { tolerance.chord };
+    let slack = 2.0 * tolerance.place + chord;
+    let agrees = |share: f64| {
+        let at = |stretch: &Stretch, end: f64| stretch.point(stretch.begin + share * (end - stretch.begin));
+        is_near(&at(one, one_end), &at(other, other_end), slack)
+    };
+    if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(Kind::Shape) }
+}
+
+/// Whether two places agree in each coordinate.
+pub(super) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| libm::fabs(a - b) <= slack)
+}

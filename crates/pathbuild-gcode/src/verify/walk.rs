@@ -1,0 +1,135 @@
+//! Walking along a list of moves, piece by piece.
+
+use crate::interpret::{Axes, Move, Pace, Path};
+
+use super::compare::is_near;
+
+/// Somewhere on a list of moves.
+pub(super) struct Walker<'m> {
+    moves: &'m [(u32, Move)],
+    index: usize,
+    /// The share of the current move that is behind us.
+    done: f64,
+}
+
+/// What is left of a move.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) it: Move,
+    /// The share of the move where it begins.
+    pub(super) begin: f64,
+    /// What is left of its length in mm; of a move from an unknown place 0.
+    pub(super) length: f64,
+}
+
+impl<'m> Walker<'m> {
+    pub(super) fn new(moves: &'m [(u32, Move)]) -> Self {
+        Self { moves, index: 0, done: 0.0 }
+    }
+
+    /// The current move with its line.
+    pub(super) fn current(&self) -> Option<(u32, Move)> {
+        self.moves.get(self.index).copied()
+    }
+
+    /// The last move of all with its line.
+    pub(super) fn last(&self) -> Option<(u32, Move)> {
+        self.moves.last().copied()
+    }
+
+    /// Whether a part of the current move is behind us.
+    pub(super) fn is_within(&self) -> bool {
+        self.done > 0.0
+    }
+
+    /// What is left of the current move.
+    pub(super) fn stretch(&self) -> Option<Stretch> {
+        let (_, it) = self.current()?;
+        Some(Stretch { it, begin: self.done, length: it.length() * (1.0 - self.done) })
+    }
+
+    /// Where the tool is, if there are moves at all.
+    pub(super) fn place(&self) -> Option<[f64; 3]> {
+        match self.stretch() {
+            Some(stretch) if stretch.it.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
+            Some(stretch) => Some(stretch.end()),
+            None => self.last().map(|(_, it)| it.to.at),
+        }
+    }
+
+    pub(super) fn finish_move(&mut self) {
+        self.index += 1;
+        self.done = 0.0;
+    }
+
+    /// Goes on to this share of the current move.
+    pub(super) fn go_to(&mut self, share: f64) {
+        self.done = share;
+    }
+
+    /// Goes over rapid moves to the first place that will do; if there is none, stays.
+    pub(super) fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
+        let rapids = self.moves[self.index..].iter().take_while(|(_, it)| it.pace == Pace::Rapid);
+        let found = rapids.clone().position(|(_, it)| will_do(&it.to.at));
+        self.index += found.map_or(0, |passed| passed + 1);
+        found.is_some()
+    }
+}
+
+impl Stretch {
+    pub(super) fn end(&self) -> [f64; 3] {
+        self.it.to.at
+    }
+
+    pub(super) fn is_arc(&self) -> bool {
+        matches!(self.it.path, Path::Arc(_))
+    }
+
+    /// The place at a share of the whole move.
+    pub(super) fn point(&self, share: f64) -> [f64; 3] {
+        let (from, to) = (&self.it.from, &self.it.to);
+        match self.it.path {
+            _ if share >= 1.0 => to.at,
+            Path::Line => std::array::from_fn(|axis| from.at[axis] + share * (to.at[axis] - from.at[axis])),
+            Path::Arc(arc) => arc.point(from, to, share),
+        }
+    }
+
+    /// Whether both end at one place, not one a whole turn later than the other.
+    pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
+        let from_unknown = self.it.from.known != Axes::ALL || other.it.from.known != Axes::ALL;
+        let (shorter, longer) = (self.length.min(other.length), self.length.max(other.length));
+        is_near(&self.end(), &other.end(), slack) && (from_unknown || longer <= 1.25 * shorter + 10.0 * slack)
+    }
+
+    /// The share of the move at which it comes nearest to a place about `along` mm ahead; `None` if it has no length.
+    pub(super) fn nearest(&self, place: &[f64; 3], along: f64) -> Option<f64> {
+        let whole = self.it.length();
+        if whole <= 0.0 {
+            return None;
+        }
+        let share = match self.it.path {
+            Path::Line => {
+                let way: [f64; 3] = std::array::from_fn(|axis| self.it.to.at[axis] - self.it.from.at[axis]);
+                (0..3).map(|axis| (place[axis] - self.it.from.at[axis]) * way[axis]).sum::<f64>()
+                    / (whole * whole)
+            }
+            Path::Arc(arc) => {
+                let guess = (self.begin + along / whole).min(1.0);
+                let sweep = arc.sweep(&self.it.from, &self.it.to);
+                guess + self.angle_ahead(&arc.point(&self.it.from, &self.it.to, guess), place) / sweep
+            }
+        };
+        Some(share.clamp(self.begin, 1.0))
+    }
+
+    /// The angle in radians from one place to another around the arc's centre, in its direction, between -pi and pi.
+    fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
+        let Path::Arc(arc) = self.it.path else { return 0.0 };
+        let [first, second] = arc.plane.axes();
+        let spoke = |at: &[f64; 3]| [at[first] - arc.centre[0], at[second] - arc.centre[1]];
+        let ([a, b], [c, d]) = (spoke(from), spoke(to));
+        let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
+        if arc.clockwise { -counterclockwise } else { counterclockwise }
+    }
+}

@@ -1,0 +1,48 @@
+//! Guessing dialects.
+
+use pathbuild_gcode::dialect::Dialect::{self, Grbl, LinuxCnc, Native, Rs274, Xpertmill};
+use pathbuild_gcode::interpret::guess;
+
+fn guessed(text: &str) -> (Dialect, Option<u32>) {
+    let guess = guess(text.as_bytes());
+    (guess.dialect, guess.evidence.line)
+}
+
+#[test]
+fn signs_of_one_dialect_decide() {
+    assert_eq!(guessed("%\nG00 Z1.000(=1.000+0.5*[#51-5.000])\n"), (Native, Some(2)));
+    assert_eq!(guessed("%\nF150\nG17 G21 G40 G49 G54 G80 G90 G94\r\nG00 Z20.000\n"), (Native, Some(3)));
+    assert_eq!(guessed("% //Programmstart\nG0 X1\n"), (Xpertmill, Some(1)));
+    assert_eq!(guessed("%\nG0 X1\nM06 05\n"), (Xpertmill, Some(3)));
+    assert_eq!(guessed("G21\n#<depth>=1\n"), (LinuxCnc, Some(2)));
+    assert_eq!(guessed("o100 sub\no100 endsub\n"), (LinuxCnc, Some(1)));
+    assert_eq!(guessed("( Grbl Post Processor )\nG0 X1\n"), (Grbl, Some(1)));
+}
+
+#[test]
+fn what_looks_like_a_sign_is_none() {
+    assert_eq!(guessed("G0 X1 (see http://example)\nM30\n"), (Rs274, None));
+    assert_eq!(guessed("T5 M6\nG0 X1\nM30\n"), (Rs274, None));
+    assert_eq!(guessed("(=heading=)\nG0 X1\nM30\n"), (Rs274, None));
+    assert_eq!(guessed("O1000\nG0 X1\nM30\n").1, None);
+}
+
+#[test]
+fn else_the_first_dialect_that_knows_the_words() {
+    assert_eq!(guessed("G21 G90\nG81 X1 Y1 Z-1 R1 F10\nM30\n"), (Rs274, None));
+    assert_eq!(guessed("G21 G90\nG73 X1 Y1 Z-1 R1 Q1 F10\nM30\n"), (LinuxCnc, None));
+    assert_eq!(guessed("G21 G90 ; remark\nG38.4 Z1 F10\nM30\n"), (LinuxCnc, None));
+    assert_eq!(guessed(""), (Rs274, None));
+}
+
+#[test]
+fn fixtures_are_recognised() {
+    for (text, dialect) in [
+        (include_str!("programs/native/drill.gcode"), Native),
+        (include_str!("programs/native/clean.gcode"), Native),
+        (include_str!("programs/native/adjusted.gcode"), Native),
+        (include_str!("programs/expressions.ngc"), LinuxCnc),
+    ] {
+        assert_eq!(guessed(text).0, dialect);
+    }
+}

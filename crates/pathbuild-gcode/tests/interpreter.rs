@@ -1,0 +1,720 @@
+//! The interpreter: what words do, in which order. (`reference/cad6_xpertmill_gcode.md`, section 5)
+
+mod common;
+
+use common::{faults, spelled_out, trace, trace_with};
+use pathbuild_gcode::dialect::Dialect::{self, Grbl, LinuxCnc, Native, Rs274};
+use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
+
+const HEAD: &str = "G17 G21 G90 G94\n";
+
+/// The steps of a program behind [`HEAD`], and M30.
+fn run(dialect: Dialect, program: &str) -> Vec<String> {
+    trace(dialect, &format!("{HEAD}{program}\nM30\n"))
+        .into_iter()
+        .filter(|step| !step.ends_with(" end"))
+        .collect()
+}
+
+/// The faults of a program behind [`HEAD`], and M30.
+fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
+    faults(dialect, &format!("{HEAD}{program}\nM30\n"))
+}
+
+const FINE: [&str; 0] = [];
+
+#[test]
+fn coordinates_are_absolute_millimetres() {
+    assert_eq!(
+        run(Native, "G0 X1 Y2 Z3\nG1 X-4 F100\nY5"),
+        ["2 rapid to 1 2 3", "3 feed 100 to -4 2 3", "4 feed 100 to -4 5 3"]
+    );
+}
+
+#[test]
+fn a_position_is_unknown_until_the_program_says_it() {
+    assert_eq!(run(Native, "G0 Z3\nG0 X1 Y2"), ["2 rapid to ? ? 3", "3 rapid to 1 2 3"]);
+    let moves = interpret(b"G21 G90\nG0 Z3\nG0 X1 Y2\nG0 X2 Y2\nM30\n", Native, &Options::default());
+    assert_eq!(moves.moves().iter().map(|(_, it)| it.length()).collect::<Vec<_>>(), [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn inches_are_converted() {
+    assert_eq!(
+        run(Native, "G20 G0 X1 Y0 Z0\nG1 X2 F10\nG21 X3"),
+        ["2 rapid to 25.4 0 0", "3 feed 254 to 50.8 0 0", "4 feed 254 to 3 0 0"]
+    );
+}
+
+#[test]
+fn incremental_moves_add_up() {
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z1\nG91 G0 X1\nX1 Z-0.5\nG90 X0"),
+        ["2 rapid to 1 1 1", "3 rapid to 2 1 1", "4 rapid to 3 1 0.5", "5 rapid to 0 1 0.5"]
+    );
+}
+
+#[test]
+fn words_are_obeyed_in_the_order_of_the_standard_not_of_the_text() {
+    assert_eq!(
+        run(Rs274, "G0 X1 Y1 Z1\nM5 X3 G1 T1 F100 S500 M3 (note)"),
+        ["2 rapid to 1 1 1", "3 (note)", "3 select 1", "3 spindle Off 500", "3 feed 100 to 3 1 1"]
+    );
+    assert_eq!(run(Native, "X1 Y1 Z1 G0 M9 G20 M30"), ["2 rapid to 25.4 25.4 25.4"]);
+}
+
+#[test]
+fn a_motion_word_holds_until_the_next() {
+    assert_eq!(
+        run(Rs274, "G1 X1 Y0 Z0 F10\nX2\nG80\nG0\nX3"),
+        ["2 feed 10 to 1 0 0", "3 feed 10 to 2 0 0", "6 rapid to 3 0 0"]
+    );
+}
+
+#[test]
+fn coordinates_need_a_motion() {
+    for dialect in [Rs274, LinuxCnc] {
+        assert_eq!(wrong(dialect, "X1"), ["2 missing-word"], "{dialect}");
+    }
+    for dialect in [Native, Grbl] {
+        assert_eq!(wrong(dialect, "X1"), FINE, "{dialect}");
+        assert_eq!(run(dialect, "X1"), ["2 rapid to 1 ? ?"]);
+        assert_eq!(wrong(dialect, "G80\nX1"), ["3 missing-word"], "{dialect}");
+    }
+}
+
+#[test]
+fn cutting_needs_a_feed() {
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG1 X1\nX2\nX3 F0\nX4 F1"), ["3 missing-feed", "5 missing-feed"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nF0.1 G1 X1"), FINE);
+}
+
+#[test]
+fn g94_clears_the_feed_for_linuxcnc_only() {
+    let program = "G17 G21 G90\nG0 X0 Y0 Z0\nF150\nG94\nG1 X1\nM30\n";
+    assert_eq!(faults(LinuxCnc, program), ["5 missing-feed"]);
+    for dialect in [Native, Rs274, Grbl] {
+        assert_eq!(faults(dialect, program), FINE, "{dialect}");
+    }
+    assert_eq!(faults(LinuxCnc, "G17 G21 G90\nG0 X0 Y0 Z0\nF150 G94\nG1 X1\nM30\n"), FINE);
+}
+
+#[test]
+fn inverse_time_feeds_are_those_of_the_move() {
+    assert_eq!(run(Rs274, "G0 X0 Y0 Z0\nG93 G1 X10 F2"), ["2 rapid to 0 0 0", "3 feed 20 to 10 0 0"]);
+    assert_eq!(wrong(Rs274, "G0 X0 Y0 Z0\nG93 G1 X10 F2\nX20\nG94 X30 F5"), ["4 missing-feed"]);
+}
+
+#[test]
+fn feeds_per_turn_depend_on_the_speed() {
+    assert_eq!(run(LinuxCnc, "G0 X0 Y0 Z0\nS1000 M3\nG95 G1 X10 F0.1")[2], "4 feed 100 to 10 0 0");
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nG95 G1 X10 F0.1"), ["3 missing-feed"]);
+}
+
+#[test]
+fn arcs_have_their_centre_relative_to_their_beginning() {
+    assert_eq!(
+        run(Native, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 F10\nG3 X1 Y0 I0 J1"),
+        [
+            "2 rapid to 1 0 0",
+            "3 feed 10 to 0 -1 0 cw round 0 0 by 90",
+            "4 feed 10 to 1 0 0 ccw round 0 0 by 90"
+        ]
+    );
+}
+
+#[test]
+fn arcs_with_equal_ends_are_full_circles() {
+    assert_eq!(run(Native, "G0 X1 Y0 Z0\nG2 X1 Y0 I-1 F10")[1], "3 feed 10 to 1 0 0 cw round 0 0 by 360");
+}
+
+#[test]
+fn arcs_are_helices_when_z_changes() {
+    let result =
+        interpret(b"G21 G90 G17\nG0 X1 Y0 Z0\nG3 X-1 Y0 Z3 I-1 F10\nM30\n", Native, &Options::default());
+    let (_, arc) = result.moves()[1];
+    let half_circle = std::f64::consts::PI;
+    assert!((arc.length() - libm::hypot(half_circle, 3.0)).abs() < 1e-12);
+    assert_eq!(arc.extent().map(Option::unwrap), [(-1.0, 1.0), (0.0, 1.0), (0.0, 3.0)]);
+}
+
+#[test]
+fn arcs_turn_in_the_other_planes_as_seen_from_their_third_axis() {
+    assert_eq!(run(Native, "G0 X0 Y0 Z1\nG18 G2 X1 Z0 K-1 F10")[1], "3 feed 10 to 1 0 0 cw round 0 0 by 270");
+    assert_eq!(run(Native, "G0 X0 Y0 Z1\nG18 G3 X1 Z0 K-1 F10")[1], "3 feed 10 to 1 0 0 ccw round 0 0 by 90");
+    assert_eq!(run(Native, "G0 X0 Y1 Z0\nG19 G3 Y0 Z1 J-1 F10")[1], "3 feed 10 to 0 0 1 ccw round 0 0 by 90");
+}
+
+#[test]
+fn arcs_by_radius_are_the_short_ones_unless_it_is_negative() {
+    let arc = |words: &str| run(Native, &format!("G0 X1 Y0 Z0\n{words} F10"))[1].clone();
+    assert_eq!(arc("G3 X0 Y1 R1"), "3 feed 10 to 0 1 0 ccw round 0 0 by 90");
+    assert_eq!(arc("G3 X0 Y1 R-1"), "3 feed 10 to 0 1 0 ccw round 1 1 by 270");
+    assert_eq!(arc("G2 X0 Y1 R1"), "3 feed 10 to 0 1 0 cw round 1 1 by 90");
+    assert_eq!(arc("G2 X0 Y1 R-1"), "3 feed 10 to 0 1 0 cw round 0 0 by 270");
+}
+
+#[test]
+fn arcs_by_radius_have_two_ends_and_a_radius_that_reaches() {
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 R1 F10"), ["3 doubtful-arc"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 R0.99 F10"), ["3 invalid-arc"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X0 Y0 R1 F10"), ["3 invalid-arc"]);
+}
+
+#[test]
+fn linuxcnc_takes_radii_that_are_a_little_too_short() {
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nG2 X2 Y0 R0.9988 F10"), FINE);
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nG2 X2 Y0 R0.9987 F10"), ["3 invalid-arc"]);
+}
+
+#[test]
+fn half_circles_by_radius_are_doubtful() {
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X19.99 Y0 R10.000 F10"), FINE);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X20 Y0 R10.000 F10"), ["3 doubtful-arc"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X20 Y0 I10 F10"), FINE);
+}
+
+#[test]
+fn arcs_that_nearly_close_are_doubtful() {
+    assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG2 X10 Y0.001 I-10 F10"), ["3 doubtful-arc"]);
+    assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG2 X10 Y0.003 I-10 F10"), FINE);
+    assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG3 X10 Y0.001 I-10 F10"), FINE);
+    assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG2 X10 Y0 I-10 F10"), FINE);
+}
+
+#[test]
+fn arcs_need_a_centre() {
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 F10"), ["3 invalid-arc"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 I1 R1 F10"), ["3 invalid-arc"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 I0 J0 F10"), ["3 invalid-arc"]);
+    assert_eq!(
+        run(Native, "G0 X0 Y0 Z0\nG2 X2 Y0 F10\nG1 X3 F10").len(),
+        2,
+        "the arc is left out, the position kept"
+    );
+}
+
+#[test]
+fn arcs_need_an_axis_word_but_for_linuxcnc() {
+    for (dialect, expected) in [(Native, 1), (Rs274, 1), (Grbl, 1), (LinuxCnc, 0)] {
+        assert_eq!(wrong(dialect, "G0 X1 Y0 Z0\nG2 I-1 F10").len(), expected, "{dialect}");
+    }
+    assert_eq!(run(LinuxCnc, "G0 X1 Y0 Z0\nG2 I-1 F10")[1], "3 feed 10 to 1 0 0 cw round 0 0 by 360");
+}
+
+#[test]
+fn radii_agree_within_the_dialects_tolerance() {
+    let arc = |end: &str| format!("G0 X10 Y0 Z0\nG3 X0 Y{end} I-10 F10");
+    for (dialect, within, beyond) in [
+        (Rs274, "10.0019", "10.0021"),
+        (LinuxCnc, "10.028", "10.029"),
+        (Grbl, "10.0099", "10.0101"),
+        (Native, "10.0099", "10.0101"),
+    ] {
+        assert_eq!(wrong(dialect, &arc(within)), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &arc(beyond)), ["3 arc-radii-differ"], "{dialect}");
+    }
+}
+
+#[test]
+fn large_arcs_have_a_tolerance_of_their_size() {
+    let arc = |end: &str| format!("G0 X1000 Y0 Z0\nG3 X0 Y{end} I-1000 F10");
+    for (dialect, within, beyond) in
+        [(LinuxCnc, "1000.9", "1001.1"), (Grbl, "1000.49", "1000.51"), (Rs274, "1000.0019", "1000.0021")]
+    {
+        assert_eq!(wrong(dialect, &arc(within)), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &arc(beyond)), ["3 arc-radii-differ"], "{dialect}");
+    }
+    let arc = |end: &str| format!("G0 X10000 Y0 Z0\nG3 X0 Y{end} I-10000 F10");
+    assert_eq!(wrong(LinuxCnc, &arc("10002.82")), FINE);
+    assert_eq!(wrong(LinuxCnc, &arc("10002.84")), ["3 arc-radii-differ"]);
+}
+
+#[test]
+fn inch_programs_of_the_nist_have_a_tolerance_in_inches() {
+    let arc = |end: &str| format!("G20 G0 X1 Y0 Z0\nG3 X0 Y{end} I-1 F10");
+    assert_eq!(wrong(Rs274, &arc("1.00019")), FINE);
+    assert_eq!(wrong(Rs274, &arc("1.00021")), ["3 arc-radii-differ"]);
+}
+
+#[test]
+fn linuxcnc_counts_turns_and_takes_absolute_centres() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X1 Y0 Z0\nG2 X0 Y-1 Z-3 I-1 P3 F10")[1],
+        "3 feed 10 to 0 -1 -3 cw round 0 0 by 810"
+    );
+    assert_eq!(
+        run(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 J0 F10")[1],
+        "3 feed 10 to 0 -1 0 cw round 0 0 by 90"
+    );
+    assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 F10"), ["3 missing-word"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P0 F10"), ["3 value-out-of-range"]);
+    assert_eq!(wrong(Grbl, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P3 F10"), ["3 unused-word"]);
+}
+
+#[test]
+fn words_that_nothing_uses_are_errors() {
+    assert_eq!(wrong(LinuxCnc, "G0 X1 I3"), ["2 unused-word"]);
+    assert_eq!(wrong(Grbl, "G0 X1\nG1 Y1 R2 F5"), ["3 unused-word"]);
+    assert_eq!(wrong(Native, "F10 S20 T3"), FINE);
+}
+
+#[test]
+fn words_of_one_group_exclude_each_other() {
+    assert_eq!(wrong(Native, "G0 G1 X1 F5"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "G0 G17 G20 G90 X1"), FINE);
+    assert_eq!(wrong(Native, "G20 G21"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "M3 M5"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "M7 M8"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "M8 M9"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "G0 X1 X2"), ["2 conflicting-words"]);
+}
+
+#[test]
+fn only_one_word_of_a_line_takes_its_coordinates() {
+    assert_eq!(wrong(Native, "G0 G92 X1"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Native, "G0 G92.1 X1"), FINE);
+    assert_eq!(wrong(LinuxCnc, "G28 G1 X1 F10").first().map(String::as_str), Some("2 conflicting-words"));
+}
+
+#[test]
+fn words_are_those_of_the_dialect() {
+    for (words, unknown_to) in [
+        ("G43 H1", &[Grbl][..]),
+        ("G64", &[Grbl]),
+        ("G81 X1 Y1 Z-1 R1 F10", &[Grbl]),
+        ("T1 M6", &[Grbl]),
+        ("G28.1", &[Rs274]),
+        ("G90.1", &[Rs274, Grbl]),
+        ("G59.1", &[Grbl]),
+        ("G52 X0", &[Rs274, Grbl, Native]),
+        ("M60", &[Grbl]),
+        ("G71", &[Rs274, Grbl, Native]),
+        ("M8", &[]),
+        ("G5.1", &[Rs274, Grbl, Native]),
+    ] {
+        for dialect in [Rs274, LinuxCnc, Grbl, Native] {
+            let unknown =
+                wrong(dialect, words).iter().filter(|fault| fault.ends_with("unknown-word")).count();
+            assert_eq!(unknown > 0, unknown_to.contains(&dialect), "{words} in {dialect}: {unknown}");
+        }
+    }
+}
+
+#[test]
+fn letters_are_those_of_the_dialect() {
+    assert_eq!(wrong(Grbl, "G0 X1 A5"), ["2 unknown-word"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X1 A5"), ["2 word-not-followed"]);
+}
+
+#[test]
+fn what_is_accepted_and_not_followed_is_an_error() {
+    for words in [
+        "G41 D1",
+        "G33 Z-1 K1",
+        "G5 X1 Y1 I1 J1 P1 Q1",
+        "G76 P1 Z-1 I1 J1 R1 K1",
+        "M98 P100",
+        "o1 sub",
+        "M101 P1 Q2",
+        "G10 L1 P1 Z1",
+    ] {
+        assert_eq!(wrong(LinuxCnc, words), ["2 word-not-followed"], "{words}");
+    }
+}
+
+#[test]
+fn the_position_behind_a_motion_that_is_not_followed_is_its_end() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z0\nG5 X1 Y1 I1 J1 P1 Q1\nG91 G0 X1"),
+        ["2 rapid to 0 0 0", "4 rapid to 2 1 0"]
+    );
+}
+
+#[test]
+fn dwells_are_seconds() {
+    assert_eq!(run(Native, "G4 P1.5\nG04P4"), ["2 dwell 1.5", "3 dwell 4"]);
+    assert_eq!(wrong(Native, "G4"), ["2 missing-word"]);
+    assert_eq!(wrong(Native, "G4 P-1"), ["2 value-out-of-range"]);
+}
+
+#[test]
+fn probes_leave_the_position_open() {
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z5\nG38.3 Z0 F50\nG4 P4\nG0 Z20"),
+        ["2 rapid to 1 1 5", "3 probe 50 toward=true must=false to 1 1 0", "4 dwell 4", "5 rapid to 1 1 20"]
+    );
+    assert_eq!(run(Native, "G0 X1 Y1 Z5\nG38.2 Z0 F50\nG91 G0 Z2")[2], "4 rapid to 1 1 ?");
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z5\nG38.2 Z0"), ["3 missing-feed"]);
+}
+
+#[test]
+fn g92_renames_where_the_tool_is() {
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z1\nG92 X0\nG0 X1\nG92.1\nG0 X1"),
+        ["2 rapid to 1 1 1", "4 rapid to 2 1 1", "6 rapid to 1 1 1"]
+    );
+    assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.2\nG0 X1\nG92.3\nX1")[2], "7 rapid to 2 1 1");
+    assert_eq!(wrong(Native, "G92"), ["2 missing-word"]);
+}
+
+#[test]
+fn g92_at_the_beginning_makes_the_position_known() {
+    assert_eq!(run(Native, "G92 X0 Y0 Z5\nG0 X1"), ["3 rapid to 1 0 5"]);
+}
+
+#[test]
+fn g52_shifts_and_unshifts() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X1 Y1 Z1\nG52 X10\nG0 X1\nG52 X0\nG0 X2"),
+        ["2 rapid to 1 1 1", "4 rapid to 11 1 1", "6 rapid to 2 1 1"]
+    );
+}
+
+#[test]
+fn other_coordinate_systems_are_named() {
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z1\nG55 G0 X2\nG54 X1"),
+        ["2 rapid to 1 1 1", "3 system G55", "3 rapid to 2 1 1", "4 system G54", "4 rapid to 1 1 1"]
+    );
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG55 G0 X2"), ["3 unknown-offset"]);
+    assert_eq!(
+        wrong(Native, "G55 G0 X1 Y1 Z1\nG0 X2"),
+        FINE,
+        "the first system used is the one counted from"
+    );
+}
+
+#[test]
+fn g10_places_coordinate_systems() {
+    assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2")[2], "4 rapid to 12 1 1");
+    assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L20 P2 X0\nG55 G0 X2")[2], "4 rapid to 3 1 1");
+    assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P0 X10\nG0 X2")[1], "4 rapid to 12 1 1");
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2"), FINE);
+    assert_eq!(wrong(Native, "G10 L2 P9 X10\nG10 L2 P10 X10"), ["3 value-out-of-range"]);
+}
+
+#[test]
+fn named_places_are_unknown_without_configuration() {
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z1\nG28\nG0 Z5"),
+        ["2 rapid to 1 1 1", "3 rapid to ? ? ? Home1", "4 rapid to ? ? 5"]
+    );
+    assert_eq!(
+        run(Native, "G0 X1 Y1 Z1\nG91 G28 Z2\nG90 G0 Z5"),
+        ["2 rapid to 1 1 1", "3 rapid to 1 1 3", "3 rapid to 1 1 ? Home1", "4 rapid to 1 1 5"]
+    );
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30"), ["3 unknown-offset"]);
+    assert_eq!(run(Native, "G0 X1 Y1 Z1\nG53 G0 Z0")[1], "3 rapid to 1 1 ? Machine");
+    assert_eq!(run(Native, "G0 X1 Y1 Z1\nG28.1\nG0 X9\nG28")[2], "5 rapid to 1 1 1 Home1");
+}
+
+#[test]
+fn named_places_are_known_from_the_configuration() {
+    let mut offsets =
+        MachineOffsets { home: [[0.0, 0.0, 0.0], [5.0, 5.0, 0.0]], ..MachineOffsets::default() };
+    offsets.systems[0] = [100.0, 50.0, -40.0];
+    offsets.systems[1] = [200.0, 50.0, -40.0];
+    let options = Options { offsets: Some(offsets), ..Options::default() };
+    let program = "G21 G90\nG0 X1 Y1 Z1\nG28\nG53 G0 X100\nG55 G0 X0\nG30 Z0\nM30\n";
+    assert_eq!(
+        trace_with(Native, program, &options),
+        [
+            "2 rapid to 1 1 1",
+            "3 rapid to -100 -50 40 Home1",
+            "4 rapid to 0 -50 40 Machine",
+            "5 system G55",
+            "5 rapid to 100 -50 40",
+            "6 rapid to 100 -50 0",
+            "6 rapid to 100 -50 40 Home2",
+            "7 end"
+        ]
+    );
+}
+
+#[test]
+fn machine_coordinates_go_with_absolute_straight_moves() {
+    assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words", "3 unknown-offset"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG53 G80\nG90"), ["3 conflicting-words"]);
+}
+
+#[test]
+fn cycles_are_the_moves_that_they_stand_for() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z5\nG98 G81 X1 Y2 Z-2 R1 F100\nX3\nG80"),
+        [
+            "2 rapid to 0 0 5",
+            "3 rapid to 1 2 5",
+            "3 rapid to 1 2 1",
+            "3 feed 100 to 1 2 -2",
+            "3 rapid to 1 2 5",
+            "4 rapid to 3 2 5",
+            "4 rapid to 3 2 1",
+            "4 feed 100 to 3 2 -2",
+            "4 rapid to 3 2 5"
+        ]
+    );
+}
+
+#[test]
+fn g99_stays_at_the_cycles_own_height() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z5\nG99 G82 X1 Y2 Z-2 R1 P0.5 F100\nX3")[3..],
+        [
+            "3 feed 100 to 1 2 -2",
+            "3 dwell 0.5",
+            "3 rapid to 1 2 1",
+            "4 rapid to 3 2 1",
+            "4 feed 100 to 3 2 -2",
+            "4 dwell 0.5",
+            "4 rapid to 3 2 1"
+        ]
+    );
+}
+
+#[test]
+fn pecking_lifts_out_and_chip_breaking_lifts_a_little() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z1\nG99 G83 Z-2 R1 Q2 F100")[2..],
+        [
+            "3 feed 100 to 0 0 -1",
+            "3 rapid to 0 0 1",
+            "3 rapid to 0 0 -0.746",
+            "3 feed 100 to 0 0 -2",
+            "3 rapid to 0 0 1"
+        ]
+    );
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z1\nG99 G73 Z-2 R1 Q2 F100")[2..],
+        ["3 feed 100 to 0 0 -1", "3 rapid to 0 0 -0.746", "3 feed 100 to 0 0 -2", "3 rapid to 0 0 1"]
+    );
+}
+
+#[test]
+fn boring_lifts_at_the_feed() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z1\nG99 G85 Z-2 R1 F100")[2..4],
+        ["3 feed 100 to 0 0 -2", "3 feed 100 to 0 0 1"]
+    );
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z1\nG99 G89 Z-2 R1 P2 F100")[2..],
+        ["3 feed 100 to 0 0 -2", "3 dwell 2", "3 feed 100 to 0 0 1"]
+    );
+}
+
+#[test]
+fn cycles_are_repeated_by_l() {
+    let steps = run(LinuxCnc, "G0 X0 Y0 Z5\nG91 G81 X1 Y0 Z-2 R-4 L3 F100");
+    assert_eq!(
+        steps.iter().filter(|step| step.contains("feed")).cloned().collect::<Vec<_>>(),
+        ["3 feed 100 to 1 0 -1", "3 feed 100 to 2 0 -1", "3 feed 100 to 3 0 -1"]
+    );
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG81 X1 Y0 Z-2 R1 L0 F100"), ["3 value-out-of-range"]);
+}
+
+#[test]
+fn cycles_drill_along_the_axis_across_the_plane() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z5\nG18 G81 X1 Y-3 Z2 R1 F10"),
+        [
+            "2 rapid to 0 0 5",
+            "3 rapid to 0 1 5",
+            "3 rapid to 1 1 2",
+            "3 feed 10 to 1 -3 2",
+            "3 rapid to 1 1 2"
+        ]
+    );
+}
+
+#[test]
+fn cycles_begin_above_r() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X0 Y0 Z0.5\nG81 X1 Y0 Z-2 R1 F100")[1..3],
+        ["3 rapid to 0 0 1", "3 rapid to 1 0 1"]
+    );
+}
+
+#[test]
+fn cycles_have_all_their_words() {
+    let start = "G0 X0 Y0 Z5\n";
+    for missing in ["G81 X1 Z-2 F10", "G81 X1 R1 F10", "G83 X1 Z-2 R1 F10", "G82 X1 Z-2 R1 F10"] {
+        assert_eq!(wrong(LinuxCnc, &format!("{start}{missing}")), ["3 missing-word"], "{missing}");
+    }
+    for beyond in ["G83 X1 Z-2 R1 Q0 F10", "G81 X1 Z2 R1 F10", "G83 X1 Z-2 R1 Q0.000001 F10"] {
+        assert_eq!(wrong(LinuxCnc, &format!("{start}{beyond}")), ["3 value-out-of-range"], "{beyond}");
+    }
+    assert_eq!(wrong(LinuxCnc, &format!("{start}G83 X1 Z-2 R1 Q0.1 F10\nX2\nG83 X3")), FINE);
+    assert_eq!(wrong(LinuxCnc, &format!("{start}G83 X1 Z-2 R1 Q0.1 F10\nX2\nG82 X3 P1")), ["5 missing-word"]);
+}
+
+#[test]
+fn a_series_of_cycles_ends_with_another_motion() {
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG81 X1 Z-2 R1 F10\nG0 X5\nG81 X1"), ["5 missing-word"]);
+}
+
+#[test]
+fn values_are_read_before_parameters_are_set() {
+    assert_eq!(
+        run(LinuxCnc, "#3=15\nG0 X0 Y0 Z0\n#3=6 G0 X#3\nG0 X#3"),
+        ["3 rapid to 0 0 0", "4 rapid to 15 0 0", "5 rapid to 6 0 0"]
+    );
+}
+
+#[test]
+fn operators_bind_as_in_the_dialect() {
+    for (expression, nist, linuxcnc) in [
+        ("1+2*3", 7.0, 7.0),
+        ("2**3**2", 64.0, 64.0),
+        ("0 AND 1 + 1", 1.0, 0.0),
+        ("10-2/4", 9.5, 9.5),
+        ("10-3-2", 5.0, 5.0),
+        ("7 MOD 4", 3.0, 3.0),
+        ("-7 MOD 4", 1.0, 1.0),
+        ("1 XOR 1", 0.0, 0.0),
+        ("3 OR 0", 1.0, 1.0),
+    ] {
+        let run = |dialect| run(dialect, &format!("G0 X[{expression}] Y0 Z0"))[0].clone();
+        assert_eq!(run(Rs274), format!("2 rapid to {nist} 0 0"), "{expression}");
+        assert_eq!(run(LinuxCnc), format!("2 rapid to {linuxcnc} 0 0"), "{expression}");
+    }
+}
+
+#[test]
+fn functions_take_degrees() {
+    for (expression, value) in [
+        ("SIN[30]", "0.5"),
+        ("COS[60]", "0.5"),
+        ("TAN[45]", "1"),
+        ("ASIN[0.5]", "30"),
+        ("ACOS[0.5]", "60"),
+        ("ATAN[1]/[-1]", "135"),
+        ("ABS[-2]", "2"),
+        ("SQRT[9]", "3"),
+        ("EXP[0]", "1"),
+        ("LN[1]", "0"),
+        ("ROUND[2.5]", "3"),
+        ("ROUND[-2.5]", "-3"),
+        ("FIX[-2.5]", "-3"),
+        ("FUP[-2.5]", "-2"),
+    ] {
+        assert_eq!(
+            run(Rs274, &format!("G0 X{expression} Y0 Z0")),
+            [format!("2 rapid to {value} 0 0")],
+            "{expression}"
+        );
+    }
+}
+
+#[test]
+fn linuxcnc_compares_and_has_names() {
+    assert_eq!(
+        run(LinuxCnc, "#<a b>=2\n#<c>=[1 LT #<AB>]\nG0 X#<c> Y[1 EQ 1.0000001] Z[EXISTS[#<nil>]]"),
+        ["4 rapid to 1 1 0"]
+    );
+    for (expression, value) in [("1 NE 2", 1), ("2 LE 2", 1), ("2 LT 2", 0), ("2 GE 2", 1), ("2 GT 2", 0)] {
+        assert_eq!(run(LinuxCnc, &format!("G0 X[{expression}] Y0 Z0")), [format!("2 rapid to {value} 0 0")]);
+    }
+}
+
+#[test]
+fn parameters_refer_to_parameters() {
+    assert_eq!(run(LinuxCnc, "#1=2\n#2=5\nG0 X##1 Y#[1+1] Z-#1"), ["4 rapid to 5 5 -2"]);
+}
+
+#[test]
+fn expressions_without_a_value_leave_out_their_line() {
+    for expression in [
+        "1/0",
+        "SQRT[-1]",
+        "ACOS[2]",
+        "LN[0]",
+        "[0-1]**0.5",
+        "#0",
+        "#6000",
+        "#1.5",
+        "#<never>",
+        "EXP[1000]",
+        "1 MOD 0",
+    ] {
+        let program = format!("G0 X0 Y0 Z0\nX[{expression}]\nX1");
+        assert_eq!(wrong(LinuxCnc, &program), ["3 cannot-evaluate"], "{expression}");
+        assert_eq!(run(LinuxCnc, &program).len(), 2, "{expression}");
+    }
+}
+
+#[test]
+fn parameters_end_where_the_dialects_do() {
+    assert_eq!(wrong(Rs274, "#5399=1\n#5400=1"), ["3 cannot-evaluate"]);
+    assert_eq!(wrong(LinuxCnc, "#5602=1\n#5603=1"), ["3 cannot-evaluate"]);
+}
+
+#[test]
+fn what_only_the_machine_knows_is_said() {
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\nG38.2 Z0 F10\nG0 Z[#5063+1]"), ["4 machine-value"]);
+}
+
+#[test]
+fn m5_in_the_line_of_a_move_comes_before_it() {
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M5"), ["3 stop-before-motion"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M9"), ["3 stop-before-motion"]);
+    assert_eq!(wrong(Native, "G0 X0 Y0 Z5\nG0 Z9 M3\nM5"), FINE);
+}
+
+#[test]
+fn units_and_modes_are_said_before_the_first_move() {
+    assert_eq!(faults(Native, "G90\nG0 X1\nG0 X2\nM30\n"), ["2 units-not-stated"]);
+    assert_eq!(faults(Native, "G21\nG0 X1\nG0 X2\nM30\n"), ["2 modes-not-stated"]);
+    assert_eq!(faults(Native, "G21 G90\nG0 X1 Y0 Z0\nG2 X0 Y-1 I-1 F5\nM30\n"), ["3 modes-not-stated"]);
+    assert_eq!(faults(Native, "G21 G90\nG0 X1\nM30\n"), FINE);
+}
+
+#[test]
+fn tools_are_changed_by_m6() {
+    assert_eq!(run(Native, "T3\nM6\nT4 M6"), ["2 select 3", "3 tool 3", "4 tool 4"]);
+    assert_eq!(run(Native, "M6"), ["2 tool 0"]);
+    assert_eq!(run(Native, "M3 S9\nT1 M6")[1..], ["3 tool 1", "3 spindle Off 9"]);
+    assert_eq!(wrong(Native, "T-1"), ["2 value-out-of-range"]);
+    assert_eq!(wrong(Native, "T1.5"), ["2 value-out-of-range"]);
+}
+
+#[test]
+fn stops_and_ends_are_steps() {
+    assert_eq!(
+        trace(Native, "M0\nM1\nM60\nM2\nG0 X1\n"),
+        ["1 stop optional=false", "2 stop optional=true", "3 stop optional=false", "4 end"]
+    );
+    assert_eq!(faults(Grbl, "M1\nM30\n"), ["1 ignored-word"]);
+}
+
+#[test]
+fn coolant_and_spindle_are_steps() {
+    assert_eq!(
+        run(Native, "M3 S1000 M7\nM8\nM9\nM5\nS2000"),
+        [
+            "2 spindle Clockwise 1000",
+            "2 coolant mist=true flood=false",
+            "3 coolant mist=true flood=true",
+            "4 coolant mist=false flood=false",
+            "5 spindle Off 1000",
+            "6 spindle Off 2000"
+        ]
+    );
+}
+
+#[test]
+fn heights_are_as_written_or_as_drawn() {
+    let program = "G21 G90\nG0 Z1.023(==1.000+0.441*[#51-2.000])\nG0 Z5.000(=5.000+1.000*[#51-2.000])\nM30\n";
+    assert_eq!(trace(Native, program)[..2], ["2 rapid to ? ? 1.023", "3 rapid to ? ? 5"]);
+    let nominal = Options { heights: Heights::Nominal, ..Options::default() };
+    assert_eq!(trace_with(Native, program, &nominal)[..2], ["2 rapid to ? ? 1", "3 rapid to ? ? 5"]);
+}
+
+#[test]
+fn a_fault_says_what_and_where() {
+    let result = interpret(b"G21 G90 G17\nG0 X0 Y0 Z0\nG2 X10 Y0 I6 F10\nM30\n", Rs274, &Options::default());
+    assert_eq!(
+        spelled_out(&result.problems),
+        "PB734 (Some(3), Some(1)) the arc begins with the radius 6 and ends with 4: 1.998 mm more than rs274 takes \
+         Some(\"G2 X10 Y0 I6 F10\")\n"
+    );
+}
