@@ -167,6 +167,20 @@ fn severities_of_the_configuration_decide_over_the_status() {
 }
 
 #[test]
+fn severities_for_some_drawings_hold_wherever_the_run_begins() {
+    let text = "library = [\"parts\"]\n[[severity-in]]\nfiles = [\"parts/*\"]\nPB114 = \"ignore\"\n";
+    let place = library().file("pathbuild.toml", text);
+    let status = |directory: &str, drawing: &str| {
+        place.run_in(directory, &["check", drawing, "--error-on-warning"]).status
+    };
+    assert_eq!(status(".", "parts/1235.1P.dxf"), Some(0));
+    assert_eq!(status("parts", "1235.1P.dxf"), Some(0));
+    assert_eq!(status("parts", "../parts/1235.1P.dxf"), Some(0));
+    let place = place.file("1235.1P.dxf", dxf(WARNED));
+    assert_eq!(place.run("check ./1235.1P.dxf --error-on-warning").status, Some(1), "not below parts");
+}
+
+#[test]
 fn a_closed_pipe_ends_nothing() {
     use std::process::Stdio;
     let place = library();

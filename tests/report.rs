@@ -122,7 +122,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
     assert_eq!(faults, []);
     let judged = |message, file: &str| {
         let diagnostic = Diagnostic::new(message).in_file(&directory.join(file));
-        judge(vec![diagnostic], &settings).first().map(|diagnostic| diagnostic.severity)
+        judge(vec![diagnostic], &settings, directory).first().map(|diagnostic| diagnostic.severity)
     };
     let end = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 7).unwrap();
     let encoding = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 8).unwrap();
@@ -133,7 +133,11 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
     assert_eq!(judged(end, "old/new/x/a.dxf"), None);
     assert_eq!(judged(encoding, "old/new/a.dxf"), None);
     assert_eq!(judged(&files::EMPTY_FILE, "a.dxf"), Some(Severity::Error));
-    assert_eq!(judge(vec![Diagnostic::new(end)], &settings)[0].severity, Severity::Error, "without a file");
+    assert_eq!(
+        judge(vec![Diagnostic::new(end)], &settings, directory)[0].severity,
+        Severity::Error,
+        "without a file"
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::config::Settings;
 use crate::exit::ExitStatus;
 use crate::printer::{Printer, Stream};
 use crate::render::{View, render};
-use crate::report::Findings;
+use crate::report::{Findings, judge};
 
 /// The surroundings of a run.
 #[derive(Debug)]
@@ -39,6 +39,11 @@ impl Context {
             Lang::En => en,
             Lang::De => de,
         }
+    }
+
+    /// Findings with the severities of the configuration, in order, each once.
+    pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
+        Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
     }
 
     /// Shows findings on stderr, as every command but `check` does.

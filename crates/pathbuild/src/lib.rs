@@ -8,6 +8,7 @@ mod context;
 mod exit;
 mod files;
 pub mod printer;
+pub mod progress;
 pub mod render;
 pub mod report;
 pub mod session;

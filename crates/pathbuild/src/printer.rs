@@ -6,7 +6,7 @@
 //! | diagnostics of `check` in a machine's format | stdout | always |
 //! | all other diagnostics | stderr | up to `-q` |
 //! | wrong usage | stderr | always |
-//! | status: the summary, files written | stderr | without `-q` |
+//! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
 //! | details: what was found, read, taken from the cache | stderr | with `-v` |
 //!
 //! A closed pipe is no error: what is left of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other
@@ -17,6 +17,7 @@ use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
 use crate::exit::ExitStatus;
+use crate::progress::Progress;
 
 /// When to colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -148,6 +149,12 @@ impl Printer {
     /// Prints what is wrong about the way the program was called.
     pub fn usage(&self, text: impl Display) {
         self.write(Stream::Stderr, text);
+    }
+
+    /// A progress bar for so many pieces of work, where somebody looks at it.
+    pub fn progress(&self, total: usize) -> Progress {
+        let is_shown = self.verbosity >= Verbosity::Normal && Stream::Stderr.is_terminal();
+        Progress::new(total, is_shown.then(|| Box::new(io::stderr()) as Box<dyn Write + Send>))
     }
 
     /// Ends the output: says what could not be written, and lets that decide over the status.

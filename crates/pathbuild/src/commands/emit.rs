@@ -13,7 +13,6 @@ use crate::args::EmitArgs;
 use crate::config::types;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
 use crate::session::{CheckedTarget, Output, Session, Wanted, outputs};
 
 /// Runs the command.
@@ -120,7 +119,7 @@ impl Emission<'_> {
                 self.diagnostics.push(*problem);
             }
         }
-        let findings = Findings::new(self.diagnostics);
+        let findings = self.context.findings(self.diagnostics);
         self.context.show(&findings);
         if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }

@@ -31,7 +31,7 @@ pub(super) fn strangers(
 }
 
 /// The path without `.` and `..`, as it is written: links are not followed, so that a linked drawing belongs where it is seen.
-pub(super) fn clean(path: &Utf8Path) -> Utf8PathBuf {
+pub(crate) fn clean(path: &Utf8Path) -> Utf8PathBuf {
     let mut clean = Utf8PathBuf::new();
     for component in path.components() {
         match component {

@@ -35,5 +35,5 @@ pub use settings::Settings;
 pub use show::show;
 pub use template::template;
 
-pub(crate) use discover::FILE_NAME;
+pub(crate) use discover::{FILE_NAME, clean};
 pub(crate) use kinds::table::nearest_code;

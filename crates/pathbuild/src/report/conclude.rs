@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 
 use super::baseline::Compared;
-use super::{Baseline, CheckedFile, Findings, judge, summary};
+use super::{Baseline, CheckedFile, Findings, summary};
 use crate::args::{CheckArgs, ReportFile};
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -24,8 +24,7 @@ pub struct Checked {
 
 /// Ends a check: severities and baseline applied, findings shown, reports written, the summary, the exit status.
 pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitStatus {
-    let diagnostics = judge(checked.diagnostics, &context.settings);
-    let findings = Findings { checked: checked.files, ..Findings::new(diagnostics) };
+    let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
     match &args.baseline {
         Some(file) if args.update_baseline => {
             update(context, &context.working_directory.join(file), &findings)

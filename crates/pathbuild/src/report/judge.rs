@@ -1,13 +1,20 @@
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 
-use crate::config::Settings;
+use crate::config::{Settings, clean};
 
-/// Gives diagnostics the severities that the configuration says, and drops those that it ignores.
-pub fn judge(diagnostics: Vec<Diagnostic>, settings: &Settings) -> Vec<Diagnostic> {
+/// Gives diagnostics the severities that the configuration says, and drops those that it ignores. Names of files are relative to
+/// the working directory, those of the configuration to itself.
+pub fn judge(
+    diagnostics: Vec<Diagnostic>,
+    settings: &Settings,
+    working_directory: &Utf8Path,
+) -> Vec<Diagnostic> {
     let severities = settings.severities();
-    let relative = |file: &Utf8Path| {
-        settings.directory().and_then(|it| file.strip_prefix(it).ok()).unwrap_or(file).to_owned()
+    let relative = |file: &Utf8Path| -> Utf8PathBuf {
+        let file = clean(&working_directory.join(file));
+        let below = settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
+        below.map(Utf8Path::to_owned).unwrap_or(file)
     };
     let judge = |mut diagnostic: Diagnostic| {
         let file = diagnostic.file.as_deref().map(relative);

@@ -66,7 +66,13 @@ impl Session<'_> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build();
         let Ok(pool) = pool else { return items.iter().map(|item| work(&self.db, item)).collect() };
         let db = self.db.clone();
-        pool.install(|| items.par_iter().map_with(db, |db, item| work(db, item)).collect())
+        let progress = self.context.printer.progress(items.len());
+        let work = |db: &mut Database, item| {
+            let result = work(db, item);
+            progress.advance();
+            result
+        };
+        pool.install(|| items.par_iter().map_with(db, work).collect())
     }
 }
 
