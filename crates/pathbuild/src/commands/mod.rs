@@ -6,6 +6,7 @@ pub mod completions;
 pub mod config;
 pub mod emit;
 pub mod explain;
+pub mod graph;
 pub mod init;
 pub mod man;
 
@@ -25,6 +26,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
         Command::Man => man::run(context),
+        Command::Graph(args) => graph::graph(context, args),
+        Command::Deps(args) => graph::deps(context, args),
+        Command::Rdeps(args) => graph::rdeps(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -68,6 +68,13 @@ impl Session<'_> {
         directories.flat_map(|directory| library::drawings(&self.normal(directory))).collect()
     }
 
+    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below.
+    pub fn everything(&self) -> Vec<SourceFile> {
+        let drawings =
+            if self.has_library() { self.library() } else { library::drawings(&Utf8PathBuf::new()) };
+        drawings.iter().map(|drawing| self.file(drawing)).collect()
+    }
+
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
         let is_directory = self.db.system().kind(&normal) == Kind::Directory;
