@@ -40,7 +40,11 @@ fn drawings_are_what_their_text_form_says() {
                 fs::write(&file, &made).expect("drawings can be written");
             }
             let present = fs::read(&file).unwrap_or_default();
-            assert!(present == made, "{} is not what its source says; see the first lines of this test", file.display());
+            assert!(
+                present == made,
+                "{} is not what its source says; see the first lines of this test",
+                file.display()
+            );
         }
     }
 }

@@ -80,7 +80,6 @@ pub enum Command {
     /// Show what embeds a path
     Rdeps(GraphArgs),
     /// Show where a path is defined
-    #[command(hide = true)]
     Where(GraphArgs),
     /// Show why a path was compiled again
     #[command(hide = true)]

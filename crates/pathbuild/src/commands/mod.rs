@@ -9,6 +9,7 @@ pub mod explain;
 pub mod graph;
 pub mod init;
 pub mod man;
+pub mod where_;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
@@ -29,6 +30,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Graph(args) => graph::graph(context, args),
         Command::Deps(args) => graph::deps(context, args),
         Command::Rdeps(args) => graph::rdeps(context, args),
+        Command::Where(args) => where_::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -9,11 +9,7 @@ pub(super) fn drawings(directory: &Utf8Path) -> Vec<Utf8PathBuf> {
     let root = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
     let mut walk = WalkBuilder::new(root);
     // Only what the directory itself says counts: results must not depend on the person's global Git settings.
-    walk.hidden(true)
-        .parents(false)
-        .git_global(false)
-        .git_exclude(false)
-        .require_git(false);
+    walk.hidden(true).parents(false).git_global(false).git_exclude(false).require_git(false);
     let files = walk
         .build()
         .filter_map(Result::ok)

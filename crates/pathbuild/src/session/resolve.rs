@@ -75,6 +75,11 @@ impl Session<'_> {
         drawings.iter().map(|drawing| self.file(drawing)).collect()
     }
 
+    /// The drawings that define a path, wherever names are looked for: one is right.
+    pub fn definitions_of(&self, name: &PathName) -> Vec<SourceFile> {
+        self.definitions(name, &self.directories())
+    }
+
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
         let is_directory = self.db.system().kind(&normal) == Kind::Directory;
