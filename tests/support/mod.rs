@@ -14,6 +14,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use pathbuild_draw::Fixture;
 use tempfile::TempDir;
 
 /// A directory with files in it, in which the program is run.
@@ -24,6 +25,12 @@ pub struct Place {
 impl Place {
     pub fn new() -> Self {
         Self { directory: TempDir::new().unwrap() }
+    }
+
+    /// A directory with the files of a fixture (crates/pathbuild-draw, README.md).
+    pub fn of(fixture: &str) -> Self {
+        let fixture = Fixture::parse(fixture).unwrap();
+        fixture.files.iter().fold(Self::new(), |place, file| place.file(&file.name, file.bytes()))
     }
 
     /// Adds a file; directories on the way to it are made.

@@ -18,9 +18,9 @@ pub mod system;
 pub use database::{Database, Db};
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use queries::{
-    Closure, Embedding, Found, Instance, MissingOption, NameKey, Outcome, Reached, chains, check_file,
-    check_target, closure, embeds, files_for, find_path, holders, locate, name_table, path, path_names,
-    program, raw_file, raw_path,
+    Closure, Destination, Edge, Embedding, Found, Instance, MissingOption, NameKey, Outcome, PathPlace,
+    Reached, chains, check_file, check_target, closure, embeds, files_for, find_path, holders, locate,
+    name_table, path, path_names, path_place, program, raw_file, raw_path,
 };
 pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
 pub use system::System;

@@ -5,6 +5,7 @@
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
 
+mod edges;
 mod embedding;
 mod hints;
 mod instance;
@@ -14,10 +15,11 @@ mod raw;
 mod reach;
 mod report;
 
+pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
 pub use joined::program;
 pub use lookup::{Found, files_for, find_path, holders, name_table};
-pub use raw::{NameKey, path_names, raw_file, raw_path};
+pub use raw::{NameKey, PathPlace, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};

@@ -2,10 +2,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_dxf::Options;
-use pathbuild_path::{PathName, RawPath, SourceMap};
+use pathbuild_path::{PathName, Position, RawPath, SourceMap};
 
 use crate::database::Db;
 use crate::inputs::SourceFile;
@@ -104,6 +104,34 @@ pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagno
     if let Some(entry) = raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded) {
         entry.map(db).locate(diagnostic);
     }
+}
+
+/// Where a path is drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathPlace {
+    /// The path, as its layer spells it.
+    pub name: PathName,
+    /// The first of its layers.
+    pub layer: Box<str>,
+    /// Its start marker, or its first element where it has none.
+    pub point: Option<Point>,
+    /// Where that is in the file.
+    pub position: Option<Position>,
+}
+
+/// Where a path of a file is drawn; `None` when the file has no such path.
+pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<PathPlace> {
+    let folded = name.folded();
+    let entry = raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded)?;
+    let raw = entry.raw(db);
+    let start = raw.start.as_ref().map(|start| &start.origin);
+    let origin = start.or_else(|| raw.elements.first().map(|element| &element.origin));
+    Some(PathPlace {
+        name: raw.name.clone(),
+        layer: raw.layer.clone(),
+        point: origin.map(|origin| origin.point),
+        position: origin.and_then(|origin| entry.map(db).positions().get(origin.id.0 as usize).copied()),
+    })
 }
 
 /// What is wrong with the file as a whole.

@@ -75,16 +75,12 @@ pub enum Command {
     #[command(hide = true)]
     Post(PostArgs),
     /// Show what embeds what, with bindings
-    #[command(hide = true)]
     Graph(GraphArgs),
     /// Show what a path embeds
-    #[command(hide = true)]
     Deps(GraphArgs),
     /// Show what embeds a path
-    #[command(hide = true)]
     Rdeps(GraphArgs),
     /// Show where a path is defined
-    #[command(hide = true)]
     Where(GraphArgs),
     /// Show why a path was compiled again
     #[command(hide = true)]

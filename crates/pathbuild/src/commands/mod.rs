@@ -6,8 +6,10 @@ pub mod completions;
 pub mod config;
 pub mod emit;
 pub mod explain;
+pub mod graph;
 pub mod init;
 pub mod man;
+pub mod where_;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
@@ -28,6 +30,10 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
         Command::Man => man::run(context),
+        Command::Graph(args) => graph::graph(context, args),
+        Command::Deps(args) => graph::deps(context, args),
+        Command::Rdeps(args) => graph::rdeps(context, args),
+        Command::Where(args) => where_::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -1,5 +1,6 @@
 //! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
 
+mod graph;
 mod library;
 mod outputs;
 mod resolve;
@@ -14,6 +15,7 @@ use pathbuild_db::{Database, Db, SourceFile};
 
 use crate::context::Context;
 
+pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use outputs::{Output, outputs};
 pub use resolve::{Wanted, WantedPath};
 pub use work::CheckedTarget;

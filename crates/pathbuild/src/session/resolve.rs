@@ -68,6 +68,18 @@ impl Session<'_> {
         directories.flat_map(|directory| library::drawings(&self.normal(directory))).collect()
     }
 
+    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below.
+    pub fn everything(&self) -> Vec<SourceFile> {
+        let drawings =
+            if self.has_library() { self.library() } else { library::drawings(&Utf8PathBuf::new()) };
+        drawings.iter().map(|drawing| self.file(drawing)).collect()
+    }
+
+    /// The drawings that define a path, wherever names are looked for: one is right.
+    pub fn definitions_of(&self, name: &PathName) -> Vec<SourceFile> {
+        self.definitions(name, &self.directories())
+    }
+
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
         if self.is_directory(place) && !library::is_drawing(&normal) {

@@ -58,7 +58,11 @@ impl Session<'_> {
 
     /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
     /// longer than most paths.
-    fn spread<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Database, &T) -> R + Sync) -> Vec<R> {
+    pub(super) fn spread<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        work: impl Fn(&Database, &T) -> R + Sync,
+    ) -> Vec<R> {
         if items.len() <= 1 || self.context.jobs == Some(1) {
             return items.iter().map(|item| work(&self.db, item)).collect();
         }

@@ -1,0 +1,34 @@
+//! A graph for Graphviz.
+
+use std::fmt::Write;
+
+use super::label;
+use crate::session::{End, Graph};
+
+pub(super) fn dot(graph: &Graph) -> String {
+    let mut text = String::from("digraph pathbuild {\n  rankdir=LR;\n  node [shape=box];\n");
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let style = if node.is_sound { "" } else { ", style=dashed" };
+        let label = format!("{}\n{}", label::path(node), node.file);
+        _ = writeln!(text, "  n{index} [label={}{style}];", quoted(&label));
+    }
+    for (index, embedding) in graph.embeddings.iter().enumerate() {
+        let label =
+            if embedding.count > 1 { format!(" [label=\"{}\"]", embedding.count) } else { String::new() };
+        match &embedding.to {
+            End::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
+            End::Nowhere(name, code) => {
+                let missing = quoted(&label::nowhere(name.as_ref(), *code));
+                _ = writeln!(text, "  m{index} [label={missing}, style=dashed];");
+                _ = writeln!(text, "  n{} -> m{index}{label};", embedding.from);
+            }
+        }
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// A string of the language DOT; line ends become `\n`.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+}

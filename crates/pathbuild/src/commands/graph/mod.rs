@@ -1,0 +1,127 @@
+//! `pathbuild graph`, `deps` and `rdeps`: what embeds what. (spec/05-command-line.md)
+
+mod dot;
+mod json;
+mod label;
+mod list;
+mod mermaid;
+mod tree;
+
+use pathbuild_db::{Role, SourceFile, Target, check_file};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
+
+use crate::args::{Format, GraphArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::report::Findings;
+use crate::session::{Direction, Graph, Session, Wanted};
+
+/// Runs `graph`: every embedding of paths; without arguments of the library.
+pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.nothing_named("show");
+    }
+    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
+    let graph = session.graph(&asked.targets);
+    print(context, &graph, |graph| list::list(graph, context.lang()));
+    asked.finish(context, &graph)
+}
+
+/// Runs `deps`: what paths embed, level by level.
+pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.nothing_named("show");
+    }
+    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
+    let graph = session.graph(&asked.targets);
+    print(context, &graph, |graph| tree::tree(graph, Direction::Down, context.lang()));
+    asked.finish(context, &graph)
+}
+
+/// Runs `rdeps`: what embeds paths, level by level. Asked are all paths of the library; without one, those of the working directory and
+/// below.
+pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
+    if args.inputs.inputs.is_empty() {
+        return context.usage("rdeps needs to know of what: name drawings or paths");
+    }
+    let session = Session::new(context);
+    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
+    let whole = session.graph(&asked.and_everything(&session));
+    let db = session.db();
+    let named = asked.targets.iter().flat_map(|target| {
+        let name = PathName::new(target.name(db));
+        whole.nodes_of(&name, target.file(db).path(db))
+    });
+    let mut roots: Vec<usize> = Vec::new();
+    for root in named {
+        if !roots.contains(&root) {
+            roots.push(root);
+        }
+    }
+    let graph = whole.part(&roots, Direction::Up);
+    print(context, &graph, |graph| tree::tree(graph, Direction::Up, context.lang()));
+    asked.finish(context, &whole)
+}
+
+/// What the arguments come to.
+struct Asked {
+    targets: Vec<Target>,
+    files: Vec<SourceFile>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Asked {
+    fn new(session: &Session<'_>, wanted: Wanted) -> Self {
+        let db = session.db();
+        let files: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+        session.read_ahead(&files);
+        let mut targets: Vec<Target> =
+            files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
+        let named = wanted.paths.iter().filter(|path| !files.contains(&path.file));
+        targets.extend(named.map(|path| session.target(path, Role::Checked)));
+        let mut problems = wanted.problems;
+        let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
+        problems.extend(broken.cloned());
+        Self { targets, files, problems }
+    }
+
+    /// The targets that were asked for, and all that may embed them.
+    fn and_everything(&self, session: &Session<'_>) -> Vec<Target> {
+        let files = session.everything();
+        session.read_ahead(&files);
+        let others = files.into_iter().filter(|file| !self.files.contains(file));
+        let others = others.flat_map(|file| session.targets(file, &Role::Checked));
+        self.targets.iter().copied().chain(others).collect()
+    }
+
+    /// Shows what could not be asked, and says where the graph ends although there is more.
+    fn finish(&mut self, context: &Context, graph: &Graph) -> ExitStatus {
+        let unknown = graph.nodes.iter().filter(|node| !node.is_sound).count();
+        if unknown > 0 {
+            context.printer.status(format_args!(
+                "{}: {unknown} ({})",
+                context.choose(
+                    "paths with errors, of which it is not known what they embed",
+                    "Pfade mit Fehlern, von denen nicht bekannt ist, was sie einbetten"
+                ),
+                context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
+            ));
+        }
+        let findings = Findings::new(std::mem::take(&mut self.problems));
+        context.show(&findings);
+        if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    }
+}
+
+fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph) -> String) {
+    let printed = match context.format {
+        Format::Dot => dot::dot(graph),
+        Format::Mermaid => mermaid::mermaid(graph),
+        Format::Json => json::json(graph),
+        _ => text(graph),
+    };
+    context.printer.result(printed);
+}

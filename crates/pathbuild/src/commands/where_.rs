@@ -1,0 +1,90 @@
+//! `pathbuild where`: where paths are defined. (spec/05-command-line.md)
+
+use pathbuild_db::{PathPlace, SourceFile, check_file, path_names, path_place};
+use pathbuild_diagnostic::Diagnostic;
+use serde::Serialize;
+
+use crate::args::{Format, GraphArgs, Input};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::report::Findings;
+use crate::session::{Session, Wanted};
+
+/// Runs the command: a line for each definition, `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
+pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.nothing_named("show");
+    }
+    let wanted = session.wanted(&args.inputs);
+    let mut problems = wanted.problems.clone();
+    for (file, place) in definitions(&session, args, &wanted, &mut problems) {
+        let file = file.path(session.db()).as_str();
+        match context.format {
+            Format::Json => context.printer.result(json(file, &place)),
+            _ => context.printer.result(line(context, file, &place)),
+        }
+    }
+    let findings = Findings::new(problems);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// Where each path is; a path that is defined twice, which is an error, in both places.
+fn definitions(
+    session: &Session<'_>,
+    args: &GraphArgs,
+    wanted: &Wanted,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<(SourceFile, PathPlace)> {
+    let db = session.db();
+    let mut found = Vec::new();
+    let names = args.inputs.iter().filter_map(|input| match input {
+        Input::Name(name) => Some(pathbuild_path::PathName::new(name)),
+        Input::Place(_) => None,
+    });
+    for name in names {
+        let files = session.definitions_of(&name);
+        found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, &name)?))));
+    }
+    let files: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+    session.read_ahead(&files);
+    for file in files {
+        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
+        let names = path_names(db, file).iter();
+        found.extend(names.filter_map(|name| Some((file, path_place(db, file, name)?))));
+    }
+    found
+}
+
+fn line(context: &Context, file: &str, place: &PathPlace) -> String {
+    let line = place.position.map(|position| format!(":{}", position.line)).unwrap_or_default();
+    let start = context.choose("start at", "Anfang bei");
+    let point = place.point.map(|point| format!(", {start} ({}, {})", point.x, point.y)).unwrap_or_default();
+    format!("{}  {file}{line}  Layer {}{point}\n", place.name, place.layer)
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    path: &'a str,
+    file: &'a str,
+    line: Option<u32>,
+    layer: &'a str,
+    handle: Option<String>,
+    x: Option<f64>,
+    y: Option<f64>,
+}
+
+fn json(file: &str, place: &PathPlace) -> String {
+    let object = Object {
+        path: place.name.as_str(),
+        file,
+        line: place.position.map(|position| position.line),
+        layer: &place.layer,
+        handle: place.position.and_then(|position| position.handle).map(|handle| handle.to_string()),
+        x: place.point.map(|point| point.x.0),
+        y: place.point.map(|point| point.y.0),
+    };
+    // Only maps with keys that are no text can fail to become JSON.
+    format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+}

@@ -1,0 +1,125 @@
+//! From closures to one graph.
+
+use std::collections::{HashMap, HashSet};
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{Closure, Database, Destination, Instance, Role, Target, closure, path};
+use pathbuild_diagnostic::Code;
+use pathbuild_path::{Bindings, PathName};
+
+use super::{Embedding, End, Graph, Node};
+use crate::session::Session;
+
+impl Session<'_> {
+    /// What these targets reach.
+    pub fn graph(&self, targets: &[Target]) -> Graph {
+        let parts = self.spread(targets, |db, target| part(db, *target));
+        let mut merged = Merged::default();
+        // First what was asked for, so that it comes first also where another target reaches it.
+        for part in &parts {
+            merged.asked(part);
+        }
+        for part in parts {
+            merged.add(part);
+        }
+        merged.graph
+    }
+}
+
+/// What one target reaches.
+struct Part {
+    /// The first is the target.
+    nodes: Vec<Node>,
+    embeddings: Vec<(usize, End)>,
+}
+
+fn part(db: &Database, target: Target) -> Part {
+    let reached = closure(db, target);
+    let is_asked_with_examples = *target.role(db) == Role::Checked;
+    let mut nodes = Vec::new();
+    for (index, step) in reached.reached.iter().enumerate() {
+        let mut node = node(db, step.instance);
+        node.is_example = index == 0 && is_asked_with_examples && !node.bindings.is_empty();
+        nodes.push(node);
+    }
+    let number = number(reached);
+    let end = |to| match to {
+        // A path that is embedded too deep is no part of what is reached.
+        Destination::Path(child) => number.get(&child).map_or_else(
+            || End::Nowhere(Some(node(db, child).name), Code::NestingTooDeep),
+            |to| End::Node(*to),
+        ),
+        Destination::Nowhere { name, code } => End::Nowhere(name, code),
+    };
+    let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
+    Part { embeddings: embeddings.collect(), nodes }
+}
+
+fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
+    closure.reached.iter().enumerate().map(|(index, step)| (step.instance, index)).collect()
+}
+
+fn node(db: &Database, instance: Instance<'_>) -> Node {
+    let name = instance.raw(db).map(|raw| raw.name.clone());
+    Node {
+        name: name.unwrap_or_else(|| PathName::new(instance.name(db).folded(db))),
+        file: instance.file(db).path(db).clone(),
+        bindings: instance.bindings(db).clone(),
+        is_example: false,
+        is_sound: path(db, instance).path.is_some(),
+    }
+}
+
+/// A graph in the making. The maps are only looked up.
+#[derive(Default)]
+struct Merged {
+    graph: Graph,
+    nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
+    /// Nodes whose embeddings are there already: another target that reaches them has the same.
+    complete: HashSet<usize>,
+}
+
+impl Merged {
+    fn asked(&mut self, part: &Part) {
+        let Some(node) = part.nodes.first() else { return };
+        let root = self.node(node.clone());
+        // Nodes are numbered as they come: one that is not new was asked for before.
+        if self.graph.roots.len() == root {
+            self.graph.roots.push(root);
+        }
+    }
+
+    fn add(&mut self, part: Part) {
+        let numbers: Vec<usize> = part.nodes.into_iter().map(|node| self.node(node)).collect();
+        let mut added: HashMap<(usize, End), usize> = HashMap::new();
+        for (from, to) in part.embeddings {
+            let from = numbers[from];
+            if self.complete.contains(&from) {
+                continue;
+            }
+            let to = match to {
+                End::Node(to) => End::Node(numbers[to]),
+                nowhere @ End::Nowhere(..) => nowhere,
+            };
+            let embeddings = &mut self.graph.embeddings;
+            let index = *added.entry((from, to.clone())).or_insert(embeddings.len());
+            match embeddings.get_mut(index) {
+                Some(known) => known.count += 1,
+                None => embeddings.push(Embedding { from, to, count: 1 }),
+            }
+        }
+        self.complete.extend(numbers);
+    }
+
+    fn node(&mut self, node: Node) -> usize {
+        let key = (node.name.clone(), node.file.clone(), node.bindings.clone());
+        if let Some(known) = self.nodes.get(&key) {
+            self.graph.nodes[*known].is_example &= node.is_example;
+            return *known;
+        }
+        let number = self.graph.nodes.len();
+        self.nodes.insert(key, number);
+        self.graph.nodes.push(node);
+        number
+    }
+}

@@ -1,0 +1,135 @@
+//! Commands around projects: what embeds what, where paths are. (spec/05-command-line.md, spec/20-paths-and-files.md)
+
+mod support;
+
+use insta::assert_snapshot;
+use support::{Place, runs};
+
+/// Components, a project, a fixture project with variables for names, a variable project, and a project that lacks something.
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["components", "projects"]
+search = ["components"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B0 MPlate"
+mill 0,0 40,0
+end 40,0
+layer 1234.2P
+start 0,20 "T5 O2 I1 B0 MPlate"
+mill 0,20 40,20
+end 40,20
+== components/2051.dxf ==
+layer 2051.1P
+start 0,0 "T5 O2 I1 MPlate :B0~1"
+mill 0,0 40,0 "B=B"
+end 40,0
+== projects/8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+subpath 40,0 80,0 ">1234.1P"
+subpath 80,0 120,0 ">2051.1P :B0,5"
+end 120,0
+== projects/8100.dxf ==
+layer 8100.1P
+start 0,0 "T5 O2 MPlate :X1234.1P,1234.2P"
+subpath 0,0 40,0 ">=X"
+end 40,0
+== projects/8101.dxf ==
+layer 8101.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">8100.1P :X1234.2P"
+end 40,0
+== projects/8900.dxf ==
+layer 8900.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">9999.1P"
+subpath 40,0 80,0 ">1234.1P"
+end 80,0
+layer 8900.2P
+start 0,50 "T5 MPlate"
+subpath 0,50 40,50 ">1234.1P"
+end 40,50
+"#;
+
+#[test]
+fn graph_lists_every_embedding_with_its_values() {
+    assert_snapshot!(Place::of(LIBRARY).run("graph"));
+}
+
+#[test]
+fn graph_of_a_path_is_what_it_reaches() {
+    assert_snapshot!(runs(&Place::of(LIBRARY), ["graph 8101.1P", "graph projects/8001.dxf"]));
+}
+
+#[test]
+fn graphs_for_other_programs() {
+    let lines = ["graph --format dot", "graph --format mermaid", "graph --format json"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn deps_are_a_tree_of_what_is_embedded() {
+    let lines =
+        ["deps 8001.1P", "deps 8101.1P 1234.1P", "deps projects/8900.dxf", "deps 8101.1P --format dot"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn rdeps_are_a_tree_of_what_embeds_over_the_library() {
+    let lines = ["rdeps 1234.1P", "rdeps 1234.2P", "rdeps components/2051.dxf", "rdeps 8001.1P", "rdeps"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn rdeps_of_a_part_of_the_graph_for_other_programs() {
+    assert_snapshot!(runs(
+        &Place::of(LIBRARY),
+        ["rdeps 1234.2P --format json", "rdeps 2051.1P --format mermaid"]
+    ));
+}
+
+#[test]
+fn graph_commands_speak_german() {
+    assert_snapshot!(runs(
+        &Place::of(LIBRARY),
+        ["graph --lang de", "deps --lang de", "rdeps --lang de 1234.1P"]
+    ));
+}
+
+#[test]
+fn graph_commands_say_what_they_cannot_find() {
+    let place = Place::of(LIBRARY).file("broken.dxf", "no drawing");
+    assert_snapshot!(runs(&place, ["deps 7777.1P", "rdeps broken.dxf", "graph gone.dxf"]));
+}
+
+#[test]
+fn without_a_library_rdeps_looks_below_the_working_directory() {
+    let place = Place::of(&LIBRARY.replace("library = [\"components\", \"projects\"]", ""));
+    assert_snapshot!(runs(&place, ["rdeps 2051.1P", "graph"]));
+}
+
+/// A cycle ends where it began, and what is embedded again below is not written again.
+#[test]
+fn cycles_and_repetitions_end() {
+    let place = Place::of(
+        r#"
+== 8000.dxf ==
+layer 8000.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">8000.2P"
+subpath 40,0 80,0 ">8000.3P"
+end 80,0
+layer 8000.2P
+start 0,20 "T5 O2 MPlate"
+subpath 0,20 40,20 ">8000.3P"
+end 40,20
+layer 8000.3P
+start 0,40 "T5 O2 MPlate"
+subpath 0,40 40,40 ">8000.2P"
+end 40,40
+"#,
+    );
+    assert_snapshot!(runs(&place, ["deps 8000.1P", "rdeps 8000.3P", "graph 8000.dxf"]));
+}
