@@ -232,3 +232,24 @@ fn junit_is_xml_with_counts_that_are_right() {
         );
     }
 }
+
+#[test]
+fn full_shows_only_the_neighbourhood_of_a_fault_in_a_long_text() {
+    let of = |text: &str, span: std::ops::Range<usize>| {
+        let diagnostic = Diagnostic::new(&files::EMPTY_FILE).with_text(TextFault::new(text, span));
+        let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+        render(Format::Full, &Findings::new(vec![diagnostic]), &view)
+    };
+    let inside = format!("{}FAULT{}", "a".repeat(400), "z".repeat(400));
+    assert!(of(&inside, 400..405).contains(&inside));
+    let outside = format!("{}FAULT{}", "ä".repeat(100_000), "ü".repeat(100_000));
+    let shown = of(&outside, 200_000..200_005);
+    assert!(shown.contains(&format!("…{}FAULT{}…", "ä".repeat(200), "ü".repeat(200))), "{shown}");
+    assert!(
+        shown.lines().any(
+            |line| line.trim_start_matches([' ', '·']).starts_with("─────") && line.chars().count() < 250
+        )
+    );
+    assert!(of(&outside, 0..outside.len()).len() < 10_000, "all of it is the fault");
+    assert!(of("", 0..0).contains("the file is empty"));
+}

@@ -81,7 +81,7 @@ impl Counters {
     /// `[#######-----------------------] 512/2014`
     fn bar(&self) -> String {
         let done = self.done.load(Ordering::Relaxed).min(self.total);
-        let full = if self.total == 0 { WIDTH } else { done * WIDTH / self.total };
+        let full = (done * WIDTH).checked_div(self.total).unwrap_or(WIDTH);
         format!("[{}{}] {done}/{}", "#".repeat(full), "-".repeat(WIDTH - full), self.total)
     }
 }

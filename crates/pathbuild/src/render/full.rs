@@ -1,12 +1,13 @@
 //! For a person: what is wrong and where, the faulty text underlined as a compiler shows source, help and notes, and what embeds it.
 
 use std::fmt;
+use std::ops::Range;
 
 use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::{Diagnostic, Severity, TextFault};
 
 use super::view::harmless;
 use super::{View, place};
@@ -52,17 +53,33 @@ struct Page {
 impl Page {
     fn new(diagnostic: &Diagnostic, view: &View) -> Self {
         let text = |text: String| harmless(&text).into_owned();
+        let source = diagnostic.text.as_ref().map(excerpt);
         Self {
             header: text(header(diagnostic, view)),
             message: text(diagnostic.text(view.lang)),
             severity: diagnostic.severity,
             help: diagnostic.help(view.lang).map(text),
-            source: diagnostic.text.as_ref().map(|fault| Source::new(&fault.text, diagnostic)),
-            label: diagnostic.text.as_ref().map(|fault| LabeledSpan::underline(fault.span())),
+            source: source.as_ref().map(|(source, _)| Source::new(source, diagnostic)),
+            label: source.map(|(_, span)| LabeledSpan::underline(span)),
             further: further(diagnostic, view).into_iter().map(text).collect(),
         }
     }
 }
+
+/// What is shown of a faulty text, and where the fault is in that: a text of many kilobytes (something was pasted into it) is cut to
+/// the neighbourhood of the fault.
+fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
+    let (text, span) = (&*fault.text, fault.span());
+    let start = if span.start <= AROUND { 0 } else { text.floor_char_boundary(span.start - AROUND) };
+    let last = span.end.min(span.start + AROUND);
+    let end = if text.len() - last <= AROUND { text.len() } else { text.ceil_char_boundary(last + AROUND) };
+    let (before, after) = (if start > 0 { "…" } else { "" }, if end < text.len() { "…" } else { "" });
+    let shift = |byte: usize| byte.clamp(start, end) - start + before.len();
+    (format!("{before}{}{after}", &text[start..end]), shift(span.start)..shift(span.end))
+}
+
+/// Bytes that are shown on each side of a fault, and of a fault at most.
+const AROUND: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
     let severity = place::severity(diagnostic.severity, view);
