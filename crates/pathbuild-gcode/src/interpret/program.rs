@@ -42,7 +42,7 @@ impl Tool {
                 self.feed = feed;
                 self.straight(self.at(Some(to), z.z), Pace::Feed(feed))
             }
-            toolpath::Move::Arc { feed, clockwise, centre, to, z } => {
+            toolpath::Move::Arc { feed, clockwise, centre, to, z, .. } => {
                 self.feed = feed;
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
@@ -52,8 +52,8 @@ impl Tool {
     }
 
     fn at(&self, plane: Option<Xy>, z: f64) -> Position {
-        let Xy { x, y } = plane.unwrap_or(Xy { x: self.position.x(), y: self.position.y() });
-        Position::known(x, y, z)
+        let plane = plane.unwrap_or(Xy::new(self.position.x(), self.position.y()));
+        Position::known(plane.x, plane.y, z)
     }
 
     fn straight(&mut self, to: Position, pace: Pace) -> Move {
