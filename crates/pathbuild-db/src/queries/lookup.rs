@@ -3,7 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{PathKey, PathName, RangeTable};
 
-use super::raw::{NameKey, raw_path};
+use super::raw::{NameKey, defines};
 use crate::database::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
@@ -62,7 +62,7 @@ pub fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>)
 /// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
 #[salsa::tracked]
 pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
-    if raw_path(db, from, name).is_some() {
+    if defines(db, from, name) {
         return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
     }
     let own = from.path(db).parent().unwrap_or(Utf8Path::new("")).to_owned();
@@ -97,7 +97,7 @@ fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'d
         }
     }
     let mut files: Vec<SourceFile> =
-        searched.iter().copied().filter(|file| raw_path(db, *file, name).is_some()).collect();
+        searched.iter().copied().filter(|file| defines(db, *file, name)).collect();
     if files.len() > 1 {
         // The same file reached under two names is no duplicate.
         let mut seen = Vec::new();

@@ -92,6 +92,11 @@ fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Opt
     raw_file(db, file).paths.iter().copied().find(|entry| entry.folded(db) == folded)
 }
 
+/// Whether a file defines a path: unchanged by edits of the path itself.
+pub(super) fn defines<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> bool {
+    path_entry(db, file, name).is_some()
+}
+
 /// A raw path of a file.
 pub fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db RawPath> {
     path_entry(db, file, name).map(|entry| entry.raw(db))

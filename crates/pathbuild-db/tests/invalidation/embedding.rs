@@ -1,0 +1,225 @@
+//! Edits of a library: two components, and a project that embeds one of them.
+
+use crate::world::World;
+
+/// A component from (0, 0) to (20, 0).
+pub(crate) fn component(name: &str, bottom: &str) -> String {
+    format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx\"\nmill 0,0 20,0 \"B{bottom}\"\nend 20,0")
+}
+
+fn project(name: &str, embedded: &str) -> String {
+    format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">{embedded}\"\nend 20,0")
+}
+
+const COMPONENT: &str = "lib/1111.1P.dxf";
+const SIBLING: &str = "lib/1112.1P.dxf";
+const PROJECT: &str = "lib/8001.1P.dxf";
+const OUTER: &str = "lib/8002.1P.dxf";
+
+/// `outer` embeds `project`, which embeds `component`; `sibling` stands alone.
+fn world() -> World {
+    let mut world = World::new(&[
+        (COMPONENT, &component("1111.1P", "0")),
+        (SIBLING, &component("1112.1P", "0")),
+        (PROJECT, &project("8001.1P", "1111.1P")),
+        (OUTER, &project("8002.1P", "8001.1P")),
+    ]);
+    world.ask("sibling", SIBLING, "1112.1P");
+    world.ask("component", COMPONENT, "1111.1P");
+    world.ask("project", PROJECT, "8001.1P");
+    world.ask("outer", OUTER, "8002.1P");
+    for label in ["sibling", "component", "project", "outer"] {
+        assert!(world.outcome(label).program.is_some(), "{label}: {:?}", world.codes(label));
+    }
+    world
+}
+
+const OF_SIBLING: [&str; 7] = [
+    "raw_file sibling",
+    "path_entry sibling",
+    "path sibling",
+    "chains sibling",
+    "embeds sibling",
+    "closure sibling",
+    "program sibling",
+];
+
+/// What drawing and looking up a project comes to, apart from what it embeds.
+const OF_PROJECT: [&str; 6] = [
+    "raw_file project",
+    "path_entry project",
+    "path project",
+    "chains project",
+    "find_path project",
+    "files_for project",
+];
+
+#[test]
+fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
+    let mut world = world();
+    let before = ["project", "outer", "sibling"].map(|label| world.outcome(label));
+    world.draw(COMPONENT, &component("1111.1P", "1"));
+    world.expect(
+        &[
+            "raw_file component",
+            "path component",
+            "chains component",
+            "embeds component",
+            "closure component",
+            "program component",
+            "embeds project",
+            "closure project",
+            "program project",
+            "closure outer",
+            "program outer",
+        ],
+        &[
+            &OF_SIBLING[..],
+            &OF_PROJECT,
+            &["name_table project", "path outer", "chains outer", "embeds outer", "find_path outer"],
+        ]
+        .concat(),
+    );
+    let [project, outer, sibling] = before;
+    assert_ne!(world.outcome("project").program, project.program);
+    assert_ne!(world.outcome("outer").program, outer.program);
+    assert_eq!(world.outcome("sibling"), sibling);
+}
+
+#[test]
+fn a_remark_in_a_component_runs_only_the_reader() {
+    let mut world = world();
+    world.draw(COMPONENT, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{}", component("1111.1P", "0")));
+    world.expect(
+        &["raw_file component"],
+        &[&OF_PROJECT[..], &["path component", "embeds project", "closure project", "program outer"]]
+            .concat(),
+    );
+}
+
+#[test]
+fn a_new_unrelated_file_runs_only_lookups() {
+    let mut world = world();
+    world.draw("lib/3000.1P.dxf", &component("3000.1P", "0"));
+    world.expect(
+        &["name_table project", "files_for project", "files_for outer"],
+        &[
+            &OF_SIBLING[..],
+            &OF_PROJECT[..5],
+            &["find_path outer", "embeds project", "closure project", "program project", "program outer"],
+        ]
+        .concat(),
+    );
+}
+
+/// A file that may hold the path by its name is read; when it does not, nothing follows from it.
+#[test]
+fn a_new_file_that_could_hold_the_path_is_read() {
+    let mut world = world();
+    let before = world.outcome("project");
+    world.draw("lib/1111 new.dxf", &component("1111.2P", "0"));
+    world.expect(
+        &[
+            "name_table project",
+            "files_for project",
+            "files_for outer",
+            "find_path project",
+            "raw_file new",
+            "path_entry new",
+            "embeds project",
+        ],
+        &[&OF_SIBLING[..], &["find_path outer", "closure project", "program project", "program outer"]]
+            .concat(),
+    );
+    assert_eq!(world.outcome("project"), before);
+}
+
+#[test]
+fn a_file_that_makes_a_path_ambiguous_makes_its_users_fail_and_removing_it_mends_them() {
+    let mut world = world();
+    let before = ["component", "project", "outer"].map(|label| world.outcome(label));
+    world.draw("lib/1111 copy.dxf", &component("1111.1P", "0"));
+    let of_users = [
+        "name_table project",
+        "files_for project",
+        "files_for outer",
+        "find_path project",
+        "embeds project",
+        "closure project",
+        "program project",
+        "closure outer",
+        "program outer",
+    ];
+    let spared = [
+        &OF_SIBLING[..],
+        &OF_PROJECT[..4],
+        &["path component", "closure component", "program component", "find_path outer", "path outer"],
+    ]
+    .concat();
+    world.expect(&[&of_users[..], &["raw_file new", "path_entry new"]].concat(), &spared);
+    assert_eq!(world.codes("project"), ["PB504"]);
+    assert_eq!(world.codes("outer"), ["PB504", "PB511"]);
+    assert_eq!(world.outcome("component"), before[0]);
+    world.remove("lib/1111 copy.dxf");
+    world.expect(&of_users, &spared);
+    assert_eq!(["component", "project", "outer"].map(|label| world.outcome(label)), before);
+}
+
+#[test]
+fn a_component_that_is_gone_makes_its_users_fail_and_putting_it_back_mends_them() {
+    let mut world = world();
+    let before = ["component", "project", "outer"].map(|label| world.outcome(label));
+    let bytes = world.bytes(COMPONENT);
+    world.remove(COMPONENT);
+    world.expect(
+        &[
+            "raw_file component",
+            "path_entry component",
+            "closure component",
+            "program component",
+            "name_table project",
+            "files_for project",
+            "files_for outer",
+            "find_path project",
+            "embeds project",
+            "closure project",
+            "program project",
+            "closure outer",
+            "program outer",
+        ],
+        &[&OF_SIBLING[..], &OF_PROJECT[..4], &["path outer", "find_path outer"]].concat(),
+    );
+    assert_eq!(world.codes("project"), ["PB503"]);
+    assert_eq!(world.codes("outer"), ["PB503", "PB511"]);
+    assert_eq!(world.outcome("component").program, None);
+    world.put(COMPONENT, bytes);
+    assert_eq!(["component", "project", "outer"].map(|label| world.outcome(label)), before);
+}
+
+#[test]
+fn a_cycle_is_found_when_it_is_made_and_forgotten_when_it_is_mended() {
+    let mut world = world();
+    let before = ["component", "project", "outer"].map(|label| world.outcome(label));
+    world.draw(COMPONENT, &project("1111.1P", "8001.1P"));
+    assert_eq!(world.codes("project"), ["PB509", "PB511"]);
+    assert_eq!(world.codes("component"), ["PB509", "PB511"]);
+    assert_eq!(world.codes("outer"), ["PB509", "PB511", "PB511"]);
+    world.draw(COMPONENT, &component("1111.1P", "0"));
+    world.expect(
+        &[
+            "raw_file component",
+            "path component",
+            "chains component",
+            "embeds component",
+            "closure component",
+            "program component",
+            "embeds project",
+            "closure project",
+            "program project",
+            "closure outer",
+            "program outer",
+        ],
+        &[&OF_SIBLING[..], &OF_PROJECT, &["path outer", "embeds outer"]].concat(),
+    );
+    assert_eq!(["component", "project", "outer"].map(|label| world.outcome(label)), before);
+}

@@ -1,0 +1,137 @@
+//! A library as a model: files, the paths in them, what each embeds, and what must come of each path.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Drawings by file name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Library {
+    pub(crate) files: BTreeMap<String, Drawing>,
+}
+
+/// A drawing with one path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Drawing {
+    /// The path's number.
+    pub(crate) path: usize,
+    /// B in tenths of a millimetre.
+    pub(crate) bottom: u32,
+    /// The paths it embeds.
+    pub(crate) embeds: Vec<usize>,
+    /// Remarks before the path.
+    pub(crate) remarks: u32,
+}
+
+/// What the specification says of a path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Prediction {
+    /// All depths in the order of milling.
+    Milled(Vec<u32>),
+    /// The codes of what is wrong.
+    Wrong(BTreeSet<&'static str>),
+}
+
+/// The directories in which paths are looked for: that of the drawings, and a search directory.
+pub(crate) const DIRECTORIES: [&str; 2] = ["lib", "parts"];
+
+/// The name of a path.
+pub(crate) fn name(path: usize) -> String {
+    format!("{}.1P", 1001 + path)
+}
+
+/// The name of a path's file.
+pub(crate) fn file_name(directory: &str, path: usize, note: &str) -> String {
+    format!("{directory}/{}{note}.dxf", 1001 + path)
+}
+
+impl Library {
+    /// Three components, and three projects above each other that embed them.
+    pub(crate) fn new() -> Self {
+        let embeds: [&[usize]; 6] = [&[], &[], &[], &[0, 1], &[1, 2, 3], &[4]];
+        let drawing = |(path, embeds): (usize, &&[usize])| Drawing {
+            path,
+            bottom: 0,
+            embeds: embeds.to_vec(),
+            remarks: 0,
+        };
+        let files = embeds.iter().enumerate().map(drawing);
+        Self { files: files.map(|drawing| (file_name("lib", drawing.path, ""), drawing)).collect() }
+    }
+
+    /// What must come of the path of a file.
+    pub(crate) fn predict(&self, file: &str) -> Prediction {
+        let (mut depths, mut wrong) = (Vec::new(), BTreeSet::new());
+        self.follow(file, &mut Vec::new(), &mut depths, &mut wrong);
+        if wrong.is_empty() { Prediction::Milled(depths) } else { Prediction::Wrong(wrong) }
+    }
+
+    fn follow<'a>(
+        &'a self,
+        file: &'a str,
+        open: &mut Vec<&'a str>,
+        depths: &mut Vec<u32>,
+        wrong: &mut BTreeSet<&'static str>,
+    ) {
+        let drawing = &self.files[file];
+        depths.push(drawing.bottom);
+        open.push(file);
+        for embedded in &drawing.embeds {
+            match self.definitions(file, *embedded).as_slice() {
+                [] => _ = wrong.insert("PB503"),
+                [found] if open.contains(found) => _ = wrong.insert("PB509"),
+                [found] => self.follow(found, open, depths, wrong),
+                _ => _ = wrong.insert("PB504"),
+            }
+        }
+        open.pop();
+    }
+
+    /// The files in which a path is found from a file: itself, or those in the directories whose name says so.
+    fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
+        if self.files[from].path == path {
+            return vec![from];
+        }
+        let own = directory(from);
+        let found = self.files.iter().filter(|(file, drawing)| {
+            drawing.path == path
+                && (directory(file) == own || directory(file) == DIRECTORIES[1])
+                && file[directory(file).len() + 1..].starts_with(&(1001 + path).to_string())
+        });
+        found.map(|(file, _)| file.as_str()).collect()
+    }
+
+    /// Everything that could matter to the path of a file: the drawings it reaches, without remarks.
+    pub(crate) fn reach(&self, file: &str) -> BTreeMap<&str, (u32, &[usize])> {
+        let (mut reached, mut open) = (BTreeMap::new(), vec![file]);
+        while let Some(next) = open.pop() {
+            let Some((next, drawing)) = self.files.get_key_value(next) else { continue };
+            if reached.insert(next.as_str(), (drawing.bottom, drawing.embeds.as_slice())).is_none() {
+                open.extend(drawing.embeds.iter().flat_map(|embedded| self.definitions(next, *embedded)));
+            }
+        }
+        reached
+    }
+}
+
+fn directory(file: &str) -> &str {
+    file.split('/').next().unwrap_or_default()
+}
+
+impl Drawing {
+    /// In text form: a milled line from the start to the end, then from there up to each embedded path, over it and back.
+    pub(crate) fn text(&self) -> String {
+        let remark = "layer REMARKS\ntext 0,-50 \"a remark\"\n".repeat(self.remarks as usize);
+        let depth = f64::from(self.bottom) / 10.0;
+        let mut text = format!(
+            "{remark}layer {}\nstart 0,0 \"T5 O3 I1 Mx\"\nmill 0,0 20,0 \"B{depth}\"\nend 20,0\n",
+            name(self.path)
+        );
+        for (row, embedded) in (1..).zip(&self.embeds) {
+            let y = 10 * row;
+            text += &format!(
+                "sweep 20,0 20,{y}\nsubpath 20,{y} 0,{y} \">{}\"\nsweep 0,{y} 20,0\n",
+                name(*embedded)
+            );
+        }
+        text
+    }
+}

@@ -1,0 +1,171 @@
+//! A database over files in memory that tells which queries ran, by the name of what was asked for first when they ran first.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::{Arc, Mutex};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{MemorySystem, System};
+use pathbuild_db::{
+    Database, Db, Limits, Lookup, Reading, Role, Settings, Target, check_target, locate, program,
+};
+use pathbuild_diagnostic::{Diagnostic, Place};
+use pathbuild_draw::Sheet;
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_toolpath::{FoldOptions, SupportBars};
+
+/// Files, a database over them, and the targets that somebody keeps asking for.
+pub(crate) struct World {
+    system: Arc<MemorySystem>,
+    pub(crate) db: Database,
+    log: Arc<Mutex<Vec<String>>>,
+    /// Which target made a query run first.
+    labels: HashMap<String, &'static str>,
+    targets: Vec<(&'static str, Target)>,
+}
+
+/// What came of a target.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Outcome {
+    /// Not located: lines are no part of it.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// The program as text that shows every number.
+    pub(crate) program: Option<String>,
+}
+
+/// The drawing as DXF.
+pub(crate) fn dxf(text: &str) -> Vec<u8> {
+    Sheet::parse(text).expect("the text is right").to_dxf()
+}
+
+/// The settings that all tests here begin with. `search` is one more directory.
+pub(crate) fn set_up(db: &Database, search: &[&str]) {
+    let language = Language {
+        path_pattern: PathPattern::default(),
+        line_types: LineTypeAliases::default(),
+        text_limit: 65_536,
+        join_tolerance: 0.0,
+    };
+    let lookup = Lookup {
+        file_pattern: FilePattern::default(),
+        search: search.iter().map(Utf8PathBuf::from).collect(),
+    };
+    let fold =
+        FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), support_bars: SupportBars::default() };
+    Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, Limits::default());
+}
+
+/// What somebody who asks for a target gets.
+pub(crate) fn outcome(db: &Database, target: Target) -> Outcome {
+    Outcome {
+        diagnostics: check_target(db, target).to_vec(),
+        program: program(db, target).as_ref().map(|program| format!("{program:?}")),
+    }
+}
+
+impl World {
+    /// Files with drawings in text form.
+    pub(crate) fn new(files: &[(&str, &str)]) -> Self {
+        let system = Arc::new(MemorySystem::default());
+        for (name, text) in files {
+            system.put(*name, dxf(text));
+        }
+        let log = Arc::default();
+        let db = Database::with_log(system.clone(), Arc::clone(&log));
+        set_up(&db, &[]);
+        Self { system, db, log, labels: HashMap::new(), targets: Vec::new() }
+    }
+
+    /// Asks for a path to be emitted, and remembers what ran for the first time.
+    pub(crate) fn ask(&mut self, label: &'static str, file: &str, path: &str) {
+        let target = Target::new(&self.db, self.db.file(file.into()), path.into(), Role::Emitted);
+        self.targets.push((label, target));
+        outcome(&self.db, target);
+        for query in self.log.lock().unwrap().drain(..) {
+            self.labels.entry(query).or_insert(label);
+        }
+    }
+
+    /// Writes a drawing, and tells the database.
+    pub(crate) fn draw(&mut self, file: &str, text: &str) {
+        self.put(file, dxf(text));
+    }
+
+    /// Writes bytes, and tells the database.
+    pub(crate) fn put(&mut self, file: &str, bytes: Vec<u8>) {
+        let is_new = self.system.read(file.into(), u64::MAX).is_err();
+        self.system.put(file, bytes);
+        self.touch(file, is_new);
+    }
+
+    /// Removes a file, and tells the database.
+    pub(crate) fn remove(&mut self, file: &str) {
+        self.system.remove(file.into()).unwrap();
+        self.touch(file, true);
+    }
+
+    fn touch(&mut self, file: &str, is_other_name: bool) {
+        let file = Utf8Path::new(file);
+        self.db.touch_file(file);
+        if is_other_name {
+            self.db.touch_directory(file.parent().unwrap());
+        }
+    }
+
+    /// The bytes of a file.
+    pub(crate) fn bytes(&self, file: &str) -> Vec<u8> {
+        self.system.read(file.into(), u64::MAX).unwrap()
+    }
+
+    /// What comes of a target.
+    pub(crate) fn outcome(&self, label: &str) -> Outcome {
+        outcome(&self.db, self.target(label))
+    }
+
+    /// The codes of what is wrong with a target, in order.
+    pub(crate) fn codes(&self, label: &str) -> Vec<String> {
+        self.outcome(label).diagnostics.iter().map(|found| found.code().to_string()).collect()
+    }
+
+    /// Where the first finding of a target is in its file.
+    pub(crate) fn place(&self, label: &str) -> Place {
+        let found = self.outcome(label).diagnostics.first().cloned().expect("there is a finding");
+        locate(&self.db, found).place
+    }
+
+    fn target(&self, label: &str) -> Target {
+        self.targets.iter().find(|(known, _)| *known == label).expect("the target was asked for").1
+    }
+
+    /// Asks for everything again, and compares which queries ran: just `ran`, and so none of `spared`. Both are named
+    /// `query label`; what runs for the first time has the label `new`.
+    #[track_caller]
+    pub(crate) fn expect(&mut self, ran: &[&str], spared: &[&str]) {
+        let found = self.run_again();
+        let wanted: BTreeSet<String> = ran.iter().map(|query| (*query).to_owned()).collect();
+        assert_eq!(found, wanted);
+        let known: BTreeSet<String> = self.labels.iter().map(|(query, label)| named(query, label)).collect();
+        for query in spared {
+            assert!(
+                known.contains(*query),
+                "{query} never runs: that it did not says nothing; there are {known:?}"
+            );
+            assert!(!found.contains(*query), "{query} ran");
+        }
+    }
+
+    fn run_again(&mut self) -> BTreeSet<String> {
+        self.log.lock().unwrap().clear();
+        for (_, target) in &self.targets {
+            outcome(&self.db, *target);
+        }
+        let log: Vec<String> = self.log.lock().unwrap().drain(..).collect();
+        log.into_iter()
+            .map(|query| named(&query, self.labels.entry(query.clone()).or_insert("new")))
+            .collect()
+    }
+}
+
+/// A query without its key, with the label.
+fn named(query: &str, label: &str) -> String {
+    format!("{} {label}", query.split('(').next().unwrap_or_default())
+}
