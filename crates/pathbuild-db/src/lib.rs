@@ -10,12 +10,14 @@
 #![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
 
 mod database;
+mod guard;
 mod inputs;
 mod queries;
 mod settings;
 pub mod system;
 
 pub use database::{Database, Db};
+pub use guard::Underway;
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use queries::{
     Closure, Destination, Edge, Embedding, Found, Instance, MissingOption, NameKey, Outcome, PathPlace,

@@ -164,7 +164,7 @@ fn parse(
 }
 
 /// PB006 for a panic that is not salsa's own way of cancelling.
-pub(super) fn internal_error(payload: &(dyn std::any::Any + Send)) -> Diagnostic {
+pub(crate) fn internal_error(payload: &(dyn std::any::Any + Send)) -> Diagnostic {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
     Diagnostic::new(&messages::INTERNAL).with("reason", reason)

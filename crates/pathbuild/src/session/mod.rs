@@ -5,6 +5,7 @@ mod library;
 mod outputs;
 mod resolve;
 mod settings;
+mod watchdog;
 mod work;
 
 use std::sync::Arc;

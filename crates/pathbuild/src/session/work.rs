@@ -7,6 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_toolpath::Program;
 use rayon::prelude::*;
 
+use super::watchdog::Watchdog;
 use super::{Session, WantedPath};
 
 /// What came of a target.
@@ -48,12 +49,24 @@ impl Session<'_> {
 
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.spread(targets, |db, target| check(db, *target, false))
+        self.work_on(targets, false)
     }
 
     /// Checks targets and makes the programs of those that are right.
     pub fn make(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.spread(targets, |db, target| check(db, *target, true))
+        self.work_on(targets, true)
+    }
+
+    /// Each target for itself: one that takes too long or shows a bug does not keep the others from being done.
+    fn work_on(&self, targets: &[Target], is_made: bool) -> Vec<CheckedTarget> {
+        let limit = self.context.settings.limits.seconds_per_path.value;
+        let watchdog = Watchdog::new(limit);
+        let work = |db: &Database, target: &Target| {
+            let _watched = watchdog.begin(db);
+            let checked = db.guarded(limit, || check(db, *target, is_made));
+            checked.unwrap_or_else(|problem| given_up(db, *target, problem))
+        };
+        watchdog.during(|| self.spread(targets, work))
     }
 
     /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
@@ -77,6 +90,18 @@ impl Session<'_> {
             result
         };
         pool.install(|| items.par_iter().map_with(db, work).collect())
+    }
+}
+
+/// A target that nothing is known of but why it was not finished.
+fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
+    let file = target.file(db);
+    CheckedTarget {
+        target,
+        diagnostics: vec![problem.in_file(file.path(db)).in_path(target.name(db))],
+        files: vec![file],
+        missing_options: Vec::new(),
+        program: None,
     }
 }
 
