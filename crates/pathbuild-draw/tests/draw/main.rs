@@ -5,5 +5,7 @@ mod elements;
 mod errors;
 mod files;
 mod fixtures;
+mod library;
 mod placement;
+mod reader;
 mod records;

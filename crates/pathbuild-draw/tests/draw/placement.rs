@@ -62,11 +62,11 @@ fn assert_each_text_overlaps_its_element_only(text: &str) {
     assert!(texts > 0);
 }
 
-const PART: &str = r#"
+pub(crate) const PART: &str = r#"
 layer 1234.1P
 start 0,0 "T5 O3 I1 F200 M20x2"
 mill 0,0 10,0 20,0 20,3 24,3 "B0 I0.5"
-mark arc to 44,3 r 10 cw "D1 Q(a remark)"
+mark arc to 44,3 r 10 cw "D1 Q(remark)"
 bars 44,3 44,20 "B0 D1 P3 U10"
 sweep to 60,20 "S12"
 circle 60,20 d 3 "B0"
