@@ -194,11 +194,14 @@ fn a_difference_is_said_with_both_lines() {
 }
 
 fn emitted(to: Emitted) -> Step {
-    Step::Move { to, count: Count { class: Class::Milling, length: 0.0, feed: None } }
+    // The only arc is a full circle.
+    let length =
+        if let Emitted::Arc { centre, .. } = to { std::f64::consts::TAU * centre.coords.norm() } else { 0.0 };
+    Step::Move { to, count: Count { class: Class::Milling, length, feed: None } }
 }
 
 fn height(z: f64) -> Height {
-    Height { z, at: Xy { x: 0.0, y: 0.0 } }
+    Height { z, at: Xy::new(0.0, 0.0) }
 }
 
 /// A program of every kind of move, with coordinates that three decimals do not hold.
@@ -212,18 +215,19 @@ fn program() -> Program {
         tool: 2.0,
         names,
         steps: vec![
-            emitted(Emitted::Sweep { to: Xy { x: third, y: -third } }),
+            emitted(Emitted::Sweep { to: Xy::new(third, -third) }),
             emitted(Emitted::Lift { z: height(5.0) }),
             emitted(Emitted::Drill { z: height(4.0 + third) }),
             Step::Comment(question),
-            emitted(Emitted::Line { feed: 80.0, to: Xy { x: 10.0 + third, y: 0.0 }, z: height(4.0) }),
+            emitted(Emitted::Line { feed: 80.0, to: Xy::new(10.0 + third, 0.0), z: height(4.0) }),
             emitted(Emitted::Drill { z: height(3.0) }),
             emitted(Emitted::Arc {
                 feed: 60.0,
                 clockwise: true,
-                centre: Xy { x: -third, y: third },
-                to: Xy { x: 10.0 + third, y: 0.0 },
+                centre: Xy::new(-third, third),
+                to: Xy::new(10.0 + third, 0.0),
                 z: height(2.0),
+                is_spiral: false,
             }),
         ],
         ..Program::default()

@@ -32,7 +32,7 @@ messages! {
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
     /// `X1.2.3`.
-    NOT_A_NUMBER: InvalidWord {
+    NO_NUMBER: InvalidWord {
         en: "`{found}` is no number; the line is left out",
         de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "numbers have a sign, digits and at most one point",
@@ -130,7 +130,7 @@ messages! {
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
     /// `X1,5`.
-    DECIMAL_COMMA: DoubtfulSpelling {
+    COMMA_FOR_POINT: DoubtfulSpelling {
         en: "a decimal comma is read as a point",
         de: "ein Dezimalkomma wird als Punkt gelesen",
         help_en: "write a point",
@@ -186,14 +186,14 @@ messages! {
         help_de: "die Zeile entfernen, wenn sie nicht gemeint ist",
     }
     /// A G or M code.
-    UNKNOWN_CODE: UnknownWord {
+    CODE_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know {word}",
         de: "{dialect} kennt {word} nicht",
         help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
         help_de: "die Datei mit --dialect als anderen Dialekt lesen, oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
     }
     /// A letter.
-    UNKNOWN_LETTER: UnknownWord {
+    LETTER_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know the letter {word}",
         de: "{dialect} kennt den Buchstaben {word} nicht",
         help_en: "read the file as another dialect with --dialect, or remove the word",

@@ -1,5 +1,7 @@
 //! The moves of a program that was never text.
 
+use std::f64::consts::PI;
+
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Program, Xy};
 
@@ -17,7 +19,7 @@ pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
     let mut moves: Vec<(u32, Move)> = numbers
         .zip(&program.steps)
         .filter_map(|(number, step)| match step {
-            toolpath::Step::Move { to, .. } => Some((number, tool.go(to))),
+            toolpath::Step::Move { to, count } => Some((number, tool.go(to, count.length))),
             toolpath::Step::Comment(_) => None,
         })
         .collect();
@@ -33,7 +35,8 @@ struct Tool {
 }
 
 impl Tool {
-    fn go(&mut self, to: &toolpath::Move) -> Move {
+    /// Makes a move that the statistics count with this length, in mm.
+    fn go(&mut self, to: &toolpath::Move, length: f64) -> Move {
         match *to {
             toolpath::Move::Sweep { to } => self.straight(self.at(Some(to), self.position.z()), Pace::Rapid),
             toolpath::Move::Lift { z } => self.straight(self.at(None, z.z), Pace::Rapid),
@@ -46,7 +49,12 @@ impl Tool {
                 self.feed = feed;
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
-                self.along(self.at(Some(to), z.z), Path::Arc(arc), Pace::Feed(feed))
+                let to = self.at(Some(to), z.z);
+                // Ends that coincide mean a full circle, unless the arc is known to be next to nothing.
+                let is_next_to_nothing =
+                    length < arc.radius(&self.position) * PI && arc.sweep(&self.position, &to) > PI;
+                let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
+                self.along(to, path, Pace::Feed(feed))
             }
         }
     }

@@ -63,7 +63,7 @@ impl Interpreter<'_> {
         if !self.rules.words.letters.contains(&letter) {
             return self.report_unknown(
                 block,
-                &say::UNKNOWN_LETTER,
+                &say::LETTER_NOT_KNOWN,
                 slot.span,
                 char::from(letter).to_string(),
             );
@@ -95,7 +95,7 @@ impl Interpreter<'_> {
     fn g_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
         let Some(code) = code_of(value) else {
             let name = block.text_of(word.span).into_owned();
-            return self.report_unknown(block, &say::UNKNOWN_CODE, word.span, name);
+            return self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name);
         };
         match self.rules.words.g(code) {
             Acceptance::Taken => {
@@ -109,7 +109,7 @@ impl Interpreter<'_> {
                 self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.with("word", name));
             }
             Acceptance::Unknown => {
-                self.report_unknown(block, &say::UNKNOWN_CODE, word.span, codes::name('G', code));
+                self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('G', code));
             }
         }
     }
@@ -125,13 +125,13 @@ impl Interpreter<'_> {
     fn m_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
         let Some(code) = code_of(value) else {
             let name = block.text_of(word.span).into_owned();
-            return self.report_unknown(block, &say::UNKNOWN_CODE, word.span, name);
+            return self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name);
         };
         match self.rules.words.m(code) {
             Acceptance::Taken => self.words.m_codes.push((code, word.span)),
             Acceptance::Ignored => self.ignored(block, 'M', code, word.span),
             Acceptance::Unknown => {
-                self.report_unknown(block, &say::UNKNOWN_CODE, word.span, codes::name('M', code));
+                self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('M', code));
             }
         }
     }

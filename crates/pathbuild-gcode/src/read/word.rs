@@ -97,7 +97,7 @@ impl Line<'_> {
             Err(malformed) => {
                 let end = malformed.end.max(start + 1);
                 let found = decode(&self.bytes[start..end]).into_owned();
-                Err(self.fault(&say::NOT_A_NUMBER, Span::new(start, end), |d| d.with("found", found)))
+                Err(self.fault(&say::NO_NUMBER, Span::new(start, end), |d| d.with("found", found)))
             }
         }
     }
@@ -111,7 +111,7 @@ impl Line<'_> {
             .collect();
         let message = match oddity {
             Oddity::BlankInside => &say::BLANK_IN_NUMBER,
-            Oddity::DecimalComma => &say::DECIMAL_COMMA,
+            Oddity::DecimalComma => &say::COMMA_FOR_POINT,
         };
         self.report(message, span, |d| d.with("letter", letter).with("number", number));
     }

@@ -1,0 +1,121 @@
+//! What the native writer writes, the reader reads back: the same moves, and nothing wrong with them.
+
+mod common;
+
+use common::spelled_out;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
+use pathbuild_gcode::interpret::{Options, guess, interpret, moves_of};
+use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::verify::{Tolerance, compare};
+use pathbuild_toolpath::{Class, Count, Height, Move, Program, Step, Xy};
+use proptest::prelude::*;
+
+/// A move, as numbers that are independent of where the tool is.
+#[derive(Clone, Debug)]
+enum Sketch {
+    Sweep(f64, f64),
+    Lift(f64),
+    Drill(f64),
+    Line(f64, f64, f64, f64),
+    /// Radius, direction of the centre, angle, clockwise, height, feed.
+    Arc(f64, f64, f64, bool, f64, f64),
+}
+
+fn sketches() -> impl Strategy<Value = Vec<Sketch>> {
+    let place = || -50.0..50.0;
+    let height = || -5.0..5.0;
+    let feed = || 1.0..2000.0;
+    let angle = prop_oneof![Just(std::f64::consts::TAU), 0.0..std::f64::consts::TAU, 0.0..0.001];
+    let radius = prop_oneof![0.05..1.0, 1.0..100.0];
+    let sketch = prop_oneof![
+        (place(), place()).prop_map(|(x, y)| Sketch::Sweep(x, y)),
+        height().prop_map(Sketch::Lift),
+        height().prop_map(Sketch::Drill),
+        (place(), place(), height(), feed()).prop_map(|(x, y, z, f)| Sketch::Line(x, y, z, f)),
+        (radius, 0.0..7.0, angle, any::<bool>(), height(), feed())
+            .prop_map(|(r, d, a, c, z, f)| Sketch::Arc(r, d, a, c, z, f)),
+    ];
+    proptest::collection::vec(sketch, 1..30)
+}
+
+fn program(sketches: &[Sketch]) -> Program {
+    let mut at = Xy::new(0.0, 0.0);
+    let mut height_now = 20.0;
+    let mut steps = Vec::new();
+    for sketch in sketches {
+        let height = |z| Height { z, at };
+        let mut length = 0.0;
+        let to = match *sketch {
+            Sketch::Sweep(x, y) => Move::Sweep { to: Xy::new(x, y) },
+            Sketch::Lift(z) => Move::Lift { z: height(z) },
+            Sketch::Drill(z) => Move::Drill { z: height(z) },
+            Sketch::Line(x, y, z, feed) => Move::Line { feed, to: Xy::new(x, y), z: height(z) },
+            Sketch::Arc(radius, direction, angle, clockwise, z, feed) => {
+                length = radius * angle;
+                let spoke =
+                    |direction: f64| Xy::new(radius * libm::cos(direction), radius * libm::sin(direction));
+                let centre = spoke(direction);
+                let turned = spoke(if clockwise { direction - angle } else { direction + angle });
+                let is_full = angle == std::f64::consts::TAU;
+                // No slope is so steep that a move of less than a digit in the plane goes down.
+                let z = if length < 0.01 { height_now } else { z };
+                let to = if is_full { at } else { at + centre.coords - turned.coords };
+                Move::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
+            }
+        };
+        if let Move::Lift { z } | Move::Drill { z } | Move::Line { z, .. } | Move::Arc { z, .. } = to {
+            height_now = z.z;
+        }
+        if let Move::Sweep { to } | Move::Line { to, .. } | Move::Arc { to, .. } = to {
+            at = to;
+        }
+        let count = Count { class: Class::Milling, length, feed: None };
+        steps.push(Step::Move { to, count });
+        if matches!(to, Move::Arc { .. }) && length < 0.01 {
+            // Such arcs stand beside support bars: there is always another part of the edge behind them.
+            at += Xy::new(0.5, 0.5).coords;
+            steps.push(Step::Move {
+                to: Move::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
+                count,
+            });
+        }
+    }
+    Program {
+        path: "8001.1P".into(),
+        drawing: "8001.1P.dxf".into(),
+        sweep_height: 20.0,
+        thickness: 5.0,
+        tool: 2.0,
+        steps,
+        ..Program::default()
+    }
+}
+
+fn text_of(program: &Program) -> String {
+    let options = WriteOptions { lang: Lang::En, charset: Charset::Ascii, rapid: 1000.0 };
+    native::program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_written_program_is_read_back(sketches in sketches()) {
+        let program = program(&sketches);
+        let text = text_of(&program);
+        let read = interpret(text.as_bytes(), Native, &Options::default());
+        prop_assert!(!read.problems.iter().any(Diagnostic::is_error), "{}", spelled_out(&read.problems));
+        let difference = compare(&read.moves(), &moves_of(&program), &Tolerance::of_decimals(3));
+        prop_assert_eq!(difference, None, "{}", text);
+    }
+}
+
+#[test]
+fn a_written_program_is_recognised() {
+    let text = text_of(&program(&[Sketch::Lift(5.0), Sketch::Drill(1.0)]));
+    assert_eq!(guess(text.as_bytes()).dialect, Native);
+    assert!(
+        interpret(text.as_bytes(), LinuxCnc, &Options::default()).problems.iter().any(Diagnostic::is_error)
+    );
+}
