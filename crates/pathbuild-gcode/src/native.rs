@@ -7,6 +7,7 @@ mod probing;
 mod program;
 mod statistics;
 
+pub(crate) use comment::transliterated;
 pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};

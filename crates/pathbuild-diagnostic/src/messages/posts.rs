@@ -364,4 +364,32 @@ messages! {
         en: "{operation} needs the text {text}, which the post does not have",
         de: "{operation} braucht den Text {text}, den der Postprozessor nicht hat",
     }
+    /// A dialect that there is not.
+    DIALECT_UNKNOWN: InvalidPost {
+        en: "there is no dialect {name}",
+        de: "es gibt keinen Dialekt {name}",
+        help_en: "one of {known}",
+        help_de: "einer von {known}",
+    }
+    /// As above, but one is like it.
+    DIALECT_UNKNOWN_NEAREST: InvalidPost {
+        en: "there is no dialect {name}; one of {known}",
+        de: "es gibt keinen Dialekt {name}, nur {known}",
+        help_en: "did you mean {nearest}?",
+        help_de: "war {nearest} gemeint?",
+    }
+    /// A word, or a character, that is no use to the target.
+    WORD_REJECTED: RejectedWord {
+        en: "line {line} of the output: {dialect} does not take \"{word}\"",
+        de: "Zeile {line} der Ausgabe: {dialect} nimmt »{word}« nicht an",
+        help_en: "change the post's text, or name the dialect that the control really has",
+        help_de: "den Text im Postprozessor ändern, oder den Dialekt nennen, den die Steuerung wirklich hat",
+    }
+    /// A line.
+    LINE_TOO_LONG: LineTooLong {
+        en: "line {line} of the output has {length} characters; {dialect} takes {longest}",
+        de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt {longest} an",
+        help_en: "give the post's number format fewer decimals, or its texts several lines",
+        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben, oder seinen Texten mehrere Zeilen",
+    }
 }

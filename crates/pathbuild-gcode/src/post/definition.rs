@@ -5,6 +5,8 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
 use super::job::Job;
 use super::options::PostOptions;
+use super::suggest::nearest;
+use super::target::{self, Target};
 use super::{cad6, cambam};
 
 /// A definition that was read, ready to write programs.
@@ -93,6 +95,8 @@ impl Post {
     /// Every macro that nobody defines, else the first thing that would make the text wrong.
     pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
         job.check().map_err(|error| vec![*error])?;
+        let target = self.target(options)?;
+        let options = &self.within(options, target.as_ref());
         let mut output = Output {
             text: Vec::new(),
             extension: self.extension().into(),
@@ -110,7 +114,34 @@ impl Post {
                 output.inserted = written.inserted;
             }
         }
+        output.text = target::plain(&output.text, target.as_ref(), options.charset);
+        match target {
+            None => output.notes.push(Note { message: &posts::POST_WITHOUT_DIALECT, arguments: Vec::new() }),
+            Some(target) => {
+                let errors = target::check(&output.text, &target);
+                if !errors.is_empty() {
+                    return Err(errors.into_iter().map(|error| error.in_file(&self.file)).collect());
+                }
+            }
+        }
         Ok(output)
+    }
+
+    /// Whom the output is for, if that is said.
+    fn target(&self, options: &PostOptions<'_>) -> Result<Option<Target>, Vec<Diagnostic>> {
+        let Some(name) = options.dialect.as_deref().or(self.dialect()) else { return Ok(None) };
+        Target::of(name).map(Some).ok_or_else(|| vec![unknown_dialect(name).in_file(&self.file)])
+    }
+
+    /// The options within what the target knows: a control without cycles gets their moves, unless the definition has a text of its own
+    /// in place of the cycle's word.
+    fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
+        let writes_cycles = match &self.engine {
+            Engine::CamBam(definition) => definition.writes_cycles(),
+            Engine::Cad6(_) => false,
+        };
+        let has_cycles = target.is_none_or(Target::has_cycles);
+        PostOptions { cycles: options.cycles && (has_cycles || !writes_cycles), ..options.clone() }
     }
 
     fn write_cambam(
@@ -134,6 +165,14 @@ impl Post {
         }
         Ok(())
     }
+}
+
+fn unknown_dialect(name: &str) -> Diagnostic {
+    let diagnostic = match nearest(name, Target::names()) {
+        Some(nearest) => Diagnostic::new(&posts::DIALECT_UNKNOWN_NEAREST).with("nearest", nearest),
+        None => Diagnostic::new(&posts::DIALECT_UNKNOWN),
+    };
+    diagnostic.with("name", name).with("known", Target::names().into_iter().collect::<Value>())
 }
 
 impl Output {

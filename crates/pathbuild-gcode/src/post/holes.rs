@@ -7,7 +7,7 @@ use super::step::{Hole, HoleKind, Position, Step};
 /// A hole with more pecks is a slip of the pen.
 const MOST_PECKS: usize = 1_000;
 /// How far above the bottom reached so far the tool changes from rapid to feed, mm.
-const PECK_GAP: f64 = 0.25;
+const PECK_GAP: f64 = 0.254;
 
 /// The moves of a hole: over it at its level, down, and up to its exit.
 pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn pecks_leave_the_hole_and_come_back_just_above_where_they_were() {
-        let expected = [20.0, 10.0, 7.0, 10.0, 7.25, 4.0, 20.0];
+        let expected = [20.0, 10.0, 7.0, 10.0, 7.254, 4.0, 20.0];
         assert_eq!(heights(HoleKind::Peck { depth: 3.0 }), expected, "exactly two goes");
         assert_eq!(heights(HoleKind::Peck { depth: 2.9 }).len(), 10, "a third for the rest");
     }

@@ -15,6 +15,7 @@ mod number;
 mod options;
 mod step;
 mod suggest;
+mod target;
 mod tools;
 
 pub use built_in::{BUILT_IN, BuiltIn, Language, load};

@@ -4,6 +4,8 @@ use std::fmt;
 
 use camino::Utf8Path;
 
+use crate::native::Charset;
+
 /// How a program is written through a post.
 #[derive(Clone, Debug)]
 pub struct PostOptions<'a> {
@@ -17,6 +19,10 @@ pub struct PostOptions<'a> {
     pub output: Option<Box<str>>,
     /// The post's own command will be run: it is handed out instead of a note that it was skipped.
     pub run_post_build: bool,
+    /// Characters that are written; targets that act on other bytes get ASCII in any case.
+    pub charset: Charset,
+    /// The dialect of the output, where the definition does not name one or names another.
+    pub dialect: Option<Box<str>>,
     /// Where files are that the definition inserts.
     pub files: &'a dyn PostFiles,
 }
@@ -29,6 +35,8 @@ impl Default for PostOptions<'_> {
             cycles: false,
             output: None,
             run_post_build: false,
+            charset: Charset::Ascii,
+            dialect: None,
             files: &NoFiles,
         }
     }

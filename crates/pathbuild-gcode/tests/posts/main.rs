@@ -12,4 +12,5 @@ mod cambam_lines;
 mod cambam_moves;
 mod cambam_outputs;
 mod jobs;
+mod robustness;
 mod support;

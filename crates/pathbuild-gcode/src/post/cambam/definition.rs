@@ -50,6 +50,11 @@ impl Definition {
         self.options.dialect.as_deref()
     }
 
+    /// Whether a hole becomes the word of a cycle.
+    pub(crate) fn writes_cycles(&self) -> bool {
+        !self.section(Section::G81).is_blank()
+    }
+
     /// What it says about itself.
     pub(crate) fn description(&self) -> &str {
         &self.options.notes
