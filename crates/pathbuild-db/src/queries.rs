@@ -10,10 +10,12 @@ mod embedding;
 mod hints;
 mod instance;
 mod joined;
+mod layers;
 mod lookup;
 mod raw;
 mod reach;
 mod report;
+mod texts;
 
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
@@ -23,3 +25,4 @@ pub use lookup::{Found, files_for, find_path, holders, name_table};
 pub use raw::{NameKey, PathPlace, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
+pub use texts::assigned_texts;
