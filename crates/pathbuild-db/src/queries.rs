@@ -5,6 +5,7 @@
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
 
+mod combinations;
 mod edges;
 mod embedding;
 mod hints;
@@ -17,6 +18,7 @@ mod reach;
 mod report;
 mod texts;
 
+pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};

@@ -8,6 +8,7 @@ pub mod approx;
 mod assign;
 mod bind;
 mod chain;
+mod combinations;
 mod definition;
 mod element;
 mod files;
@@ -30,6 +31,7 @@ mod walk;
 
 pub use bind::bind;
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath};
+pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape};
 pub use files::{FilePattern, NameRange, PathKey};
