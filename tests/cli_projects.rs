@@ -133,3 +133,51 @@ end 40,40
     );
     assert_snapshot!(runs(&place, ["deps 8000.1P", "rdeps 8000.3P", "graph 8000.dxf"]));
 }
+
+#[test]
+fn where_says_file_line_layer_and_start() {
+    let place = Place::of(LIBRARY);
+    let lines =
+        ["where 1234.1P", "where components/1234.dxf 8101.1p", "where --format json 2051.1P", "where 7.1P"];
+    assert_snapshot!(runs(&place, lines));
+}
+
+/// It is the one command that helps with PB504.
+#[test]
+fn where_lists_every_definition_of_a_path_that_has_two() {
+    let second = "== projects/1234.1.dxf ==\nlayer 1234_1P\nstart 0,0 \"T5 O2\"\nend 0,0\n";
+    assert_snapshot!(Place::of(&format!("{LIBRARY}{second}")).run("where 1234.1P --lang de"));
+}
+
+/// One text of each kind: of a marker, a line, an arc, a circle, a polyline; one that is continued, and one without an element.
+const TEXTS: &str = r#"
+== 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 MPlate~\P  X" as mtext
+mill 0,0 40,0 "B0 %%c" as text
+mill arc 40,0 60,0 r 10 "B1"
+circle 60,0 d 2 "B2"
+polyline 60,0 80,0 80,20 "B3"
+end 80,20
+text 200,200 "B4"
+layer 1234.2P~A
+start 0,50 "@1234.1P"
+end 0,50
+== broken.dxf verbatim ==
+nothing
+"#;
+
+#[test]
+fn texts_show_the_element_that_each_belongs_to() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts 1234.dxf", "texts 1234.dxf --lang de --match B[13]"]));
+}
+
+#[test]
+fn texts_of_one_path_or_for_programs() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts 1234.2P", "texts 1234.dxf --format json"]));
+}
+
+#[test]
+fn texts_need_a_drawing_and_a_regular_expression() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts", "texts 1234.dxf --match (", "texts broken.dxf"]));
+}

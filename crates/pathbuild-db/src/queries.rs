@@ -5,16 +5,20 @@
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
 
+mod combinations;
 mod edges;
 mod embedding;
 mod hints;
 mod instance;
 mod joined;
+mod layers;
 mod lookup;
 mod raw;
 mod reach;
 mod report;
+mod texts;
 
+pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
@@ -25,3 +29,4 @@ pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
 
 pub(crate) use raw::internal_error;
+pub use texts::assigned_texts;

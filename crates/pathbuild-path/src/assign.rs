@@ -1,11 +1,15 @@
 //! Which element a parameter text belongs to. (spec/10-drawing.md, "The element a text belongs to")
 
+use pathbuild_diagnostic::ElementId;
+
 use crate::element::Shape;
 use crate::geometry::Curve;
 use crate::text_circle::TextCircle;
 
 /// Something that a text can belong to.
 pub(crate) struct Candidate {
+    /// Where to find it in the file.
+    pub(crate) id: ElementId,
     /// What is drawn.
     pub(crate) shape: Shape,
     /// Parts of the same polyline take a text together.

@@ -8,6 +8,7 @@ pub mod approx;
 mod assign;
 mod bind;
 mod chain;
+mod combinations;
 mod definition;
 mod element;
 mod files;
@@ -30,6 +31,7 @@ mod walk;
 
 pub use bind::bind;
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath};
+pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape};
 pub use files::{FilePattern, NameRange, PathKey};
@@ -44,7 +46,7 @@ pub use path::{
 };
 pub use pattern::PatternError;
 pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
-pub use read::raw_file;
+pub use read::{AssignedElement, AssignedText, assigned_texts, raw_file};
 pub use table::RangeTable;
 pub use text::{ParameterText, Piece};
 pub use text_circle::TextCircle;

@@ -1,6 +1,7 @@
 //! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (spec/10-drawing.md)
 
 mod collect;
+mod listing;
 mod parameters;
 mod texts;
 
@@ -12,6 +13,8 @@ use crate::name::PathName;
 use crate::raw::{Language, RawFile};
 
 use collect::Collected;
+
+pub use listing::{AssignedElement, AssignedText, assigned_texts};
 
 /// Finds the paths of a drawing. A drawing with errors of its own has none.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {

@@ -2,10 +2,11 @@
 
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Number, Point};
-use pathbuild_dxf::{Geometry, Options};
+use pathbuild_dxf::Geometry;
 use pathbuild_path::{Xy, on_circle};
 
 use super::instance::Instance;
+use super::layers::read_layers;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
@@ -50,17 +51,7 @@ pub(super) fn with_other_layers(db: &dyn Db, instance: Instance<'_>, diagnostic:
 /// The ends of all lines and arcs of a drawing, on whatever layer: the drawing is read once more for that.
 #[salsa::tracked]
 fn all_ends(db: &dyn Db, file: SourceFile) -> Vec<LayerEnd> {
-    file.revision(db);
-    let reading = Settings::get(db).reading(db);
-    let Ok(bytes) = db.system().read(file.path(db), reading.file_size) else { return Vec::new() };
-    let options = Options {
-        keep_layer: &|_| true,
-        units: reading.units,
-        approximate_curves: 0.0,
-        max_entities: reading.entities,
-        max_text: reading.text_length,
-    };
-    let drawing = pathbuild_dxf::read(&bytes, &options);
+    let drawing = read_layers(db, file, &|_| true);
     let mut ends = Vec::new();
     for entity in &drawing.entities {
         let layer = &drawing.layers[entity.layer as usize].name;

@@ -57,4 +57,21 @@ messages! {
         help_en: "a value may refer to other variables, but not in a circle",
         help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis",
     }
+    /// More combinations of values than are checked.
+    COMBINATIONS_CUT: LimitReached {
+        en: "{checked} of {all} combinations of the variables' values were checked",
+        de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft",
+        help_en: "each value was in one of them at least; projects are checked with the values that they set",
+        help_de: "jeder Wert kam in mindestens einer vor; Projekte werden mit den Werten geprüft, die sie setzen",
+    }
+    /// Note: found with these values of the path's variables, not with all.
+    WITH_VALUES: VariableValueNotAllowed {
+        en: "with {values} in path {name}",
+        de: "mit {values} in Pfad {name}",
+    }
+    /// Note: found with these values, and with others.
+    WITH_MORE_VALUES: VariableValueNotAllowed {
+        en: "with {values} in path {name}, and with {others} more of {all} combinations",
+        de: "mit {values} in Pfad {name}, und mit {others} weiteren von {all} Kombinationen",
+    }
 }

@@ -289,7 +289,7 @@ impl Collected {
     }
 
     fn candidate(&mut self, entity: &Entity, origin: &Origin, shape: Shape, owner: Owner) {
-        let candidate = Candidate { shape, group: entity.group, is_taken: false };
+        let candidate = Candidate { id: origin.id, shape, group: entity.group, is_taken: false };
         self.texts.add_candidate(entity.layer, &origin.layer, candidate, owner);
     }
 

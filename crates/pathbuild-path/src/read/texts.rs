@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind};
 use pathbuild_dxf::{MText, Text};
 
 use super::collect::{Owner, candidate_word};
 use crate::assign::{Candidate, find, nearest_miss};
-use crate::element::{Origin, shown};
+use crate::element::{Origin, Shape, shown};
 use crate::raw::RawPath;
 use crate::text::{ParameterText, without_percent_codes};
 use crate::text_circle::TextCircle;
@@ -33,6 +33,14 @@ struct FoundText {
     origin: Origin,
 }
 
+/// A text and what it belongs to.
+pub(crate) struct Match {
+    pub(crate) string: String,
+    pub(crate) circle: TextCircle,
+    pub(crate) origin: Origin,
+    pub(crate) owners: Vec<(ElementId, Shape)>,
+}
+
 impl Texts {
     pub(crate) fn add_text(&mut self, text: &Text, layer: u32, origin: Origin) {
         let found = FoundText {
@@ -50,6 +58,23 @@ impl Texts {
             origin,
         };
         self.layer(layer, &found.origin.layer.clone()).texts.push(found);
+    }
+
+    /// Each text with its circle and the candidates that it belongs to, layer by layer.
+    pub(crate) fn matched(mut self) -> Vec<Match> {
+        let layers = self.layers.values_mut();
+        let matched = layers.flat_map(|layer| {
+            let matched = layer.matched();
+            let owned = |owners: Vec<usize>| owners.iter().map(|index| layer.owned(*index)).collect();
+            matched.into_iter().map(|(text, owners)| (text, owned(owners))).collect::<Vec<_>>()
+        });
+        let shown = |(text, owners): (FoundText, Vec<(ElementId, Shape)>)| Match {
+            string: text.string,
+            circle: text.circle,
+            origin: text.origin,
+            owners,
+        };
+        matched.map(shown).collect()
     }
 
     pub(crate) fn add_candidate(&mut self, layer: u32, name: &str, candidate: Candidate, owner: Owner) {
@@ -77,30 +102,53 @@ impl Texts {
 }
 
 impl LayerTexts {
-    /// All TEXT in file order, then all MTEXT. What finds no element stays in `texts`.
+    /// Gives each text to its element. What finds no element stays in `texts`.
     fn assign(&mut self, raw: &mut RawPath) {
-        let mut texts = std::mem::take(&mut self.texts);
-        texts.sort_by_key(|text| text.origin.entity == EntityKind::MText);
-        for text in texts {
-            match find(&text.circle, &self.candidates) {
-                Some(index) => self.give(&text, index, raw),
-                None => self.texts.push(text),
+        for (text, owners) in self.matched() {
+            if owners.is_empty() {
+                self.texts.push(text);
+            } else {
+                self.give(&text, &owners, raw);
             }
         }
     }
 
-    fn give(&mut self, text: &FoundText, index: usize, raw: &mut RawPath) {
+    /// All TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
+    fn matched(&mut self) -> Vec<(FoundText, Vec<usize>)> {
+        let mut texts = std::mem::take(&mut self.texts);
+        texts.sort_by_key(|text| text.origin.entity == EntityKind::MText);
+        let mut matched = Vec::with_capacity(texts.len());
+        for text in texts {
+            let owners =
+                find(&text.circle, &self.candidates).map_or_else(Vec::new, |index| self.parts(index));
+            for owner in &owners {
+                self.candidates[*owner].is_taken = true;
+            }
+            matched.push((text, owners));
+        }
+        matched
+    }
+
+    /// A candidate, and what is part of the same polyline.
+    fn parts(&self, index: usize) -> Vec<usize> {
+        match self.candidates[index].group {
+            None => vec![index],
+            group => {
+                (0..self.candidates.len()).filter(|other| self.candidates[*other].group == group).collect()
+            }
+        }
+    }
+
+    fn owned(&self, index: usize) -> (ElementId, Shape) {
+        let candidate = &self.candidates[index];
+        (candidate.id, candidate.shape)
+    }
+
+    fn give(&self, text: &FoundText, owners: &[usize], raw: &mut RawPath) {
         let number = u32::try_from(raw.texts.len()).unwrap_or(u32::MAX);
         raw.texts.push(ParameterText::new(&text.string));
-        let group = self.candidates[index].group;
-        let is_given = |(other, candidate): &(usize, &Candidate)| {
-            *other == index || (group.is_some() && candidate.group == group)
-        };
-        let given: Vec<usize> =
-            self.candidates.iter().enumerate().filter(is_given).map(|(other, _)| other).collect();
-        for other in given {
-            self.candidates[other].is_taken = true;
-            let owner = match self.owners[other] {
+        for owner in owners {
+            let owner = match self.owners[*owner] {
                 Owner::Start => raw.start.as_mut().map(|start| &mut start.text),
                 Owner::Probe(probe) => Some(&mut raw.probes[probe].text),
                 Owner::Element(element) => Some(&mut raw.elements[element].text),

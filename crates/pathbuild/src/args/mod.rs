@@ -57,7 +57,6 @@ pub enum Command {
     #[command(hide = true)]
     Watch(WatchArgs),
     /// Show which element each parameter text belongs to
-    #[command(hide = true)]
     Texts(TextsArgs),
     /// Show a path as a self-contained HTML page or SVG
     #[command(hide = true)]

@@ -8,8 +8,9 @@ pub mod emit;
 pub mod explain;
 pub mod graph;
 pub mod init;
+pub mod locate;
 pub mod man;
-pub mod where_;
+pub mod texts;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
@@ -33,7 +34,8 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Graph(args) => graph::graph(context, args),
         Command::Deps(args) => graph::deps(context, args),
         Command::Rdeps(args) => graph::rdeps(context, args),
-        Command::Where(args) => where_::run(context, args),
+        Command::Where(args) => locate::run(context, args),
+        Command::Texts(args) => texts::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

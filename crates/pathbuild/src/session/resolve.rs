@@ -1,5 +1,7 @@
 //! Which drawings and paths the arguments mean. (spec/05-command-line.md)
 
+use std::cell::LazyCell;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Kind;
 use pathbuild_db::{Db, SourceFile, holders, path_names};
@@ -43,10 +45,11 @@ impl Session<'_> {
     /// What the arguments mean; without any, the library.
     pub fn wanted(&self, inputs: &Inputs) -> Wanted {
         let mut wanted = Wanted::default();
+        let directories = LazyCell::new(|| self.name_directories());
         for input in inputs.iter() {
             match input {
                 Input::Place(place) => self.add_place(place, &mut wanted),
-                Input::Name(name) => self.add_name(name, &mut wanted),
+                Input::Name(name) => self.add_name(name, &directories, &mut wanted),
             }
         }
         if inputs.inputs.is_empty() {
@@ -75,11 +78,6 @@ impl Session<'_> {
         drawings.iter().map(|drawing| self.file(drawing)).collect()
     }
 
-    /// The drawings that define a path, wherever names are looked for: one is right.
-    pub fn definitions_of(&self, name: &PathName) -> Vec<SourceFile> {
-        self.definitions(name, &self.directories())
-    }
-
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
         if self.is_directory(place) && !library::is_drawing(&normal) {
@@ -95,14 +93,13 @@ impl Session<'_> {
         self.db.system().kind(&self.normal(place)) == Kind::Directory
     }
 
-    fn add_name(&self, name: &str, wanted: &mut Wanted) {
-        let directories = self.directories();
-        match self.definitions(&PathName::new(name), &directories).as_slice() {
-            [] => match self.drawing_of_name(name, &directories) {
+    fn add_name(&self, name: &str, directories: &[Utf8PathBuf], wanted: &mut Wanted) {
+        match self.definitions(&PathName::new(name), directories).as_slice() {
+            [] => match self.drawing_of_name(name, directories) {
                 Some(drawing) => wanted.add_drawing(drawing, true),
                 // `check components` is what people type; nothing else of that name was meant.
                 None if self.is_directory(Utf8Path::new(name)) => self.add_place(Utf8Path::new(name), wanted),
-                None => wanted.problems.push(nowhere(name, &directories)),
+                None => wanted.problems.push(nowhere(name, directories)),
             },
             [file] => {
                 let spelt = path_names(&self.db, *file).iter().find(|known| **known == PathName::new(name));
@@ -120,7 +117,7 @@ impl Session<'_> {
     }
 
     /// Where names are looked for: the working directory, the search directories, the library and what is below it.
-    fn directories(&self) -> Vec<Utf8PathBuf> {
+    pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
         let general = &self.context.settings.general;
         let mut directories = vec![Utf8PathBuf::new()];
         let searched = general.search.value.iter().map(|directory| self.normal(directory));
@@ -134,8 +131,8 @@ impl Session<'_> {
         directories
     }
 
-    /// The files that define a path, each once.
-    fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
+    /// The drawings in some directories that define a path, each once.
+    pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let mut files: Vec<SourceFile> = Vec::new();
         let mut seen = Vec::new();
         for directory in directories {

@@ -1,7 +1,10 @@
 //! `pathbuild where`: where paths are defined. (spec/05-command-line.md)
 
+use std::cell::LazyCell;
+
 use pathbuild_db::{PathPlace, SourceFile, check_file, path_names, path_place};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
 use serde::Serialize;
 
 use crate::args::{Format, GraphArgs, Input};
@@ -40,11 +43,12 @@ fn definitions(
     let db = session.db();
     let mut found = Vec::new();
     let names = args.inputs.iter().filter_map(|input| match input {
-        Input::Name(name) => Some(pathbuild_path::PathName::new(name)),
+        Input::Name(name) => Some(PathName::new(name)),
         Input::Place(_) => None,
     });
+    let directories = LazyCell::new(|| session.name_directories());
     for name in names {
-        let files = session.definitions_of(&name);
+        let files = session.definitions(&name, &directories);
         found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, &name)?))));
     }
     let files: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
@@ -61,7 +65,8 @@ fn line(context: &Context, file: &str, place: &PathPlace) -> String {
     let line = place.position.map(|position| format!(":{}", position.line)).unwrap_or_default();
     let start = context.choose("start at", "Anfang bei");
     let point = place.point.map(|point| format!(", {start} ({}, {})", point.x, point.y)).unwrap_or_default();
-    format!("{}  {file}{line}  Layer {}{point}\n", place.name, place.layer)
+    let layer = context.choose("layer", "Layer");
+    format!("{}  {file}{line}  {layer} {}{point}\n", place.name, place.layer)
 }
 
 #[derive(Serialize)]

@@ -1,0 +1,98 @@
+//! Which element each text belongs to, for showing. (spec/10-drawing.md, "Inside a text", last paragraph)
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::{ElementId, EntityKind};
+use pathbuild_dxf::{Drawing, Entity};
+
+use super::collect::{self, Collected};
+use super::texts::Match;
+use crate::element::Shape;
+use crate::name::PathName;
+use crate::raw::{Language, Position};
+use crate::text_circle::TextCircle;
+
+/// A text on a path layer, and what it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssignedText {
+    /// The text, `%%` codes replaced, with its line ends.
+    pub text: Box<str>,
+    /// TEXT or MTEXT.
+    pub entity: EntityKind,
+    /// The path that it is in.
+    pub path: PathName,
+    /// Its layer.
+    pub layer: Box<str>,
+    /// Where it is in the file.
+    pub position: Position,
+    /// The circle by which it finds its element.
+    pub circle: TextCircle,
+    /// The element; several where it is a polyline; none where the text belongs to nothing (PB107).
+    pub elements: Vec<AssignedElement>,
+}
+
+/// An element that has a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssignedElement {
+    /// Its type in the file.
+    pub entity: EntityKind,
+    /// Its line type's name.
+    pub line_type: Box<str>,
+    /// Where it is in the file.
+    pub position: Position,
+    /// What is drawn.
+    pub shape: Shape,
+}
+
+/// The texts of a drawing's path layers, in file order.
+pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedText> {
+    let entities = entities_by_path(drawing, language);
+    let mut texts: Vec<AssignedText> = Vec::new();
+    for path in collect::paths(drawing, language) {
+        let Collected { raw, map, texts: found, .. } = path;
+        let Some(entities) = entities.get(&raw.name) else { continue };
+        let at = |id: ElementId| map.positions()[id.0 as usize];
+        texts.extend(found.matched().into_iter().map(|found| assigned(&raw.name, found, entities, &at)));
+    }
+    texts.sort_by_key(|text| text.position.line);
+    texts
+}
+
+fn assigned(
+    path: &PathName,
+    found: Match,
+    entities: &[&Entity],
+    at: &impl Fn(ElementId) -> Position,
+) -> AssignedText {
+    let element = |(id, shape): &(ElementId, Shape)| {
+        let entity = entities[id.0 as usize];
+        AssignedElement {
+            entity: entity.kind,
+            line_type: entity.line_type.clone(),
+            position: at(*id),
+            shape: *shape,
+        }
+    };
+    AssignedText {
+        text: found.string.into(),
+        entity: found.origin.entity,
+        path: path.clone(),
+        layer: found.origin.layer,
+        position: at(found.origin.id),
+        circle: found.circle,
+        elements: found.owners.iter().map(element).collect(),
+    }
+}
+
+/// The entities of each path in file order, which is how its elements are numbered.
+fn entities_by_path<'d>(drawing: &'d Drawing, language: &Language) -> BTreeMap<PathName, Vec<&'d Entity>> {
+    let paths = drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name));
+    let paths: Vec<Option<PathName>> = paths.map(|layer| layer.map(|layer| layer.path)).collect();
+    let mut entities: BTreeMap<PathName, Vec<&Entity>> = BTreeMap::new();
+    for entity in &drawing.entities {
+        if let Some(path) = &paths[entity.layer as usize] {
+            entities.entry(path.clone()).or_default().push(entity);
+        }
+    }
+    entities
+}

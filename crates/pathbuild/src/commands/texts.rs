@@ -1,0 +1,148 @@
+//! `pathbuild texts`: which element each parameter text belongs to. (spec/10-drawing.md, "Inside a text")
+
+use std::fmt::Write;
+
+use pathbuild_db::{assigned_texts, check_file};
+use pathbuild_diagnostic::{Handle, Number};
+use pathbuild_path::{AssignedElement, AssignedText, Curve, Position, Shape, TextCircle, Xy};
+use regex::Regex;
+use serde_json::{Value as Json, json};
+
+use crate::args::{Format, TextsArgs};
+use crate::config;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::report::Findings;
+use crate::session::Session;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
+    let pattern = args.pattern.as_deref().map(|pattern| config::regex("match", pattern)).transpose();
+    let pattern = match pattern {
+        Ok(pattern) => pattern.and_then(|pattern| Regex::new(pattern).ok()),
+        Err(fault) => return context.refuse(vec![*fault]),
+    };
+    let session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.nothing_named("show");
+    }
+    let wanted = session.wanted(&args.inputs);
+    let mut problems = wanted.problems;
+    let whole = wanted.drawings.iter().map(|drawing| (drawing.file, None));
+    let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
+    let db = session.db();
+    for (file, path) in whole.chain(parts) {
+        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
+        let is_wanted = |text: &&AssignedText| {
+            path.is_none_or(|path| text.path == *path)
+                && pattern.as_ref().is_none_or(|pattern| pattern.is_match(&text.text))
+        };
+        for text in assigned_texts(db, file).iter().filter(is_wanted) {
+            let name = file.path(db).as_str();
+            context.printer.result(match context.format {
+                Format::Json => format!("{}\n", object(name, text)),
+                _ => lines(context, name, text),
+            });
+        }
+    }
+    let findings = Findings::new(problems);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// A text in a few lines: itself, where it is, and each element that it belongs to.
+fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
+    let TextCircle { centre, radius } = text.circle;
+    let layer = context.choose("layer", "Layer");
+    let mut shown = format!("{file}:{}: {:?}\n", text.position.line, text.text);
+    _ = writeln!(
+        shown,
+        "  {}, {layer} {}, {} {}, {} {}",
+        named(text.entity.name(), text.position),
+        text.layer,
+        context.choose("circle around", "Kreis um"),
+        point(centre),
+        context.choose("diameter", "Durchmesser"),
+        Number(2.0 * radius),
+    );
+    for element in &text.elements {
+        let AssignedElement { entity, line_type, position, shape } = element;
+        let (named, geometry) = (named(entity.name(), *position), geometry(context, shape));
+        _ = writeln!(shown, "  -> {named}, {layer} {}, {line_type}, {geometry}", text.layer);
+    }
+    if text.elements.is_empty() {
+        _ = writeln!(shown, "  -> {}", context.choose("nothing (PB107)", "nichts (PB107)"));
+    }
+    shown
+}
+
+/// `LINE 1F`, or without a handle `LINE in line 120`.
+fn named(entity: &str, position: Position) -> String {
+    match position.handle {
+        Some(handle) => format!("{entity} {handle}"),
+        None => format!("{entity} :{}", position.line),
+    }
+}
+
+fn geometry(context: &Context, shape: &Shape) -> String {
+    let [from, to] = [context.choose("from", "von"), context.choose("to", "bis")];
+    let [centre, diameter] =
+        [context.choose("centre", "Mittelpunkt"), context.choose("diameter", "Durchmesser")];
+    match shape {
+        Shape::Circle { centre: at, radius } => {
+            format!("{centre} {}, {diameter} {}", point(*at), Number(2.0 * radius))
+        }
+        Shape::Curve(curve) => {
+            let ends = format!("{from} {} {to} {}", point(curve.start()), point(curve.end()));
+            match curve {
+                Curve::Line(_) => ends,
+                Curve::Arc(arc) => {
+                    format!("{ends}, {centre} {}, {diameter} {}", point(arc.centre), Number(2.0 * arc.radius))
+                }
+            }
+        }
+    }
+}
+
+fn point(point: Xy) -> String {
+    format!("({}, {})", Number(point.x), Number(point.y))
+}
+
+fn object(file: &str, text: &AssignedText) -> Json {
+    json!({
+        "file": file,
+        "line": text.position.line,
+        "text": text.text,
+        "entity": text.entity.name(),
+        "path": text.path.as_str(),
+        "layer": text.layer,
+        "handle": handle(text.position.handle),
+        "x": text.circle.centre.x,
+        "y": text.circle.centre.y,
+        "diameter": 2.0 * text.circle.radius,
+        "elements": text.elements.iter().map(element).collect::<Vec<_>>(),
+    })
+}
+
+fn element(element: &AssignedElement) -> Json {
+    let pair = |point: Xy| json!([point.x, point.y]);
+    let (from, to, circle) = match element.shape {
+        Shape::Circle { centre, radius } => (None, None, Some((centre, radius))),
+        Shape::Curve(Curve::Line(line)) => (Some(line.start), Some(line.end), None),
+        Shape::Curve(Curve::Arc(arc)) => (Some(arc.start), Some(arc.end), Some((arc.centre, arc.radius))),
+    };
+    json!({
+        "entity": element.entity.name(),
+        "line": element.position.line,
+        "handle": handle(element.position.handle),
+        "line_type": element.line_type,
+        "from": from.map(pair),
+        "to": to.map(pair),
+        "centre": circle.map(|(centre, _)| pair(centre)),
+        "diameter": circle.map(|(_, radius)| 2.0 * radius),
+    })
+}
+
+fn handle(handle: Option<Handle>) -> Option<String> {
+    handle.map(|handle| handle.to_string())
+}

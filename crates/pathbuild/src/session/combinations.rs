@@ -1,0 +1,113 @@
+//! Checking paths with all values of their variables. (spec/40-variables.md)
+
+use std::collections::BTreeMap;
+
+use pathbuild_db::{Role, SourceFile, Target, combinations, locate, path_names};
+use pathbuild_diagnostic::messages::variables as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault};
+use pathbuild_path::{Bindings, PathName};
+
+use super::{CheckedTarget, Session};
+
+/// With how many combinations of values a path is checked at most.
+const MOST_COMBINATIONS: usize = 1000;
+
+impl Session<'_> {
+    /// The targets that check a path with each combination of values, and a warning where there are too many. Of a path without variables
+    /// that is one target.
+    pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
+        let target = |role| Target::new(self.db(), file, name.as_str().into(), role);
+        match combinations(self.db(), file, name, MOST_COMBINATIONS) {
+            None => (vec![target(Role::Checked)], None),
+            Some((values, warning)) => {
+                let targets = values.into_iter().map(|values| target(Role::CheckedWith(values))).collect();
+                (targets, warning.map(|warning| locate(self.db(), warning)))
+            }
+        }
+    }
+
+    /// The same for every path of a file.
+    pub fn all_combined_targets(&self, file: SourceFile) -> (Vec<Target>, Vec<Diagnostic>) {
+        let mut all = (Vec::new(), Vec::new());
+        for name in path_names(self.db(), file) {
+            let (targets, warning) = self.combined_targets(file, name);
+            all.0.extend(targets);
+            all.1.extend(warning);
+        }
+        all
+    }
+
+    /// What is wrong with a path, from the results with each of its combinations of values: each fault once, with values that show it
+    /// where not all do.
+    pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
+        let mut merged: Vec<Merged<'_>> = Vec::new();
+        let mut known: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
+        for result in results {
+            for diagnostic in &result.diagnostics {
+                let index = *known.entry(Identity::of(diagnostic)).or_insert(merged.len());
+                match merged.get_mut(index) {
+                    // In the same result the same fault may be met with several arguments.
+                    Some(known) if known.last.target == result.target => {}
+                    Some(known) => {
+                        known.count += 1;
+                        known.last = result;
+                    }
+                    None => merged.push(Merged { diagnostic, first: result, last: result, count: 1 }),
+                }
+            }
+        }
+        merged.iter().map(|merged| self.with_values(merged, results.len())).collect()
+    }
+
+    fn with_values(&self, merged: &Merged<'_>, all: usize) -> Diagnostic {
+        let diagnostic = merged.diagnostic.clone();
+        let target = merged.first.target;
+        let Role::CheckedWith(values) = target.role(self.db()) else { return diagnostic };
+        let named = vec![("values", shown(values).into()), ("name", (**target.name(self.db())).into())];
+        match merged.count {
+            count if count == all => diagnostic,
+            1 => diagnostic.note(&messages::WITH_VALUES, named),
+            count => {
+                let counts = [("others", (count - 1).into()), ("all", all.into())];
+                diagnostic.note(&messages::WITH_MORE_VALUES, named.into_iter().chain(counts).collect())
+            }
+        }
+    }
+}
+
+/// A fault, and the combinations that show it.
+struct Merged<'a> {
+    diagnostic: &'a Diagnostic,
+    first: &'a CheckedTarget,
+    last: &'a CheckedTarget,
+    count: usize,
+}
+
+/// What makes two diagnostics one fault: all but the values in it.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Identity<'a> {
+    message: &'static str,
+    file: Option<&'a str>,
+    path: Option<&'a str>,
+    place: &'a Place,
+    text: Option<&'a TextFault>,
+}
+
+impl<'a> Identity<'a> {
+    fn of(diagnostic: &'a Diagnostic) -> Self {
+        let Message { key, .. } = diagnostic.message;
+        Self {
+            message: key,
+            file: diagnostic.file.as_ref().map(|file| file.as_str()),
+            path: diagnostic.path.as_deref(),
+            place: &diagnostic.place,
+            text: diagnostic.text.as_ref(),
+        }
+    }
+}
+
+/// As a subpath's text sets them: `:A0,5 :BX`.
+fn shown(values: &Bindings) -> String {
+    let values: Vec<String> = values.iter().map(|(name, value)| format!(":{name}{value}")).collect();
+    values.join(" ")
+}
