@@ -3,8 +3,8 @@
 
 mod segments;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, EntityKind};
 use regex::Regex;
 
 use crate::element::{Marker, Origin};
@@ -71,7 +71,7 @@ impl<'a> Binder<'a> {
         };
         path.add_surface(self.parameters_origin(start), path.thickness, self.values.fault(Letter::T));
         self.add_probes(&mut path);
-        self.add_subpath_surfaces(&mut path);
+        Self::add_subpath_surfaces(&mut path);
         (tool.is_some() && thickness.is_some()).then_some(path)
     }
 
@@ -127,14 +127,9 @@ impl<'a> Binder<'a> {
                 && known.arguments == problem.arguments
                 && known.place.entity == problem.place.entity
         };
-        if problem.text.is_none() || !self.is_shared_text(origin) || !self.problems.iter().any(is_same) {
+        if problem.text.is_none() || !has_shared_text(origin) || !self.problems.iter().any(is_same) {
             self.problems.push(problem);
         }
-    }
-
-    fn is_shared_text(&self, origin: &Origin) -> bool {
-        use pathbuild_diagnostic::EntityKind::{LwPolyline, Polyline};
-        matches!(origin.entity, LwPolyline | Polyline)
     }
 
     fn add_probes(&mut self, path: &mut Path) {
@@ -154,6 +149,11 @@ impl<'a> Binder<'a> {
             });
         }
     }
+}
+
+/// Whether the element is part of a polyline, whose parts share one text.
+fn has_shared_text(origin: &Origin) -> bool {
+    matches!(origin.entity, EntityKind::LwPolyline | EntityKind::Polyline)
 }
 
 /// The last line of a regular expression error says what is wrong; the lines before it draw the place, which the text shows anyway.

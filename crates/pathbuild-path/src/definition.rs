@@ -35,7 +35,7 @@ impl Definition {
     ///
     /// # Errors
     /// PB301, without a place.
-    pub fn parse(value: &str) -> Result<Self, Diagnostic> {
+    pub fn parse(value: &str) -> Result<Self, Box<Diagnostic>> {
         let mut characters = value.chars();
         let name = characters.next().ok_or_else(|| invalid(&messages::INVALID_DEFINITION, value))?;
         let written = characters.as_str();
@@ -90,7 +90,7 @@ impl fmt::Display for Definition {
 }
 
 /// The forms are tried in this order: a range may have decimal commas, and a list may begin with a question mark.
-fn allowed(written: &str) -> Result<Allowed, Diagnostic> {
+fn allowed(written: &str) -> Result<Allowed, Box<Diagnostic>> {
     if let Some(range) = range(written) {
         return range;
     }
@@ -110,7 +110,7 @@ fn allowed(written: &str) -> Result<Allowed, Diagnostic> {
 }
 
 /// `None` when it is no range at all.
-fn range(written: &str) -> Option<Result<Allowed, Diagnostic>> {
+fn range(written: &str) -> Option<Result<Allowed, Box<Diagnostic>>> {
     let (from_text, to_text) = written.split_once('~')?;
     let (from, to) = (parse_number(from_text)?, parse_number(to_text)?);
     if from > to {
@@ -119,6 +119,6 @@ fn range(written: &str) -> Option<Result<Allowed, Diagnostic>> {
     Some(Ok(Allowed::Range { from, to, from_text: from_text.into(), to_text: to_text.into() }))
 }
 
-fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Diagnostic {
-    Diagnostic::new(message).with("definition", written)
+fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(message).with("definition", written))
 }

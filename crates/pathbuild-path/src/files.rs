@@ -107,11 +107,11 @@ impl NameRange {
         self.to.compare(path) != Ordering::Less
     }
 
-    pub(crate) fn from_groups(&self) -> &[Box<str>] {
+    pub(crate) fn start_groups(&self) -> &[Box<str>] {
         &self.from.0
     }
 
-    pub(crate) fn to_groups(&self) -> &[Box<str>] {
+    pub(crate) fn end_groups(&self) -> &[Box<str>] {
         &self.to.0
     }
 }

@@ -46,7 +46,7 @@ impl PathPattern {
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
         let path = PathName::from_layer(name);
-        self.0.matches(&path.0).then(|| PathLayer { path, tilde: name.len() != layer.len() })
+        self.0.matches(&path.0).then_some(PathLayer { path, tilde: name.len() != layer.len() })
     }
 
     /// Whether a name is a path's.

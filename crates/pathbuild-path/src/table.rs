@@ -30,7 +30,7 @@ impl RangeTable {
         let classes = classes(&entries);
         if classes.is_some() {
             entries.sort_by(|(a, file_a), (b, file_b)| {
-                compare_ends(a.from_groups(), b.from_groups(), Ordering::Less).then(file_a.cmp(file_b))
+                compare_ends(a.start_groups(), b.start_groups(), Ordering::Less).then(file_a.cmp(file_b))
             });
         }
         let mut table = Self { entries, classes, furthest: Vec::new() };
@@ -92,7 +92,7 @@ impl RangeTable {
     }
 
     fn ends_later(&self, a: u32, b: u32) -> bool {
-        let end = |entry: u32| self.entries[entry as usize].0.to_groups();
+        let end = |entry: u32| self.entries[entry as usize].0.end_groups();
         compare_ends(end(a), end(b), Ordering::Greater) == Ordering::Greater
     }
 
@@ -128,7 +128,7 @@ impl Class {
 /// The class of each group, when every range agrees on it and no range has an empty group before a full one.
 fn classes(entries: &[(NameRange, u32)]) -> Option<Vec<Class>> {
     let mut classes: Vec<Class> = Vec::new();
-    let ends = entries.iter().flat_map(|(range, _)| [range.from_groups(), range.to_groups()]);
+    let ends = entries.iter().flat_map(|(range, _)| [range.start_groups(), range.end_groups()]);
     for groups in ends {
         if !has_no_gap(groups) {
             return None;

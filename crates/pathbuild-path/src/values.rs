@@ -100,14 +100,12 @@ impl Values {
         }
         let is_integer = letter == Letter::N;
         let number = if is_integer { parse_integer(value).map(|n| n as f64) } else { parse_number(value) };
-        match number {
-            Some(number) => self.numbers.push((letter, Given::Number(number))),
-            None => {
-                let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
-                let problem = Diagnostic::new(message).with("letter", letter.as_char()).with("value", value);
-                self.add_faulty(letter, problem.with_text(fault.clone()));
-            }
+        if let Some(number) = number {
+            return self.numbers.push((letter, Given::Number(number)));
         }
+        let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
+        let problem = Diagnostic::new(message).with("letter", letter.as_char()).with("value", value);
+        self.add_faulty(letter, problem.with_text(fault.clone()));
     }
 
     fn add_faulty(&mut self, letter: Letter, problem: Diagnostic) {

@@ -78,7 +78,7 @@ impl Interpolation<'_> {
     ///
     /// # Errors
     /// PB303, PB305 or PB005, without a place.
-    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Diagnostic> {
+    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Box<Diagnostic>> {
         let mut filled = Cow::Borrowed(value);
         // Without a circle each round resolves at least one level, and there are no more levels than variables.
         for _ in 0..=self.bindings.0.len() {
@@ -91,12 +91,12 @@ impl Interpolation<'_> {
             None => Ok(filled),
             Some((_, rest)) => {
                 let name = rest.chars().next().map(String::from).unwrap_or_default();
-                Err(Diagnostic::new(&messages::ENDLESS).with("variable", name))
+                Err(Box::new(Diagnostic::new(&messages::ENDLESS).with("variable", name)))
             }
         }
     }
 
-    fn fill_once(&self, value: &str) -> Result<String, Diagnostic> {
+    fn fill_once(&self, value: &str) -> Result<String, Box<Diagnostic>> {
         let mut filled = String::with_capacity(2 * value.len());
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
@@ -114,17 +114,19 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn unknown(&self, name: Option<char>) -> Diagnostic {
+    fn unknown(&self, name: Option<char>) -> Box<Diagnostic> {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
-        Diagnostic::new(&messages::UNKNOWN_REFERENCE)
+        let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
             .with("variable", name.map(String::from).unwrap_or_default())
-            .with("known", known)
+            .with("known", known);
+        Box::new(problem)
     }
 
-    fn too_long(&self) -> Diagnostic {
-        Diagnostic::new(&files::LIMIT)
+    fn too_long(&self) -> Box<Diagnostic> {
+        let problem = Diagnostic::new(&files::LIMIT)
             .with("what", "a text with its variables' values")
             .with("limit", format!("{} bytes", self.limit))
-            .with("key", "text-length")
+            .with("key", "text-length");
+        Box::new(problem)
     }
 }

@@ -39,7 +39,7 @@ pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     let mut walk = Walk::new(path, join_tolerance);
     let (items, mut diagnostics) = match walk.run() {
         Ok(()) => items(&walk.steps),
-        Err(problem) => (Vec::new(), vec![problem]),
+        Err(problem) => (Vec::new(), vec![*problem]),
     };
     diagnostics.append(&mut walk.joined);
     if !items.is_empty() {
@@ -82,19 +82,19 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn run(&mut self) -> Result<(), Diagnostic> {
+    fn run(&mut self) -> Result<(), Box<Diagnostic>> {
         if self.path.segments.is_empty() {
-            return Err(self.empty());
+            return Err(self.empty().into());
         }
         while self.left > 0 {
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
-                self.go_back(Self::has_next).map_err(|_| self.turn_found_nothing(marker))?;
+                self.go_back(Self::has_next).map_err(|()| self.turn_found_nothing(marker))?;
             } else if self.is_at_end() {
-                return Err(self.unreached());
+                return Err(self.unreached().into());
             } else {
-                return Err(self.nothing_continues());
+                return Err(self.nothing_continues().into());
             }
         }
         if self.is_at_end() || self.joins_end() {
@@ -102,7 +102,7 @@ impl<'a> Walk<'a> {
         }
         let stopped_at = self.at;
         if self.turn_marker().is_none() || self.go_back(Self::is_at_end).is_err() {
-            return Err(self.end_not_reached(stopped_at));
+            return Err(self.end_not_reached(stopped_at).into());
         }
         Ok(())
     }
@@ -130,7 +130,7 @@ impl<'a> Walk<'a> {
 
     fn take(&mut self, index: usize) {
         let segment = self.path.segments[index].clone();
-        let step = Step { segment: index, traversed: Some(self.from_here(segment)), is_return: false };
+        let step = Step { segment: index, traversed: Some(self.as_met_here(segment)), is_return: false };
         self.is_traversed[index] = true;
         self.left -= 1;
         self.way_back.push(step.clone());
@@ -138,7 +138,7 @@ impl<'a> Walk<'a> {
     }
 
     /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined.
-    fn from_here(&self, segment: Segment) -> Segment {
+    fn as_met_here(&self, segment: Segment) -> Segment {
         let (to_start, to_end) = ((segment.start() - self.at).norm(), (segment.end() - self.at).norm());
         let is_joined = !coincide(segment.start(), self.at) && !coincide(segment.end(), self.at);
         let is_turned = if is_joined { to_end < to_start } else { coincide(segment.end(), self.at) };
@@ -166,7 +166,7 @@ impl<'a> Walk<'a> {
     fn go_back(&mut self, is_found: impl Fn(&Self) -> bool) -> Result<(), ()> {
         loop {
             let step = self.way_back.pop().ok_or(())?;
-            let traversed = step.traversed.and_then(returned).map(|segment| self.from_here(segment));
+            let traversed = step.traversed.and_then(returned).map(|segment| self.as_met_here(segment));
             self.follow(Step { segment: step.segment, traversed, is_return: true });
             if is_found(self) {
                 return Ok(());

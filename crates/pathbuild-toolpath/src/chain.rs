@@ -155,7 +155,9 @@ impl Strand<'_> {
         };
         if is_backwards {
             sections.reverse();
-            sections.iter_mut().for_each(|section| *section = section.reversed());
+            for section in &mut sections {
+                *section = section.reversed();
+            }
         }
         sections
     }

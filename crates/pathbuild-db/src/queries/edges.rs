@@ -1,6 +1,6 @@
 //! The embeddings of a closure, as edges from path to path: what commands show of a library.
 
-use pathbuild_diagnostic::{Code, Point};
+use pathbuild_diagnostic::{Code, Diagnostic, Point};
 use pathbuild_path::{PathName, Segment, SegmentKind, SubpathName};
 
 use super::embedding::{Embedding, Outcome, embeds};
@@ -51,7 +51,7 @@ fn edge<'db>(from: Instance<'db>, segment: &Segment, embedding: &Embedding<'db>)
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
         // There is one problem at least.
         Outcome::Unbound(problems) => {
-            nowhere(problems.first().map_or(Code::MissingVariableValue, |problem| problem.code()))
+            nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
         }
     };
     Edge { from, point: segment.origin.point, to }

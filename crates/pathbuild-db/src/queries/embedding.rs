@@ -220,7 +220,7 @@ impl<'db> Embedder<'db> {
             }
             (Some(_), Some(_)) => {}
             (here, there) => {
-                problems.extend(self.without_material(segment, here.is_none(), there.is_none(), inner))
+                problems.extend(self.without_material(segment, here.is_none(), there.is_none(), inner));
             }
         }
         for (letter, here, there) in

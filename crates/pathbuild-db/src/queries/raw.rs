@@ -65,10 +65,10 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
     let reading = settings.reading(db);
     let read = match db.system().read(file.path(db), reading.file_size) {
         Ok(bytes) => parse(&bytes, reading, settings.language(db)),
-        Err(error) => Err(unreadable(error, reading)),
+        Err(error) => Err(Box::new(unreadable(error, reading))),
     };
     let raw = read
-        .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![problem] });
+        .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![*problem] });
     let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
     let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
     let entry =
@@ -159,7 +159,7 @@ fn parse(
     bytes: &[u8],
     reading: &Reading,
     language: &pathbuild_path::Language,
-) -> Result<pathbuild_path::RawFile, Diagnostic> {
+) -> Result<pathbuild_path::RawFile, Box<Diagnostic>> {
     let read = || {
         let options = Options {
             keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
@@ -170,7 +170,7 @@ fn parse(
         };
         pathbuild_path::raw_file(&pathbuild_dxf::read(bytes, &options), language)
     };
-    catch_unwind(AssertUnwindSafe(read)).map_err(|payload| internal_error(&*payload))
+    catch_unwind(AssertUnwindSafe(read)).map_err(|payload| Box::new(internal_error(&*payload)))
 }
 
 /// PB006 for a panic that is not salsa's own way of cancelling.

@@ -57,7 +57,7 @@ const MOVES_PER_PATH: u64 = 500;
 
 /// Walks what a target embeds.
 #[salsa::tracked]
-pub fn closure<'db>(db: &'db dyn Db, target: Target) -> Closure<'db> {
+pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
     let Some(raw) = raw_path(db, file, name) else { return Closure::default() };

@@ -1,6 +1,7 @@
 //! A library as a model: files, the paths in them, what each embeds, and what must come of each path.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 
 /// Drawings by file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -127,10 +128,8 @@ impl Drawing {
         );
         for (row, embedded) in (1..).zip(&self.embeds) {
             let y = 10 * row;
-            text += &format!(
-                "sweep 20,0 20,{y}\nsubpath 20,{y} 0,{y} \">{}\"\nsweep 0,{y} 20,0\n",
-                name(*embedded)
-            );
+            let name = name(*embedded);
+            _ = writeln!(text, "sweep 20,0 20,{y}\nsubpath 20,{y} 0,{y} \">{name}\"\nsweep 0,{y} 20,0");
         }
         text
     }

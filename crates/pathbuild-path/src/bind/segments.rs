@@ -24,7 +24,7 @@ impl Binder<'_> {
     }
 
     /// An own T of a subpath must be below the path's S, too.
-    pub(super) fn add_subpath_surfaces(&self, path: &mut Path) {
+    pub(super) fn add_subpath_surfaces(path: &mut Path) {
         let subpaths = path.segments.iter().filter_map(|segment| match &segment.kind {
             SegmentKind::Subpath(subpath) => Some((segment.origin.clone(), subpath)),
             _ => None,

@@ -77,7 +77,7 @@ impl Collected {
             match Definition::parse(parameters.value(piece)) {
                 Ok(definition) => self.raw.definitions.push(definition),
                 Err(problem) => {
-                    self.report(self.raw.at_parameters(problem.with_text(parameters.fault(piece))))
+                    self.report(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
                 }
             }
         }
@@ -89,17 +89,18 @@ fn referenced(
     text: &ParameterText,
     piece: &Piece,
     starts: &Starts,
-) -> Result<(PathName, (ParameterText, Origin)), Diagnostic> {
+) -> Result<(PathName, (ParameterText, Origin)), Box<Diagnostic>> {
     if text.pieces().len() > 1 {
-        return Err(Diagnostic::new(&messages::AT_WITH_OTHERS));
+        return Err(Box::new(Diagnostic::new(&messages::AT_WITH_OTHERS)));
     }
     let name = PathName::new(text.value(piece));
     let Some((name, start)) = starts.get_key_value(&name) else {
         let known: Value = starts.keys().map(PathName::as_str).collect();
-        return Err(Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known));
+        let problem = Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known);
+        return Err(Box::new(problem));
     };
     if start.0.piece(Letter::At).is_some() {
-        return Err(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str()));
+        return Err(Box::new(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str())));
     }
     Ok((name.clone(), start.clone()))
 }
