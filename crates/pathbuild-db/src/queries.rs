@@ -27,6 +27,6 @@ pub use lookup::{Found, files_for, find_path, holders, name_table};
 pub use raw::{NameKey, PathPlace, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
+pub use texts::assigned_texts;
 
 pub(crate) use raw::internal_error;
-pub use texts::assigned_texts;

@@ -1,14 +1,16 @@
 //! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
 
+use std::collections::HashMap;
 use std::time::Instant;
 
 use pathbuild_db::{Role, SourceFile, Target, check_file, path_names};
+use pathbuild_path::PathName;
 
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
-use crate::session::{Session, Wanted};
+use crate::session::{CheckedTarget, Session, Wanted};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -22,46 +24,66 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     conclude(context, args, checked)
 }
 
+/// A path of a drawing.
+type Asked = (SourceFile, PathName);
+
 fn check(session: &Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
     let db = session.db();
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
     session.read_ahead(&whole);
-    let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
+    let of_file = |file: SourceFile| path_names(db, file).iter().map(move |name| (file, name.clone()));
     let named = wanted.paths.into_iter().filter(|path| !whole.contains(&path.file));
-    let of_whole = |file: &SourceFile| path_names(db, *file).iter().map(|name| (*file, name.clone()));
-    let paths: Vec<(SourceFile, PathName)> =
-        whole.iter().flat_map(of_whole).chain(named.map(|path| (path.file, path.name))).collect();
-    let mut files = whole.clone();
-    if with_all_values {
-        let (targets, warnings): (Vec<_>, Vec<_>) =
-            paths.iter().map(|(file, name)| session.combined_targets(*file, name)).unzip();
-        checked.diagnostics.extend(warnings.into_iter().flatten());
-        let mut results = session.check(&targets.concat()).into_iter();
-        for targets in targets {
-            let results: Vec<CheckedTarget> = results.by_ref().take(targets.len()).collect();
-            checked.diagnostics.extend(session.merged(&results));
-            files.extend(results.into_iter().flat_map(|result| result.files));
-        }
+    let asked: Vec<Asked> = whole
+        .iter()
+        .flat_map(|file| of_file(*file))
+        .chain(named.map(|path| (path.file, path.name)))
+        .collect();
+    let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
+    let reached = if with_all_values {
+        check_all_values(session, &asked, &mut checked)
     } else {
-        let targets: Vec<Target> = paths
-            .iter()
-            .map(|(file, name)| Target::new(db, *file, name.as_str().into(), Role::Checked))
-            .collect();
-        for result in session.check(&targets) {
-            files.extend(result.files);
-            checked.diagnostics.extend(result.diagnostics);
-        }
-    }
+        check_examples(session, &asked, &mut checked)
+    };
+    let mut files = [whole, reached].concat();
     files.sort_by(|a, b| a.path(db).cmp(b.path(db)));
     files.dedup();
+    let mut names: HashMap<SourceFile, Vec<CheckedPath>> = HashMap::new();
+    for (file, name) in &asked {
+        names.entry(*file).or_default().push(CheckedPath { name: name.as_str().into(), time: None });
+    }
     for file in files {
         checked.diagnostics.extend_from_slice(check_file(db, file));
-        let asked = paths.iter().filter(|(asked, _)| *asked == file);
-        let paths: Vec<CheckedPath> =
-            asked.map(|(_, name)| CheckedPath { name: name.as_str().into(), time: None }).collect();
+        let paths = names.remove(&file).unwrap_or_default();
         if !paths.is_empty() || path_names(db, file).is_empty() {
             checked.files.push(CheckedFile { file: file.path(db).clone(), paths });
         }
     }
     checked
+}
+
+/// Checks each path with example values; returns the drawings that were reached.
+fn check_examples(session: &Session<'_>, asked: &[Asked], checked: &mut Checked) -> Vec<SourceFile> {
+    let target = |(file, name): &Asked| Target::new(session.db(), *file, name.as_str().into(), Role::Checked);
+    let targets: Vec<Target> = asked.iter().map(target).collect();
+    let mut reached = Vec::new();
+    for result in session.check(&targets) {
+        reached.extend(result.files);
+        checked.diagnostics.extend(result.diagnostics);
+    }
+    reached
+}
+
+/// Checks each path with all values; returns the drawings that were reached.
+fn check_all_values(session: &Session<'_>, asked: &[Asked], checked: &mut Checked) -> Vec<SourceFile> {
+    let combined = |(file, name): &Asked| session.combined_targets(*file, name);
+    let (targets, warnings): (Vec<_>, Vec<_>) = asked.iter().map(combined).unzip();
+    checked.diagnostics.extend(warnings.into_iter().flatten());
+    let mut results = session.check(&targets.concat()).into_iter();
+    let mut reached = Vec::new();
+    for targets in targets {
+        let results: Vec<CheckedTarget> = results.by_ref().take(targets.len()).collect();
+        checked.diagnostics.extend(session.merged(&results));
+        reached.extend(results.into_iter().flat_map(|result| result.files));
+    }
+    reached
 }
