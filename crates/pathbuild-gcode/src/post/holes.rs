@@ -6,7 +6,7 @@ use super::step::{Hole, HoleKind, Position, Step};
 
 /// A hole with more pecks is a slip of the pen.
 const MOST_PECKS: usize = 1_000;
-/// How far above the bottom reached so far the tool changes from rapid to feed, mm.
+/// How far above the bottom reached so far the tool changes from rapid to feed, mm: as LinuxCNC does in G83.
 const PECK_GAP: f64 = 0.254;
 
 /// The moves of a hole: over it at its level, down, and up to its exit.
@@ -21,9 +21,8 @@ pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
     for (index, &depth) in depths.iter().enumerate() {
         if index > 0 {
             let reached = depths[index - 1];
-            let gap = PECK_GAP.min((reached - depth) / 2.0);
             steps.push(Step::Rapid { to: to(hole.retract) });
-            steps.push(Step::Rapid { to: to((reached + gap).min(hole.retract)) });
+            steps.push(Step::Rapid { to: to((reached + PECK_GAP).min(hole.retract)) });
         }
         steps.push(Step::Feed { to: to(depth), feed: hole.feed });
     }

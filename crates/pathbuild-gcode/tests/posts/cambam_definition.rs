@@ -220,7 +220,7 @@ fn the_command_of_a_post_is_handed_out_only_when_it_will_be_run() {
     assert_eq!(skipped.notes[0].text(Lang::En), note);
     let run = output(&bare(command), &job(vec![]), &PostOptions { run_post_build: true, ..options }).unwrap();
     assert_eq!(run.post_build.unwrap(), ["C:\\my tools\\x.bat", "-f", "a b.nc", "part"]);
-    assert_eq!(run.notes, []);
+    assert!(run.notes.iter().all(|note| !note.text(Lang::En).contains("was not run")));
 }
 
 #[test]

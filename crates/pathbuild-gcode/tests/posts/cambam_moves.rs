@@ -284,7 +284,7 @@ fn a_hole_that_ends_lower_than_it_began_is_no_cycle() {
 #[test]
 fn holes_are_moves_where_cycles_are_not_asked_for() {
     let steps = vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 3.0 }))];
-    let expected = ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-2.0", "G0 Z1.0", "G0 Z-1.75", "G1 Z-3.0", "G0 Z5.0"];
+    let expected = ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-2.0", "G0 Z1.0", "G0 Z-1.746", "G1 Z-3.0", "G0 Z5.0"];
     assert_eq!(moves("", steps), expected);
 }
 

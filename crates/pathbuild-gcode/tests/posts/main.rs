@@ -14,3 +14,4 @@ mod cambam_outputs;
 mod jobs;
 mod robustness;
 mod support;
+mod target;

@@ -11,6 +11,7 @@ use crate::dialect::{Acceptance, Dialect, LineLength, Percent, Style, Words};
 
 /// What a control takes.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
 pub(super) struct Target {
     /// The name of its dialect.
     pub(super) name: &'static str,
@@ -29,6 +30,7 @@ pub(super) struct Target {
 
 /// How a control's comments are spelt.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
 struct Comments {
     /// `( )`.
     round: bool,

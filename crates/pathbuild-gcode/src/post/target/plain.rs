@@ -29,12 +29,18 @@ fn line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
 
 fn ascii(text: &str) -> String {
     let mut ascii = String::with_capacity(text.len());
-    for c in text.chars() {
-        if c.is_ascii() {
-            ascii.push(c);
-        } else {
-            ascii.push_str(transliterated(c));
+    let mut characters = text.chars().peekable();
+    let mut is_after_capital = false;
+    while let Some(c) = characters.next() {
+        let is_before_letter = characters.peek().is_some_and(|next| next.is_alphabetic());
+        let is_among_capitals = characters.peek().is_some_and(|next| next.is_uppercase())
+            || (is_after_capital && !is_before_letter);
+        match c {
+            c if c.is_ascii() => ascii.push(c),
+            c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
+            c => ascii.push_str(transliterated(c)),
         }
+        is_after_capital = c.is_uppercase();
     }
     ascii
 }
