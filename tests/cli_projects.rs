@@ -181,3 +181,54 @@ fn texts_of_one_path_or_for_programs() {
 fn texts_need_a_drawing_and_a_regular_expression() {
     assert_snapshot!(runs(&Place::of(TEXTS), ["texts", "texts 1234.dxf --match (", "texts broken.dxf"]));
 }
+
+/// A fault that one value shows, which is not among the examples; one that some combinations show; one that all do.
+const VALUES: &str = r#"
+== 2051.dxf ==
+layer 2051.1P
+start 0,0 "T5 O2 I1 MPlate :A0,1,2,6 :B1~9 :C?XY"
+mill 0,0 40,0 "B=A"
+mill 40,0 40,20 "B=B"
+mill 40,20 80,20 "B7"
+end 80,20
+layer 2051.2P
+start 0,50 "T5 O2 I1 MPlate :X1~2"
+mill 0,50 40,50 "B=X"
+end 40,50
+layer 2051.3P
+start 0,80 "T5 O2 I1 B0 MPlate"
+mill 0,80 40,80
+end 40,80
+"#;
+
+#[test]
+fn all_values_of_variables_are_checked() {
+    let lines = ["check 2051.dxf", "check --all-bindings 2051.dxf", "check --all-bindings 2051.2P"];
+    assert_snapshot!(without_times(&runs(&Place::of(VALUES), lines)));
+}
+
+/// Ten digits for each of three variables are as many as are checked; one more is too many.
+#[test]
+fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
+    let place = |definitions: &str| {
+        Place::of(&format!(
+            "== 2051.dxf ==\nlayer 2051.1P\nstart 0,0 \"T20 O2 I1 MPlate {definitions}\"\n\
+             mill 0,0 40,0 \"B=A\"\nmill 40,0 80,0 \"B=B\"\nmill 80,0 80,40 \"B=C\"\nend 80,40\n"
+        ))
+    };
+    let all = place(":A?0123456789 :B?0123456789 :C?0123456789").run("check --all-bindings 2051.dxf");
+    assert!(!all.stderr.contains("PB005"), "{all}");
+    // The value that is at fault comes last of all, and is met nevertheless.
+    let cut = place(":A?0123456789 :B?0123456789 :C0,1,2,3,4,5,6,7,8,9,21")
+        .run("check --all-bindings 2051.dxf --lang de");
+    assert_snapshot!(without_times(&cut.to_string()));
+}
+
+/// What a run took differs from run to run.
+fn without_times(text: &str) -> String {
+    let lines = text.lines().map(|line| match line.rfind(" (") {
+        Some(at) if line.ends_with(" s)") => &line[..at],
+        _ => line,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}

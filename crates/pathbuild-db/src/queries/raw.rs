@@ -125,11 +125,7 @@ pub struct PathPlace {
 }
 
 /// A raw path of a file, for whoever asks by name from outside. (Not through an interned name, which nobody would reclaim there.)
-pub(super) fn raw_by_name<'db>(
-    db: &'db dyn Db,
-    file: SourceFile,
-    name: &PathName,
-) -> Option<&'db RawPath> {
+pub(super) fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
     let folded = name.folded();
     raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded).map(|entry| entry.raw(db))
 }

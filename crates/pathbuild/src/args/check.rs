@@ -11,7 +11,7 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub inputs: Inputs,
     /// Check every combination of the variables' values, not one example of each
-    #[arg(long, hide = true)]
+    #[arg(long)]
     pub all_bindings: bool,
     /// Exit with 1 on warnings too
     #[arg(long)]

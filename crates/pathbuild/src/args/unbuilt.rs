@@ -17,7 +17,6 @@ impl Command {
 
 fn check(args: &CheckArgs) -> Vec<(&'static str, bool)> {
     vec![
-        ("--all-bindings", args.all_bindings),
         ("--changed-since", args.changed_since.is_some()),
         ("--timings", args.timings),
         ("--pictures", args.pictures.is_some()),

@@ -20,6 +20,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         return context.nothing_named("check");
     }
     let mut checked = check(&session, session.wanted(&args.inputs), args.all_bindings);
+    checked.diagnostics = session.with_elsewhere(checked.diagnostics);
     checked.time = begun.elapsed();
     conclude(context, args, checked)
 }

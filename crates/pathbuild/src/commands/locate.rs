@@ -10,7 +10,6 @@ use serde::Serialize;
 use crate::args::{Format, GraphArgs, Input};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
 use crate::session::{Session, Wanted};
 
 /// Runs the command: a line for each definition, `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
@@ -28,7 +27,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             _ => context.printer.result(line(context, file, &place)),
         }
     }
-    let findings = Findings::new(problems);
+    let findings = context.findings(problems);
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }

@@ -12,7 +12,6 @@ use crate::args::{Format, TextsArgs};
 use crate::config;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
 use crate::session::Session;
 
 /// Runs the command.
@@ -45,7 +44,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
             });
         }
     }
-    let findings = Findings::new(problems);
+    let findings = context.findings(problems);
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }

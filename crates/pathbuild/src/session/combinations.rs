@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_db::{Role, SourceFile, Target, combinations, locate, path_names};
+use pathbuild_db::{Role, SourceFile, Target, combinations, locate};
 use pathbuild_diagnostic::messages::variables as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault};
 use pathbuild_path::{Bindings, PathName};
@@ -24,17 +24,6 @@ impl Session<'_> {
                 (targets, warning.map(|warning| locate(self.db(), warning)))
             }
         }
-    }
-
-    /// The same for every path of a file.
-    pub fn all_combined_targets(&self, file: SourceFile) -> (Vec<Target>, Vec<Diagnostic>) {
-        let mut all = (Vec::new(), Vec::new());
-        for name in path_names(self.db(), file) {
-            let (targets, warning) = self.combined_targets(file, name);
-            all.0.extend(targets);
-            all.1.extend(warning);
-        }
-        all
     }
 
     /// What is wrong with a path, from the results with each of its combinations of values: each fault once, with values that show it

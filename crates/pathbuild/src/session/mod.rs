@@ -1,6 +1,7 @@
 //! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
 
 mod combinations;
+mod elsewhere;
 mod graph;
 mod library;
 mod outputs;

@@ -118,17 +118,15 @@ impl Session<'_> {
 
     /// Where names are looked for: the working directory, the search directories, the library and what is below it.
     pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
-        let general = &self.context.settings.general;
-        let mut directories = vec![Utf8PathBuf::new()];
-        let searched = general.search.value.iter().map(|directory| self.normal(directory));
-        let library =
-            self.library().into_iter().filter_map(|drawing| drawing.parent().map(Utf8Path::to_owned));
-        for directory in searched.chain(library.map(|directory| self.normal(&directory))) {
-            if !directories.contains(&directory) {
-                directories.push(directory);
-            }
-        }
-        directories
+        let searched = self.context.settings.general.search.value.iter();
+        let searched = searched.map(|directory| self.normal(directory));
+        distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(self.library_directories()))
+    }
+
+    /// The directories of the library that hold drawings.
+    pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
+        let drawings = self.library().into_iter();
+        distinct(drawings.filter_map(|drawing| drawing.parent().map(|directory| self.normal(directory))))
     }
 
     /// The drawings in some directories that define a path, each once.
@@ -175,4 +173,15 @@ fn nowhere(name: &str, directories: &[Utf8PathBuf]) -> Diagnostic {
     };
     let directories: Value = directories.iter().map(shown).collect();
     Diagnostic::new(&messages::NO_SUCH_PATH).with("name", name).with("directories", directories)
+}
+
+/// Each of them once, in their order.
+fn distinct(directories: impl Iterator<Item = Utf8PathBuf>) -> Vec<Utf8PathBuf> {
+    let mut distinct: Vec<Utf8PathBuf> = Vec::new();
+    for directory in directories {
+        if !distinct.contains(&directory) {
+            distinct.push(directory);
+        }
+    }
+    distinct
 }

@@ -14,7 +14,6 @@ use pathbuild_path::PathName;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
 use crate::session::{Direction, Graph, Session, Wanted};
 
 /// Runs `graph`: every embedding of paths; without arguments of the library.
@@ -110,7 +109,7 @@ impl Asked {
                 context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
             ));
         }
-        let findings = Findings::new(std::mem::take(&mut self.problems));
+        let findings = context.findings(std::mem::take(&mut self.problems));
         context.show(&findings);
         if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }

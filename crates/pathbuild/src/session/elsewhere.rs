@@ -1,0 +1,67 @@
+//! Help for paths that a drawing does not find, but that the library has. (spec/20-paths-and-files.md, "Search order")
+
+use std::cell::LazyCell;
+use std::collections::BTreeMap;
+
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::messages::subpaths as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_path::PathName;
+
+use super::Session;
+
+impl Session<'_> {
+    /// Adds to each PB503 of a subpath where in the library the path is. The library is looked through only where there is one.
+    pub fn with_elsewhere(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        let directories = LazyCell::new(|| self.library_directories());
+        let mut known: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
+        let with_elsewhere = |diagnostic: Diagnostic| {
+            let Some(name) = missing_path(&diagnostic) else { return diagnostic };
+            let file = known.entry(name.clone()).or_insert_with(|| {
+                let files = self.definitions(&name, &directories);
+                files.first().map(|file| file.path(self.db()).clone())
+            });
+            match file {
+                Some(file) => self.note(diagnostic, file),
+                None => diagnostic,
+            }
+        };
+        diagnostics.into_iter().map(with_elsewhere).collect()
+    }
+
+    fn note(&self, diagnostic: Diagnostic, file: &Utf8Path) -> Diagnostic {
+        let directory = self.as_configured(file.parent().unwrap_or(Utf8Path::new("")));
+        let arguments = vec![("file", file.as_str().into()), ("directory", directory.as_str().into())];
+        diagnostic.note(&messages::ELSEWHERE, arguments)
+    }
+
+    /// A directory as it would be written into the configuration.
+    fn as_configured(&self, directory: &Utf8Path) -> Utf8PathBuf {
+        let working_directory = &self.context.working_directory;
+        let base = self.context.settings.directory().unwrap_or(working_directory);
+        relative(&working_directory.join(directory), base)
+    }
+}
+
+/// The path that a subpath segment names and that is nowhere to be found.
+fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
+    if *diagnostic.message != messages::NOT_FOUND {
+        return None;
+    }
+    diagnostic.arguments.iter().find_map(|(argument, value)| match value {
+        Value::Text(name) if *argument == "name" => Some(PathName::new(name)),
+        _ => None,
+    })
+}
+
+/// The way to a directory from another, both absolute; the directory itself where there is no way, as between drives.
+fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
+    let (there, here): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
+    let common = there.iter().zip(&here).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return directory.to_owned();
+    }
+    let up = here[common..].iter().map(|_| Utf8Component::ParentDir);
+    let way: Utf8PathBuf = up.chain(there[common..].iter().copied()).collect();
+    if way.as_str().is_empty() { Utf8PathBuf::from(".") } else { way }
+}
