@@ -13,7 +13,9 @@ impl Encoder {
     pub(crate) fn of(options: &Options) -> Self {
         let encoding = match options.encoding {
             // A byte order mark says the same of the whole file.
-            TextEncoding::Proper if options.version >= Version::R2007 || options.byte_order_mark => Some(UTF_8),
+            TextEncoding::Proper if options.version >= Version::R2007 || options.byte_order_mark => {
+                Some(UTF_8)
+            }
             TextEncoding::Proper => code_page(options.code_page.as_deref().unwrap_or("ANSI_1252")),
             TextEncoding::Utf8 => Some(UTF_8),
             TextEncoding::Escaped => None,

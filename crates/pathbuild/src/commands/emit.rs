@@ -58,9 +58,7 @@ impl Emission<'_> {
             match path_names(db, drawing.file).as_slice() {
                 [] if is_unreadable || !drawing.is_named => {}
                 [] => self.diagnostics.push(self.no_path(file)),
-                [_, _, ..] if drawing.is_named => {
-                    self.diagnostics.push(several_paths(file, path_names(db, drawing.file)));
-                }
+                names @ [_, _, ..] if drawing.is_named => self.refuse_several(drawing.file, names),
                 names => targets.extend(names.iter().map(|name| self.target(drawing.file, name))),
             }
         }
@@ -69,6 +67,18 @@ impl Emission<'_> {
             targets.push(self.target(path.file, &path.name));
         }
         targets
+    }
+
+    /// PB512, unless a path of the drawing is wrong as drawn: then that is the nearer cause, such as a line that strayed onto another
+    /// path's layer and made a second path.
+    fn refuse_several(&mut self, file: pathbuild_db::SourceFile, names: &[PathName]) {
+        let checked = self.session.check(&self.session.targets(file, &Role::Checked));
+        let found: Vec<Diagnostic> = checked.into_iter().flat_map(|checked| checked.diagnostics).collect();
+        if found.iter().any(Diagnostic::is_error) {
+            self.diagnostics.extend(found);
+        } else {
+            self.diagnostics.push(several_paths(file.path(self.session.db()), names));
+        }
     }
 
     fn target(&self, file: pathbuild_db::SourceFile, name: &PathName) -> Target {
