@@ -1,7 +1,11 @@
 //! Links the program at a fixed address on Linux: relocating a position-independent one at every start takes longer than compiling
 //! most drawings does (benches/README.md, "Start").
 
-#![expect(clippy::disallowed_methods, clippy::print_stdout, reason = "this is how a build script and cargo talk")]
+#![expect(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    reason = "this is how a build script and cargo talk"
+)]
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -1,0 +1,60 @@
+//! Every dependency has a licence that MIT OR Apache-2.0 software can be shipped with.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+/// Licences that ask for no more than their text. A crate with a choice needs one of them; one with several (`AND`) needs all.
+const ALLOWED: [&str; 12] = [
+    "0BSD",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "BSL-1.0",
+    "CC0-1.0",
+    "ISC",
+    "MIT",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
+
+#[test]
+fn every_dependency_has_an_allowed_licence() {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["metadata", "--format-version", "1", "--all-features"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo runs, since it runs this test");
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
+    let packages = metadata["packages"].as_array().expect("there are packages");
+    assert!(packages.len() > 50, "only {} packages: is this the workspace?", packages.len());
+    let refused: Vec<String> = packages
+        .iter()
+        .filter(|package| !is_allowed(package["license"].as_str().unwrap_or_default()))
+        .map(|package| format!("{} {}: {}", package["name"], package["version"], package["license"]))
+        .collect();
+    assert!(refused.is_empty(), "not on the list in this test:\n{}", refused.join("\n"));
+}
+
+#[test]
+fn a_choice_needs_one_and_a_sum_needs_all() {
+    assert!(is_allowed("GPL-3.0-only OR MIT"));
+    assert!(is_allowed("(Apache-2.0 OR MIT) AND BSD-3-Clause"));
+    assert!(is_allowed("MIT/Apache-2.0"));
+    assert!(!is_allowed("MIT AND GPL-3.0-only"));
+    assert!(!is_allowed("MPL-2.0"));
+    assert!(!is_allowed(""));
+}
+
+fn is_allowed(expression: &str) -> bool {
+    let all = expression.split(" AND ").map(|part| part.trim().trim_matches(['(', ')']));
+    let one = |part: &str| {
+        part.split(" OR ")
+            .flat_map(|part| part.split('/'))
+            .any(|name| ALLOWED.contains(&name.trim().trim_matches(['(', ')'])))
+    };
+    all.map(one).all(|allowed| allowed)
+}
