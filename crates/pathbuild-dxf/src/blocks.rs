@@ -37,7 +37,7 @@ impl<'a> Blocks<'a> {
     /// Finds the blocks of the section that begins here.
     pub(crate) fn index(mut pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Stop<'a>> {
         let mut blocks = Self::default();
-        let mut fields = Fields::new();
+        let mut fields = Fields::new(0);
         let mut head = pairs.next_zero()?;
         while !head.is("ENDSEC") {
             if head.is("BLOCK") {

@@ -158,6 +158,7 @@ impl Collector {
                 self.leave_out(placed, layer, message, *point, block.as_deref());
                 return Ok(());
             }
+            Trouble::TooManyParts => return Err(self.too_many()),
             Trouble::TextTooLong => {
                 let diagnostic = limit(&TEXT_LENGTH, self.limits.text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));

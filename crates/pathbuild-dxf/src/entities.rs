@@ -50,10 +50,20 @@ impl<'a> Records<'a> {
     }
 }
 
+/// How many groups of a polyline or spline make an entity: x, y, bulge; x, y, z, weight, knot.
+const GROUPS_AN_ENTITY: usize = 5;
+
 impl<'a, 'o> EntityReader<'a, 'o> {
     /// Knows no entity yet.
     pub(crate) fn new(options: &'o Options<'o>, decoder: Decoder<'a>, layers: Layers<'a, 'o>) -> Self {
-        Self { options, decoder, layers, line_types: LineTypes::default(), fields: Fields::new() }
+        let most_repeated = options.max_entities.saturating_mul(GROUPS_AN_ENTITY).max(options.max_text);
+        Self {
+            options,
+            decoder,
+            layers,
+            line_types: LineTypes::default(),
+            fields: Fields::new(most_repeated),
+        }
     }
 
     /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
@@ -82,11 +92,12 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         space: Space,
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
         let line = records.head.line;
-        if self.fill(records, kind, space)? == Want::Skip || self.is_in_paper_space() {
+        let (want, layer) = self.fill(records, kind, space)?;
+        if want == Want::Skip || self.is_in_paper_space() {
             return Ok(None);
         }
-        let layer = self.layer(line);
-        if want(&self.layers, layer, kind, space) == Want::Skip {
+        let layer = layer.unwrap_or_else(|| self.layers.id(b"0", line, &mut self.decoder));
+        if self::want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
         let traits = Traits {
@@ -103,32 +114,35 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok(Some(Item { traits, shape }))
     }
 
-    /// Reads the groups of the head record.
+    /// Reads the groups of the head record, up to its layer if that is not wanted; gives back the layer, if the record names one.
     #[inline]
-    fn fill(&mut self, records: &mut Records<'a>, kind: Kind, space: Space) -> Result<Want, Stop<'a>> {
+    fn fill(
+        &mut self,
+        records: &mut Records<'a>,
+        kind: Kind,
+        space: Space,
+    ) -> Result<(Want, Option<LayerId>), Stop<'a>> {
         let Self { layers, decoder, fields, .. } = self;
+        let mut found = None;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, layer.line, decoder);
+            found = Some(id);
             want(layers, id, kind, space)
         };
         let (next, want) = fields.fill(&mut records.pairs, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
-        Ok(want)
+        Ok((want, found))
     }
 
     fn is_in_paper_space(&self) -> bool {
         self.fields.whole(67).is_ok_and(|flag| flag == Some(1))
     }
 
-    /// The layer of the entity in hand; `0` when it does not say.
-    #[inline]
-    fn layer(&mut self, line: u32) -> LayerId {
-        let layer = self.fields.get(8).unwrap_or(Value { bytes: b"0", line });
-        self.layers.id(layer.bytes, layer.line, &mut self.decoder)
-    }
-
     fn shape(&mut self, kind: Kind) -> Result<Shape<'a>, Trouble<'a>> {
         let Self { fields, decoder, options, .. } = self;
+        if kind != Kind::MText && kind.repeated_codes() != 0 && fields.is_full() {
+            return Err(Trouble::TooManyParts);
+        }
         Ok(match kind {
             Kind::Line => Shape::Plain(shapes::line(fields)?),
             Kind::Arc => Shape::Plain(shapes::arc(fields)?),

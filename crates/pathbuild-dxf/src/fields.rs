@@ -16,6 +16,8 @@ pub(crate) struct Value<'a> {
     pub(crate) bytes: &'a [u8],
     /// The line of its group code.
     pub(crate) line: u32,
+    /// The number of the entity that it belongs to.
+    entity: u32,
 }
 
 /// What is wrong with a group.
@@ -48,11 +50,13 @@ pub(crate) enum BadGroup<'a> {
 pub(crate) struct Fields<'a> {
     /// The line of its `0`.
     pub(crate) line: u32,
-    /// Which slots are filled.
-    present: u128,
+    /// Its number; slots of others are empty.
+    entity: u32,
     slots: [Value<'a>; SLOTS],
     /// The groups that its kind repeats, in order.
     pub(crate) repeated: Vec<Pair<'a>>,
+    /// How many of them are kept.
+    most_repeated: usize,
 }
 
 /// What [`Fields::fill`] does with an entity on this layer.
@@ -78,10 +82,17 @@ fn slot(code: i32) -> Option<usize> {
     }
 }
 
+impl<'a> Value<'a> {
+    /// The value of a pair.
+    pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {
+        Self { bytes, line, entity: 0 }
+    }
+}
+
 impl<'a> Fields<'a> {
-    /// Without an entity.
-    pub(crate) fn new() -> Self {
-        Self { line: 0, present: 0, slots: [Value::default(); SLOTS], repeated: Vec::new() }
+    /// Without an entity, with room for so many repeated groups.
+    pub(crate) fn new(most_repeated: usize) -> Self {
+        Self { line: 0, entity: 0, slots: [Value::default(); SLOTS], repeated: Vec::new(), most_repeated }
     }
 
     /// Reads the entity that has begun with a `0` on this line. `repeats` has a bit for each code that it
@@ -91,11 +102,11 @@ impl<'a> Fields<'a> {
         &mut self,
         pairs: &mut Pairs<'a>,
         line: u32,
-        repeats: u128,
+        repeats: u64,
         mut want: impl FnMut(Value<'a>) -> Want,
     ) -> Result<(Pair<'a>, Want), Stop<'a>> {
         self.line = line;
-        self.present = 0;
+        self.begin_entity();
         self.repeated.clear();
         loop {
             let pair = pairs.next()?;
@@ -110,25 +121,38 @@ impl<'a> Fields<'a> {
                     _ => continue,
                 }
             };
-            let value = Value { bytes: pair.value, line: pair.line };
+            let value = Value { bytes: pair.value, line: pair.line, entity: self.entity };
             match slot {
                 0 => return Ok((pair, Want::Keep)),
                 8 if want(value) == Want::Skip => return Ok((pairs.next_zero()?, Want::Skip)),
                 _ => {}
             }
-            self.present |= 1 << slot;
             self.slots[slot] = value;
-            if repeats >> slot & 1 != 0 {
+            if slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
                 self.repeated.push(pair);
             }
         }
+    }
+
+    /// Whether there may be more repeated groups than those that are kept.
+    pub(crate) fn is_full(&self) -> bool {
+        self.repeated.len() >= self.most_repeated
+    }
+
+    /// Empties the slots, by giving the entity a number that none of them has.
+    fn begin_entity(&mut self) {
+        if self.entity == u32::MAX {
+            self.slots = [Value::default(); SLOTS];
+            self.entity = 0;
+        }
+        self.entity += 1;
     }
 
     /// A group, if the entity has it; the last, if it has several.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
         let slot = slot(code)?;
-        (self.present >> slot & 1 != 0).then(|| self.slots[slot])
+        Some(self.slots[slot]).filter(|value| value.entity == self.entity)
     }
 
     /// A number that may be missing.

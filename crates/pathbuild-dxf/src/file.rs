@@ -120,20 +120,20 @@ impl<'a> File<'a> {
     /// Reads or passes over a section before the entities.
     fn pass(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
         let section = shown(name.value);
+        let begin = self.pairs.clone();
+        match self.pairs.skip_section() {
+            SectionEnd::Ended => {}
+            SectionEnd::Missing(next) => return Err(not_ended(&section, &next)),
+            SectionEnd::CutOff { line } => return Err(stopped(Stop::End { line }, &section)),
+        }
+        let pairs = begin.until(&self.pairs);
         match name.trimmed() {
-            b"HEADER" => {
-                let end = self.header.read(&mut self.pairs).map_err(|stop| stopped(stop, &section))?;
-                return if end.is("ENDSEC") { Ok(()) } else { Err(not_ended(&section, &end)) };
-            }
-            b"TABLES" => self.tables = Some(self.pairs.clone()),
-            b"BLOCKS" => self.blocks = Some(self.pairs.clone()),
+            b"HEADER" => self.header.find(&pairs),
+            b"TABLES" => self.tables = Some(pairs),
+            b"BLOCKS" => self.blocks = Some(pairs),
             _ => {}
         }
-        match self.pairs.skip_section() {
-            SectionEnd::Ended => Ok(()),
-            SectionEnd::Missing(next) => Err(not_ended(&section, &next)),
-            SectionEnd::CutOff { line } => Err(stopped(Stop::End { line }, &section)),
-        }
+        Ok(())
     }
 
     fn read_entities(self, options: &Options<'_>) -> Result<Drawing, Fatal> {

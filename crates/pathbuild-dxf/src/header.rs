@@ -15,13 +15,17 @@ pub(crate) struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// Reads variables up to a pair with code 0, which is returned.
-    pub(crate) fn read(&mut self, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
-        let first = pairs.next()?;
-        self.read_on(first, pairs)
+    /// Finds the variables in the section that begins here.
+    pub(crate) fn find(&mut self, section: &Pairs<'a>) {
+        for variable in ["$ACADVER", "$DWGCODEPAGE", "$INSUNITS"] {
+            let mut pairs = section.clone();
+            if let (Some(_), Ok(value)) = (pairs.find("9", variable), pairs.next()) {
+                self.set(variable.as_bytes(), value);
+            }
+        }
     }
 
-    /// The same with the first pair already read.
+    /// Reads variables up to a pair with code 0, which is returned.
     pub(crate) fn read_on(&mut self, first: Pair<'a>, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let mut variable: &[u8] = b"";
         let mut pair = first;

@@ -54,8 +54,8 @@ impl Kind {
 
     /// The codes below 80 that it repeats, as bits.
     #[inline]
-    pub(crate) fn repeated_codes(self) -> u128 {
-        const fn bits(codes: &[u32]) -> u128 {
+    pub(crate) fn repeated_codes(self) -> u64 {
+        const fn bits(codes: &[u32]) -> u64 {
             let mut bits = 0;
             let mut index = 0;
             while index < codes.len() {
@@ -64,10 +64,10 @@ impl Kind {
             }
             bits
         }
-        const CHUNKS: u128 = bits(&[1, 3]);
-        const DIRECTIONS: u128 = bits(&[11, 50]);
-        const VERTICES: u128 = bits(&[10, 20, 42]);
-        const CONTROL: u128 = bits(&[10, 20, 30, 40, 41]);
+        const CHUNKS: u64 = bits(&[1, 3]);
+        const DIRECTIONS: u64 = bits(&[11, 50]);
+        const VERTICES: u64 = bits(&[10, 20, 42]);
+        const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
         match self {
             Self::MText => CHUNKS | DIRECTIONS,
             Self::LwPolyline => VERTICES,

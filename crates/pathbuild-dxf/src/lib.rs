@@ -32,6 +32,7 @@ mod shapes;
 mod tables;
 mod trouble;
 mod units;
+mod words;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,

@@ -17,7 +17,7 @@ pub(crate) enum NotANumber {
 /// Reads a real number; blanks around it and a `D` exponent are fine.
 #[inline]
 pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
-    plain_decimal(value).map_or_else(|| general(value.trim_ascii()), Ok)
+    plain_decimal(value).map_or_else(|| unusual(value.trim_ascii()), Ok)
 }
 
 /// Reads a whole number; one written as a real (`5.0`) is fine.
@@ -38,10 +38,9 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// `[blanks][-]digits[.digits][blanks]` with at most 18 digits; `None` when it is anything else.
+/// `[-]digits[.digits]` with at most 19 characters; `None` when it is anything else.
 #[inline]
 fn plain_decimal(value: &[u8]) -> Option<f64> {
-    let value = value.trim_ascii();
     let (negative, digits) = match value {
         [b'-', digits @ ..] => (true, digits),
         digits => (false, digits),
@@ -67,8 +66,11 @@ fn plain_decimal(value: &[u8]) -> Option<f64> {
     Some(if negative { -number } else { number })
 }
 
+fn unusual(value: &[u8]) -> Result<f64, NotANumber> {
+    plain_decimal(value).map_or_else(|| general(value), Ok)
+}
+
 fn general(value: &[u8]) -> Result<f64, NotANumber> {
-    // std reads "inf" and "nan" as well: words in which the exponent is the only letter are numbers.
     let text = std::str::from_utf8(value).map_err(|_| NotANumber::Invalid)?;
     let number = match value.iter().position(|byte| matches!(byte, b'd' | b'D')) {
         Some(exponent) => format!("{}E{}", &text[..exponent], &text[exponent + 1..]).parse(),

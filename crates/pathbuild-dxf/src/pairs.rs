@@ -3,12 +3,14 @@
 //! A line ends with LF, CRLF, CRCRLF, or, in files of old Macs, with CR alone; which of the two bytes ends lines is decided once a
 //! file. Codes may be padded, values are given as they stand.
 
-use memchr::{memchr, memchr_iter};
+use memchr::memchr_iter;
+
+use crate::words::{line_length, short_number};
 
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<'a> {
-    /// The group code; codes of more than six digits are cut, nobody knows them anyway.
+    /// The group code.
     pub(crate) code: i32,
     /// 1-based line of the code.
     pub(crate) line: u32,
@@ -104,6 +106,11 @@ impl<'a> Pairs<'a> {
         self.line_end
     }
 
+    /// These pairs, ending where those others of the same file are.
+    pub(crate) fn until(&self, end: &Self) -> Self {
+        Self { bytes: &self.bytes[..end.at], ..self.clone() }
+    }
+
     /// Goes on at a later place, which must be the beginning of a line.
     pub(crate) fn jump_to(&mut self, at: usize) {
         let lines = memchr_iter(self.line_end, &self.bytes[self.at..at]).count();
@@ -114,57 +121,49 @@ impl<'a> Pairs<'a> {
     /// Reads the line of a group code.
     #[inline]
     fn code(&mut self) -> Result<i32, Stop<'a>> {
-        let rest = &self.bytes[self.at..];
-        let mut at = blanks(rest, 0);
-        let negative = rest.get(at) == Some(&b'-');
-        at += usize::from(negative);
-        let first_digit = at;
-        let mut code = 0_i32;
-        while let Some(digit) = rest.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|digit| *digit < 10) {
-            code = if code < 100_000 { code * 10 + i32::from(digit) } else { code };
-            at += 1;
+        match short_number(&self.bytes[self.at..], self.line_end) {
+            Some((code, length)) => {
+                self.at += length;
+                Ok(code)
+            }
+            None => self.unusual_code(),
         }
-        let has_digits = at > first_digit;
-        let at = self.after_line_end(rest, at).filter(|_| has_digits);
-        let Some(at) = at else { return Err(self.no_code()) };
-        self.at += at;
-        Ok(if negative { -code } else { code })
     }
 
-    /// The index behind the line end that follows at `at`, blanks allowed before it; `None` when something else follows.
-    #[inline]
-    fn after_line_end(&self, rest: &[u8], at: usize) -> Option<usize> {
-        let mut at = at;
-        loop {
-            match rest.get(at) {
-                None => return Some(at),
-                Some(&byte) if byte == self.line_end => return Some(at + 1),
-                Some(b' ' | b'\t' | b'\r') => at += 1,
-                Some(_) => return None,
-            }
-        }
+    /// The same for any code: negative, with tabs or blanks around it, at the end of the file.
+    #[cold]
+    fn unusual_code(&mut self) -> Result<i32, Stop<'a>> {
+        let rest = &self.bytes[self.at..];
+        let line = &rest[..line_length(rest, self.line_end)];
+        let digits = std::str::from_utf8(line.trim_ascii()).ok();
+        let Some(code) = digits.and_then(|digits| digits.parse().ok()) else {
+            return Err(self.no_code(line));
+        };
+        self.at = (self.at + line.len() + 1).min(self.bytes.len());
+        Ok(code)
     }
 
     /// Reads the line of a value.
     #[inline]
     fn value(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let length = memchr(self.line_end, rest).unwrap_or(rest.len());
+        let length = line_length(rest, self.line_end);
         self.at = (self.at + length + 1).min(self.bytes.len());
         without_cr(&rest[..length])
     }
 
     #[cold]
-    fn no_code(&self) -> Stop<'a> {
+    fn no_code(&self, line: &'a [u8]) -> Stop<'a> {
         let rest = &self.bytes[self.at..];
-        if rest.trim_ascii().is_empty() {
+        if rest.len() <= LONGEST_PADDING && rest.trim_ascii_start().is_empty() {
             return Stop::End { line: self.line };
         }
-        let length = memchr(self.line_end, rest).unwrap_or(rest.len());
-        let shown = length.min(MOST_SHOWN);
-        Stop::BadCode { line: self.line, found: without_cr(&rest[..shown]) }
+        Stop::BadCode { line: self.line, found: &line[..line.len().min(MOST_SHOWN)] }
     }
 }
+
+/// Most blanks at the end of a file that are taken for its end.
+const LONGEST_PADDING: usize = 1 << 16;
 
 /// Most bytes of a line that are shown when it is wrong.
 const MOST_SHOWN: usize = 60;
@@ -174,15 +173,6 @@ fn line_end(bytes: &[u8]) -> u8 {
     let Some(first) = memchr::memchr2(b'\n', b'\r', bytes) else { return b'\n' };
     let after = bytes[first..].iter().find(|byte| **byte != b'\r');
     if after == Some(&b'\n') { b'\n' } else { b'\r' }
-}
-
-#[inline]
-fn blanks(bytes: &[u8], from: usize) -> usize {
-    let mut at = from;
-    while matches!(bytes.get(at), Some(b' ' | b'\t')) {
-        at += 1;
-    }
-    at
 }
 
 #[inline]

@@ -1,9 +1,12 @@
-//! Jumping over sections that hold nothing of interest, without looking at their pairs.
+//! Finding pairs without looking at those before: the ends of sections, the layers among the tables, a variable of the header.
 //!
-//! `ENDSEC` on a line of its own after a line `0` can only be the pair that ends a section: where a code stands it would be no number.
-//! So a search for the word finds the end at the speed of memory. A `0/SECTION` found first means that the end is missing.
+//! A keyword on a line of its own after a line with its group code can only be that pair: where a code stands it would be no number.
+//! So a search for the word finds the pair at the speed of memory.
+
+use std::ops::Range;
 
 use memchr::memmem::{self, Finder};
+use memchr::memrchr;
 
 use crate::pairs::{Pair, Pairs};
 
@@ -23,42 +26,40 @@ pub(crate) enum SectionEnd<'a> {
 impl<'a> Pairs<'a> {
     /// Jumps behind the end of the current section.
     pub(crate) fn skip_section(&mut self) -> SectionEnd<'a> {
-        let finder = Finder::new("SEC");
-        let mut from = self.consumed();
-        while let Some(found) = finder.find(&self.bytes()[from..]) {
-            let at = from + found;
-            if let Some(start) = self.pair_start(at).filter(|start| *start >= self.consumed()) {
-                self.jump_to(start);
-                return match self.next() {
-                    Ok(pair) if pair.is("SECTION") => SectionEnd::Missing(pair),
-                    _ => SectionEnd::Ended,
-                };
-            }
-            from = at + 3;
+        let from = self.consumed();
+        let bytes = self.bytes();
+        let found = Finder::new("SEC").find_iter(&bytes[from..]).find_map(|at| {
+            let at = from + at;
+            let end = || bytes[..at].ends_with(b"END").then_some(at - 3..at + 3);
+            let begin = || bytes[at..].starts_with(b"SECTION").then_some(at..at + 7);
+            self.pair_of(b"0", end().or_else(begin)?)
+        });
+        self.jump_to(found.unwrap_or(bytes.len()));
+        match self.next() {
+            Ok(pair) if pair.is("ENDSEC") => SectionEnd::Ended,
+            Ok(pair) => SectionEnd::Missing(pair),
+            Err(_) => SectionEnd::CutOff { line: self.line() },
         }
-        self.jump_to(self.bytes().len());
-        SectionEnd::CutOff { line: self.line() }
     }
 
-    /// Where the pair `0/ENDSEC` or `0/SECTION` begins whose value has `SEC` at `at`, if it is one.
-    fn pair_start(&self, at: usize) -> Option<usize> {
-        let (before, from_here) = self.bytes().split_at(at);
-        let (before, after) = match (before.strip_suffix(b"END"), from_here.strip_prefix(b"SECTION")) {
-            (Some(before), _) => (before, &from_here[3..]),
-            (None, Some(after)) => (before, after),
-            (None, None) => return None,
-        };
-        self.zero_line_before(before, after)
+    /// Jumps behind the next pair of this code and keyword, and returns it.
+    pub(crate) fn find(&mut self, code: &str, keyword: &str) -> Option<Pair<'a>> {
+        let from = self.consumed();
+        let mut found = memmem::find_iter(&self.bytes()[from..], keyword);
+        let start =
+            found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + keyword.len()))?;
+        self.jump_to(start);
+        self.next().ok()
     }
 
-    /// Where the line `0` begins that is the line before a keyword, given what is before and after the keyword.
-    fn zero_line_before(&self, before: &[u8], after: &[u8]) -> Option<usize> {
-        let at_line_end = trim_blanks(after).first().is_none_or(|byte| matches!(byte, b'\r' | b'\n'));
-        let code_line = trim_blanks_end(before).strip_suffix(&[self.line_end()]).filter(|_| at_line_end)?;
-        let before_zero = code_line.trim_ascii_end().strip_suffix(b"0")?;
-        let before_line = trim_blanks_end(before_zero);
-        let is_whole_line = before_line.is_empty() || before_line.ends_with(&[self.line_end()]);
-        is_whole_line.then_some(before_line.len())
+    /// Where the pair begins whose code is this and whose value is here, if there is one that is not consumed.
+    fn pair_of(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
+        let (before, after) = (&self.bytes()[..value.start], &self.bytes()[value.end..]);
+        let before = trim_blanks_end(before).strip_suffix(&[self.line_end()])?;
+        let start = memrchr(self.line_end(), before).map_or(0, |line_end| line_end + 1);
+        let has_code = before[start..].trim_ascii() == code;
+        let is_whole_line = trim_blanks(after).first().is_none_or(|byte| matches!(byte, b'\r' | b'\n'));
+        (has_code && is_whole_line && start >= self.consumed()).then_some(start)
     }
 }
 
@@ -67,10 +68,7 @@ pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
     const TAIL: usize = 4096;
     let bytes = pairs.bytes();
     let tail = bytes.len().saturating_sub(TAIL).max(pairs.consumed());
-    memmem::rfind_iter(&bytes[tail..], "EOF").any(|found| {
-        let (before, after) = bytes.split_at(tail + found);
-        pairs.zero_line_before(before, &after[3..]).is_some()
-    })
+    memmem::find_iter(&bytes[tail..], "EOF").any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
 }
 
 fn trim_blanks(mut bytes: &[u8]) -> &[u8] {

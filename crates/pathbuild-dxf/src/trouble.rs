@@ -26,6 +26,8 @@ pub(crate) enum Trouble<'a> {
     },
     /// The insertion of a block, of this name, that contains itself or is nested too deep: PB002.
     Nested(Box<str>),
+    /// It has more parts than the limit of entities: PB005, for the whole file.
+    TooManyParts,
     /// A text is longer than the limit: PB005, for the whole file.
     TextTooLong,
 }

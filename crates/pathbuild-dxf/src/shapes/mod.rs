@@ -46,6 +46,6 @@ fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> R
 
 /// The number of a group that its entity repeats.
 fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
-    let value = Value { bytes: pair.value, line: pair.line };
+    let value = Value::new(pair.value, pair.line);
     real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
 }

@@ -147,7 +147,7 @@ fn joined_chunks<'a>(
     let is_chunk = |pair: &&Pair<'_>| matches!(pair.code, 1 | 3);
     let chunks = || fields.repeated.iter().filter(is_chunk).map(|pair| pair.value);
     let first = fields.repeated.iter().find(is_chunk).ok_or(BadGroup::Missing { code: 1 })?;
-    if chunks().map(<[u8]>::len).sum::<usize>() > longest {
+    if fields.is_full() || chunks().map(<[u8]>::len).sum::<usize>() > longest {
         return Err(Trouble::TextTooLong);
     }
     let decoded = match chunks().count() {

@@ -1,4 +1,19 @@
 //! The reader, rule by rule: for each, one input just inside and one just outside. (spec/10-drawing.md; reference/dxf.md section 4)
 
+mod binary;
+mod blocks;
+mod curves;
+mod encoding;
 mod entities;
+mod layers;
+mod limits;
+mod lines;
+mod mirrored;
+mod numbers;
+mod plain_text;
+mod polylines;
+mod structure;
 mod support;
+mod texts;
+mod units;
+mod visibility;

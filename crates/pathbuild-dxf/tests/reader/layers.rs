@@ -1,0 +1,113 @@
+//! Layers and line types: names, tables, what hides a layer. (spec/10-drawing.md; reference/dxf.md section 4, points 3 and 5)
+
+use std::cell::RefCell;
+
+use pathbuild_dxf::{Drawing, Options, read};
+
+use crate::support::{entities, file, options, read_all};
+
+const CIRCLE: &str = "10 0\n20 0\n40 1";
+
+/// A drawing with a circle on each of these layers.
+fn circles(layers: &[&str], tables: &str) -> Drawing {
+    let circles: Vec<_> = layers.iter().map(|layer| format!("0 CIRCLE\n8 {layer}\n{CIRCLE}")).collect();
+    read_all(file("", tables, "", &circles.join("\n")))
+}
+
+fn names(drawing: &Drawing) -> Vec<(&str, bool)> {
+    drawing.layers.iter().map(|layer| (&*layer.name, layer.hidden)).collect()
+}
+
+fn table(layers: &[&str]) -> String {
+    let layers: Vec<_> = layers.iter().map(|layer| format!("0 LAYER\n{layer}")).collect();
+    format!(
+        "0 TABLE\n2 LTYPE\n0 LTYPE\n2 LAYER\n0 ENDTAB\n0 TABLE\n2 LAYER\n70 3\n{}\n0 ENDTAB",
+        layers.join("\n")
+    )
+}
+
+#[test]
+fn layers_are_listed_in_order_of_use_as_first_spelt() {
+    let drawing = circles(&["b", "A", "B", " a ", "C"], "");
+    assert_eq!(names(&drawing), [("b", false), ("A", false), ("C", false)]);
+    let layers: Vec<_> = drawing.entities.iter().map(|entity| entity.layer).collect();
+    assert_eq!(layers, [0, 1, 0, 1, 2]);
+}
+
+#[test]
+fn case_is_that_of_unicode() {
+    assert_eq!(circles(&["schlüssel", "SCHLÜSSEL"], "").layers.len(), 1);
+    assert_eq!(circles(&["schlussel", "SCHLÜSSEL"], "").layers.len(), 2);
+}
+
+#[test]
+fn prefixes_of_external_references_are_dropped() {
+    let drawing = circles(&["1234_1P", "part$0$1234_1p", "part|1234_1P", "a$12$b|c$3$1234_1P"], "");
+    assert_eq!(names(&drawing), [("1234_1P", false)]);
+    for kept in ["a$b", "$0$x", "a$x$b", "a$$b", "a$0b"] {
+        assert_eq!(names(&circles(&[kept], "")), [(kept, false)]);
+    }
+}
+
+#[test]
+fn frozen_layers_and_those_that_are_off_are_hidden() {
+    for (record, hidden) in [
+        ("2 A\n70 0\n62 7", false),
+        ("2 A\n70 1\n62 7", true),
+        ("2 a\n70 65", true),
+        ("2 A\n70 4\n62 7", false),
+        ("2 A\n70 64", false),
+        ("2 A\n62 -7", true),
+        ("2 A\n62    -7", true),
+        ("2 B\n70 1\n62 -7", false),
+        ("2 A\n70 x\n62 y", false),
+    ] {
+        assert_eq!(names(&circles(&["A"], &table(&[record]))), [("A", hidden)], "{record}");
+    }
+}
+
+#[test]
+fn the_record_of_exactly_the_name_counts_before_one_with_a_prefix() {
+    for records in [["2 x$0$A\n70 1\n6 DOT", "2 A\n6 DASHED"], ["2 A\n6 DASHED", "2 x$0$A\n70 1\n6 DOT"]] {
+        let drawing = circles(&["A"], &table(&records));
+        assert_eq!((names(&drawing), &*drawing.entities[0].line_type), (vec![("A", false)], "DASHED"));
+        let drawing = circles(&["x$0$A"], &table(&records));
+        assert_eq!((names(&drawing), &*drawing.entities[0].line_type), (vec![("A", true)], "DOT"));
+    }
+    let drawing = circles(&["A"], &table(&["2 x$0$A\n70 1\n6 DOT"]));
+    assert_eq!((names(&drawing), &*drawing.entities[0].line_type), (vec![("A", true)], "DOT"));
+}
+
+#[test]
+fn line_types_of_layers_count_whatever_their_case() {
+    let drawing = circles(&["frozen"], &table(&["2 FROZEN\n6 Dashed"]));
+    assert_eq!(&*drawing.entities[0].line_type, "DASHED");
+    let drawing = circles(&["A"], &table(&["2 A\n6 "]));
+    assert_eq!(&*drawing.entities[0].line_type, "CONTINUOUS");
+}
+
+#[test]
+fn a_layer_called_layer_is_no_record() {
+    let drawing = circles(&["LAYER"], &table(&["2 LAYER\n70 1"]));
+    assert_eq!(names(&drawing), [("LAYER", true)]);
+}
+
+#[test]
+fn an_entity_without_a_layer_is_on_layer_0() {
+    assert_eq!(names(&read_all(entities(&format!("0 CIRCLE\n{CIRCLE}")))), [("0", false)]);
+}
+
+#[test]
+fn each_spelling_of_a_layer_is_asked_for_once() {
+    let asked = RefCell::new(Vec::new());
+    let keep_layer = |name: &str| {
+        asked.borrow_mut().push(name.to_owned());
+        name == "B"
+    };
+    let layers = ["A", "B", "A", " B", "x|B"].map(|layer| format!("0 CIRCLE\n8 {layer}\n{CIRCLE}"));
+    let drawing =
+        read(entities(&layers.join("\n")).as_bytes(), &Options { keep_layer: &keep_layer, ..options() });
+    assert_eq!(names(&drawing), [("B", false)]);
+    assert_eq!(drawing.entities.len(), 3);
+    assert_eq!(*asked.borrow(), ["A", "B", "B", "B"]);
+}

@@ -1,0 +1,70 @@
+//! PB005: limits of entities and texts. (spec/06-configuration.md, `[limits]`)
+
+use pathbuild_dxf::{Drawing, Options, read};
+
+use crate::support::{entities, file_faults, options};
+
+fn limited(pairs: &str, max_entities: usize, max_text: usize) -> Drawing {
+    read(
+        entities(pairs).as_bytes(),
+        &Options { max_entities, max_text, approximate_curves: 0.001, ..options() },
+    )
+}
+
+fn said(pairs: &str, max_entities: usize, max_text: usize) -> String {
+    let drawing = limited(pairs, max_entities, max_text);
+    assert!(drawing.diagnostics.is_empty() || drawing.entities.is_empty());
+    file_faults(&drawing).join("; ")
+}
+
+#[test]
+fn entities_are_limited() {
+    let sound = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n".repeat(3);
+    let broken = "0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n".repeat(3);
+    let left_out = "0 POLYLINE\n8 A\n70 8\n".repeat(3);
+    let parts = "0 LWPOLYLINE\n8 A\n70 1\n10 0\n20 0\n10 1\n20 0\n10 1\n20 1\n";
+    for pairs in [&sound, &broken, &left_out, parts] {
+        assert_eq!(said(pairs, 3, 100), "");
+        assert_eq!(said(pairs, 2, 100), "PB005 0 the number of entities exceeds the limit of 2");
+    }
+}
+
+#[test]
+fn pieces_of_curves_are_limited() {
+    let ellipse = "0 ELLIPSE\n8 A\n10 0\n20 0\n11 100\n21 0\n40 0.3";
+    let count = limited(ellipse, 1000, 100).entities.len();
+    assert_eq!(said(ellipse, count, 100), "");
+    assert_eq!(
+        said(ellipse, count - 1, 100),
+        format!("PB005 0 the number of entities exceeds the limit of {}", count - 1)
+    );
+}
+
+#[test]
+fn vertices_are_limited_even_if_they_make_no_entity() {
+    let polyline = |corners: usize| format!("0 LWPOLYLINE\n8 A\n{}", "10 0\n20 0\n".repeat(corners));
+    assert_eq!(said(&polyline(20), 10, 10), "");
+    assert_eq!(said(&polyline(25), 10, 10), "PB005 0 the number of entities exceeds the limit of 10");
+}
+
+#[test]
+fn texts_are_limited() {
+    let too_long = "PB005 5 the length of a text in bytes exceeds the limit of 10";
+    let text = |length: usize| format!("0 TEXT\n8 A\n10 0\n20 0\n40 1\n1 {}", "x".repeat(length));
+    assert_eq!(said(&text(10), 9, 10), "");
+    assert_eq!(said(&text(11), 9, 10), too_long);
+    let mtext =
+        |length: usize| format!("0 MTEXT\n8 A\n10 0\n20 0\n40 1\n3 xxxxx\n1 {}", "x".repeat(length - 5));
+    assert_eq!(said(&mtext(10), 9, 10), "");
+    assert_eq!(said(&mtext(11), 9, 10), too_long);
+    let empty = |chunks: usize| format!("0 MTEXT\n8 A\n10 0\n20 0\n40 1\n{}", "3 \n".repeat(chunks));
+    assert_eq!(said(&empty(9), 2, 10), "");
+    assert_eq!(said(&empty(20), 2, 10), too_long);
+}
+
+#[test]
+fn what_is_not_wanted_is_not_limited() {
+    let pairs = format!("{}0 TEXT\n8 A\n1 {}", "0 CIRCLE\n8 A\n".repeat(3), "x".repeat(11));
+    let options = Options { keep_layer: &|name| name == "B", max_entities: 2, max_text: 10, ..options() };
+    assert_eq!(read(entities(&pairs).as_bytes(), &options), Drawing::default());
+}

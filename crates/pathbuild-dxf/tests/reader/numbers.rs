@@ -1,0 +1,98 @@
+//! Numbers as CADs write them. (spec/10-drawing.md: "numbers")
+
+use pathbuild_dxf::Geometry;
+use proptest::prelude::*;
+
+use crate::support::{entities, faults, read_all};
+
+/// What is read from a number's text.
+fn number(text: &str) -> Result<f64, String> {
+    let drawing = read_all(entities(&format!("0 CIRCLE\n8 A\n10 {text}\n20 0\n40 1")));
+    match drawing.entities.first().map(|entity| &entity.geometry) {
+        Some(Geometry::Circle(circle)) => Ok(circle.centre.x),
+        _ => Err(faults(&drawing).join("; ")),
+    }
+}
+
+#[test]
+fn usual_forms_are_read() {
+    for (text, value) in [
+        ("1", 1.0),
+        ("-1.5", -1.5),
+        ("+1.5", 1.5),
+        (".5", 0.5),
+        ("-.5", -0.5),
+        ("1.", 1.0),
+        ("  7.25 ", 7.25),
+        ("\t7.25", 7.25),
+        ("1.0E+2", 100.0),
+        ("1e-3", 0.001),
+        ("1.0D+2", 100.0),
+        ("1.5d-1", 0.15),
+        ("000000000000000000000000012.5", 12.5),
+        ("0.1000000000000000055511151231257827", 0.1),
+        ("9007199254740993", 9_007_199_254_740_992.0),
+    ] {
+        assert_eq!(number(text), Ok(value), "{text:?}");
+    }
+}
+
+#[test]
+fn other_forms_are_errors() {
+    for text in ["", " ", "x", "1x", "1 2", "-", ".", "-.", "1.2.3", "--1", "1e", "0x10", "1_000", "D2", "1D"]
+    {
+        let fault = format!("PB002 10 A: CIRCLE: group 10 should hold a number, not \"{}\"", text.trim());
+        assert_eq!(number(text), Err(fault), "{text:?}");
+    }
+}
+
+#[test]
+fn a_decimal_comma_is_named_as_such() {
+    let fault = "PB002 10 A: CIRCLE: \"1,5\" in group 10 has a decimal comma, DXF numbers have a point";
+    assert_eq!(number("1,5"), Err(fault.into()));
+    assert_eq!(
+        number("1,5,0"),
+        Err("PB002 10 A: CIRCLE: group 10 should hold a number, not \"1,5,0\"".into())
+    );
+    let drawing = read_all(entities("0 CIRCLE\n8 A\n10 1,5\n20 0\n40 1"));
+    let text = drawing.faults[0].diagnostic.text.as_ref().expect("the value");
+    assert_eq!((&*text.text, text.span()), ("1,5", 1..2));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_errors() {
+    for text in ["nan", "NaN", "inf", "-inf", "infinity", "1e400", "-1e400", "1D999"] {
+        let fault = format!("PB002 10 A: CIRCLE: \"{text}\" in group 10 is no finite number");
+        assert_eq!(number(text), Err(fault), "{text:?}");
+    }
+    assert_eq!(number("1e308"), Ok(1e308));
+}
+
+#[test]
+fn whole_numbers_may_be_written_as_reals() {
+    let flags = |text: &str| read_all(entities(&format!("0 TEXT\n8 A\n10 0\n20 0\n40 1\n1 x\n71 {text}")));
+    for (text, is_sound) in
+        [("2", true), (" 2 ", true), ("2.0", true), ("2.5", false), ("x", false), ("1e300", false)]
+    {
+        assert_eq!(flags(text).faults.is_empty(), is_sound, "{text:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// The short way of plain decimals gives what the general one does.
+    #[test]
+    fn decimals_are_exact(text in "-?[0-9]{0,12}(\\.[0-9]{0,12})?") {
+        match text.parse::<f64>() {
+            Ok(value) => prop_assert_eq!(number(&text).map(f64::to_bits), Ok(value.to_bits())),
+            Err(_) => prop_assert!(number(&text).is_err()),
+        }
+    }
+
+    #[test]
+    fn printed_numbers_are_read_back(value in proptest::num::f64::NORMAL) {
+        prop_assert_eq!(number(&format!("{value:?}")), Ok(value));
+        prop_assert_eq!(number(&format!("{value:.6}")), format!("{value:.6}").parse().map_err(|_| String::new()));
+    }
+}

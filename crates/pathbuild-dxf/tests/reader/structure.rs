@@ -1,0 +1,130 @@
+//! Sections, the end of the file, and files that are none. (spec/10-drawing.md; spec/80-diagnostics.md, PB002 and PB007)
+
+use crate::support::{entities, file_faults, only, read_all, section};
+
+const CIRCLE: &str = "0 CIRCLE\n8 A\n10 1\n20 2\n40 3";
+
+/// What is said of a file as a whole.
+fn said(file: impl AsRef<[u8]>) -> String {
+    let drawing = read_all(file);
+    assert!(
+        drawing.diagnostics.is_empty() || drawing.entities.is_empty() || !drawing.diagnostics[0].is_error()
+    );
+    file_faults(&drawing).join("; ")
+}
+
+#[test]
+fn files_without_structure_are_no_dxf() {
+    assert_eq!(said(""), "PB002 0 the file is empty");
+    assert_eq!(said("   \r\n\n "), "PB002 1 this is not a DXF file: nothing but blanks");
+    assert_eq!(
+        said("Dear Sir,\nthis is no drawing\n"),
+        "PB002 1 this is not a DXF file: a text without sections"
+    );
+    assert_eq!(said(b"AC1032\0\0\0\0\0\0rest"), "PB002 1 this is not a DXF file: a DWG drawing");
+    assert_eq!(said([0x89, b'P', b'N', b'G', 0, 1, 2, 3]), "PB002 1 this is not a DXF file: binary data");
+    assert_eq!(said("  0\nLINE\n  8\nA\n"), "PB002 1 this is not a DXF file: a text without sections");
+}
+
+#[test]
+fn noise_is_refused_in_no_time() {
+    let noise: Vec<u8> =
+        (0..20_000_000_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let blanks = vec![b' '; 20_000_000];
+    let start = std::time::Instant::now();
+    assert!(said(noise).starts_with("PB002"));
+    assert!(said(blanks).starts_with("PB002"));
+    assert!(start.elapsed().as_secs() < 2, "{:?}", start.elapsed());
+}
+
+#[test]
+fn a_file_of_other_sections_is_an_empty_drawing_if_it_ends() {
+    let header = section("HEADER", "9 $ACADVER\n1 AC1015");
+    assert_eq!(said(format!("{header}  0\nEOF\n")), "");
+    assert_eq!(said(&header), "PB002 11 the file ends before any section ENTITIES");
+    assert_eq!(said("  0\nSECTION\n"), "PB002 3 the file ends before any section ENTITIES");
+}
+
+#[test]
+fn the_end_of_file_must_be_there() {
+    let sound = entities(CIRCLE);
+    let without = sound.strip_suffix("  0\nEOF\n").expect("it ends so");
+    assert_eq!(said(&sound), "");
+    assert_eq!(said(sound.trim_end()), "");
+    assert_eq!(said(without), "PB007 0 the file does not end with EOF");
+    assert_eq!(read_all(without).entities.len(), 1);
+    assert_eq!(said(format!("{without}  1\nEOF\n")), "PB007 0 the file does not end with EOF");
+    assert_eq!(said(format!("{without}  0\nEOFX\n")), "PB007 0 the file does not end with EOF");
+}
+
+#[test]
+fn bytes_after_the_end_of_file_are_ignored() {
+    assert_eq!(said(format!("{}\u{1a}\0\0rest", entities(CIRCLE))), "");
+}
+
+#[test]
+fn nothing_behind_the_entities_is_looked_at() {
+    let sound = entities(CIRCLE);
+    let objects = "  0\nSECTION\n  2\nOBJECTS\nnonsense\n  0\nENTITIES\nx\n";
+    assert_eq!(said(sound.replace("  0\nEOF", &format!("{objects}  0\nEOF"))), "");
+}
+
+#[test]
+fn truncation_inside_entities_is_an_error_with_its_line() {
+    let sound = entities(CIRCLE);
+    let end = sound.find("  0\nENDSEC").expect("it is there");
+    assert_eq!(said(&sound[..end]), "PB002 15 the file is cut off in section ENTITIES");
+    let in_a_pair = sound.find(" 40\n3").expect("it is there");
+    assert_eq!(said(&sound[..in_a_pair + 3]), "PB002 14 the file is cut off in section ENTITIES");
+    assert_eq!(said(&sound[..in_a_pair + 4]), "PB002 14 the file is cut off in section ENTITIES");
+    let in_the_end = sound.find("SEC\n  0\nEOF").expect("it is there");
+    assert_eq!(said(&sound[..in_the_end]), "PB002 17 the file is cut off in section ENTITIES");
+}
+
+#[test]
+fn truncation_of_another_section_is_an_error() {
+    assert_eq!(
+        said("  0\nSECTION\n  2\nBLOCKS\n  0\nBLOCK\n"),
+        "PB002 7 the file is cut off in section BLOCKS"
+    );
+}
+
+#[test]
+fn a_section_must_end_before_the_next() {
+    let text = section("TABLES", "").replace("  0\nENDSEC\n", "") + &entities(CIRCLE);
+    assert_eq!(said(text), "PB002 5 section TABLES has no end: \"SECTION\" stands where ENDSEC is missing");
+    let text = entities(CIRCLE).replace("  0\nENDSEC\n", "");
+    assert_eq!(said(text), "PB002 15 section ENTITIES has no end: \"EOF\" stands where ENDSEC is missing");
+}
+
+#[test]
+fn a_section_ends_with_a_pair_and_not_with_a_word() {
+    let blocks = section("BLOCKS", "1 ENDSEC\n0 XENDSEC\n0 ENDSECX\n10 ENDSEC\n0 BLOCK");
+    assert_eq!(said(format!("{blocks}{}", entities(CIRCLE))), "");
+}
+
+#[test]
+fn only_sections_follow_each_other() {
+    let text = entities(CIRCLE).replacen("  0\nSECTION", "  0\nLINE\n  0\nSECTION", 1);
+    assert_eq!(said(&text), "PB002 1 this is not a DXF file: a text without sections");
+    assert_eq!(
+        said(section("HEADER", "") + &text),
+        "PB002 7 a section or the end of the file should stand here, not \"LINE\""
+    );
+}
+
+#[test]
+fn variables_behind_the_header_count() {
+    // As dxflib 2.0 wrote them.
+    let header = section("HEADER", "9 $ACADVER\n1 AC1015") + "  9\n$INSUNITS\n 70\n     1\n  0\nENDSEC\n";
+    let drawing = read_all(format!("{header}{}", entities(CIRCLE)));
+    assert_eq!(
+        file_faults(&drawing),
+        ["PB113 14 the drawing's units are inches, not millimetres ($INSUNITS is 1)"]
+    );
+}
+
+#[test]
+fn the_first_section_with_entities_counts() {
+    only(entities(CIRCLE).replace("  0\nEOF", "  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n  0\nEOF"));
+}

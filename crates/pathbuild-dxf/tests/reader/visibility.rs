@@ -1,0 +1,42 @@
+//! What counts although it is not seen, and what does not. (spec/10-drawing.md; reference/dxf.md section 4, point 8)
+
+use pathbuild_diagnostic::{Code, Severity};
+
+use crate::support::{entities, faults, file_codes, file_faults, read_all};
+
+const CIRCLE: &str = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1";
+
+#[test]
+fn paper_space_is_skipped() {
+    for (groups, count) in [("67 1", 0), ("67      1", 0), ("67 0", 1), ("", 1)] {
+        assert_eq!(read_all(entities(&format!("{CIRCLE}\n{groups}"))).entities.len(), count, "{groups}");
+    }
+    let broken = read_all(entities("0 CIRCLE\n67 1\n8 A\n10 x\n20 0\n40 1"));
+    assert_eq!((broken.faults.len(), broken.layers.len()), (0, 0));
+}
+
+#[test]
+fn invisible_entities_count_with_a_warning_for_each_layer() {
+    let hidden = format!("{CIRCLE}\n60 1");
+    let drawing =
+        read_all(entities(&format!("{CIRCLE}\n60 0\n{hidden}\n{hidden}\n{}", hidden.replace("8 A", "8 B"))));
+    assert_eq!(drawing.entities.len(), 4);
+    assert_eq!(file_codes(&drawing), [Code::LayerNotVisible, Code::LayerNotVisible]);
+    assert_eq!(drawing.diagnostics[0].severity, Severity::Warning);
+    assert_eq!(file_faults(&drawing)[0], "PB112 17 CIRCLE is marked invisible, but counts");
+}
+
+#[test]
+fn other_entities_are_ignored_without_a_word() {
+    let others = ["POINT", "HATCH", "DIMENSION", "SOLID", "ATTDEF", "VIEWPORT", "XLINE", "NONSENSE"];
+    let others: Vec<_> = others.iter().map(|name| format!("0 {name}\n8 A\n10 x\n1 y")).collect();
+    let drawing = read_all(entities(&others.join("\n")));
+    assert_eq!(drawing, pathbuild_dxf::Drawing::default());
+}
+
+#[test]
+fn an_attribute_and_its_end_are_no_entities() {
+    let drawing =
+        read_all(entities(&format!("0 ATTRIB\n8 A\n10 1\n20 1\n40 1\n1 x\n0 SEQEND\n8 A\n{CIRCLE}")));
+    assert_eq!((drawing.entities.len(), faults(&drawing).len()), (1, 0));
+}
