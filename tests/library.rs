@@ -48,3 +48,46 @@ fn drawings_are_what_their_text_form_says() {
         }
     }
 }
+
+/// Runs the program in the library's folder; gives the exit status and what it said.
+fn pathbuild(arguments: &[&str]) -> (Option<i32>, String) {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pathbuild"))
+        .args(arguments)
+        .args(["--color", "never", "--no-cache"])
+        .current_dir(library())
+        .output()
+        .expect("the program runs");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn the_library_is_right() {
+    let (status, said) = pathbuild(&["check", "--format", "concise"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.starts_with("33 paths in 30 drawings: no errors, no warnings"), "{said}");
+}
+
+#[test]
+fn its_projects_are_emitted() {
+    let directory = tempfile::tempdir().expect("there is a place for temporary files");
+    let out = directory.path().to_str().expect("its name is UTF-8");
+    let projects = ["8001.1P", "8002.1P", "8003.1P", "8102.1P", "8103.1P", "8104.1P"];
+    let (status, said) = pathbuild(&[&["emit", "--out-dir", out][..], &projects[..]].concat());
+    assert_eq!(status, Some(0), "{said}");
+    let written = fs::read_dir(directory.path()).expect("it can be listed").count();
+    assert_eq!(written, 8, "five programs, and three files of the one with probes: {said}");
+}
+
+/// What is said of each drawing with a mistake stands beside them.
+#[test]
+fn mistakes_are_named() {
+    let (status, said) = pathbuild(&["check", "mistakes", "--format", "concise"]);
+    assert_eq!(status, Some(1), "{said}");
+    let findings: String =
+        said.lines().filter(|line| line.starts_with("mistakes")).flat_map(|line| [line, "\n"]).collect();
+    let file = library().join("mistakes/expected.txt");
+    if std::env::var_os("PATHBUILD_UPDATE").is_some() {
+        fs::write(&file, &findings).expect("it can be written");
+    }
+    assert_eq!(findings, fs::read_to_string(&file).expect("it is there").replace("\r\n", "\n"));
+}

@@ -3,15 +3,15 @@
 messages! {
     /// A dead end without a turn marker.
     NOTHING_CONTINUES: NothingContinues {
-        en: "nothing continues here: {left} segments are left",
-        de: "hier geht nichts weiter: {left} Segmente sind übrig",
+        en: "nothing continues here; segments left: {left}",
+        de: "hier geht nichts weiter; übrige Segmente: {left}",
         help_en: "close the gap, draw the missing segment, or move it to the path's layer",
         help_de: "die Lücke schließen, das fehlende Segment zeichnen, oder es auf den Layer des Pfads legen",
     }
     /// A turn marker from where nothing is found.
     TURN_FOUND_NOTHING: NothingContinues {
-        en: "going back from this turn marker found nothing: {left} segments are left",
-        de: "auf dem Rückweg von dieser Wendemarke fand sich nichts: {left} Segmente sind übrig",
+        en: "going back from this turn marker found nothing; segments left: {left}",
+        de: "auf dem Rückweg von dieser Wendemarke fand sich nichts; übrige Segmente: {left}",
         help_en: "the way back leads to the start; something must branch off on it",
         help_de: "der Rückweg führt bis zum Anfang; unterwegs muss etwas abzweigen",
     }
@@ -37,8 +37,8 @@ messages! {
     }
     /// Stopped at the end with segments left.
     UNREACHED: UnreachedSegments {
-        en: "the path ends here, but {left} of its segments were not reached; one is {element} at {point}",
-        de: "der Pfad endet hier, aber {left} seiner Segmente wurden nicht erreicht; eines ist {element} bei {point}",
+        en: "the path ends here, but not all of its segments were reached; left: {left}, one of them {element} at {point}",
+        de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen, oder auf einen anderen Layer legen",
     }
