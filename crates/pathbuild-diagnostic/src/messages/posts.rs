@@ -392,4 +392,11 @@ messages! {
         help_en: "give the post's number format fewer decimals, or its texts several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben, oder seinen Texten mehrere Zeilen",
     }
+    /// The text was read back.
+    POST_DIFFERS: PostDiffers {
+        en: "line {line} of the output does not do what the program says",
+        de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
+        help_en: "look at the post's text for this line; a post without a dialect is not read back",
+        help_de: "den Text im Postprozessor für diese Zeile ansehen; ohne Dialekt wird nicht zurückgelesen",
+    }
 }

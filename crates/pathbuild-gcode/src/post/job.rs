@@ -74,6 +74,16 @@ pub enum Units {
     Inches,
 }
 
+impl Units {
+    /// The unit's length in mm.
+    pub(super) fn millimetres(self) -> f64 {
+        match self {
+            Self::Millimetres => 1.0,
+            Self::Inches => 25.4,
+        }
+    }
+}
+
 /// Custom text before and after something.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -167,7 +177,7 @@ impl Operation {
             Step::Rapid { to } | Step::Feed { to, .. } | Step::Probe { to, .. } => Some(*to),
             Step::Arc(arc) => Some(arc.to.into()),
             Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].into()),
-            Step::Dwell { .. } | Step::Comment(_) => None,
+            Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
         };
         self.steps.iter().find_map(target).unwrap_or_default()
     }

@@ -13,6 +13,7 @@ mod holes;
 mod job;
 mod number;
 mod options;
+mod read_back;
 mod step;
 mod suggest;
 mod target;
