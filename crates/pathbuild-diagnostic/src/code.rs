@@ -167,6 +167,7 @@ codes! {
     764 UnknownTool "unknown-tool" Warning "PB764: the tool table has no cutter for a path";
     765 NothingToPost "nothing-to-post" Error "PB765: a program that a post cannot write: empty, or with numbers that are none";
     766 UnknownPost "unknown-post" Error "PB766: no post-processor of that name";
+    767 PostDiffers "post-differs" Error "PB767: what a post wrote, read back, does not move as the program does";
 }
 
 impl Code {

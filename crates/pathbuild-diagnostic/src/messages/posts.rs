@@ -392,4 +392,26 @@ messages! {
         help_en: "give the post's number format fewer decimals, or its texts several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben, oder seinen Texten mehrere Zeilen",
     }
+    /// The text was read back.
+    POST_DIFFERS: PostDiffers {
+        en: "line {line} of the output does not do what the program says",
+        de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
+        help_en: "look at the post's text for this line; a post without a dialect is not read back",
+        help_de: "den Text im Postprozessor für diese Zeile ansehen; ohne Dialekt wird nicht zurückgelesen",
+    }
+    /// G55 and the like.
+    JOB_SYSTEM: NothingToPost {
+        en: "a program in several coordinate systems cannot be written through a post",
+        de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
+    }
+    /// G28, G30, G53.
+    JOB_NAMED_PLACE: NothingToPost {
+        en: "a move to a place that only the machine knows cannot be written through a post",
+        de: "eine Bewegung an einen Ort, den nur die Maschine kennt, kann kein Postprozessor schreiben",
+    }
+    /// Arcs of several turns, other probings than G38.2.
+    JOB_MOVE: NothingToPost {
+        en: "a move of this kind (an arc of several turns, a probing other than G38.2) cannot be written through a post",
+        de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, ein anderes Antasten als G38.2) kann kein Postprozessor schreiben",
+    }
 }

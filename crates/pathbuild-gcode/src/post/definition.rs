@@ -7,7 +7,8 @@ use super::job::Job;
 use super::options::PostOptions;
 use super::suggest::nearest;
 use super::target::{self, Target};
-use super::{cad6, cambam};
+use super::{cad6, cambam, read_back};
+use crate::verify::{Ends, Tolerance};
 
 /// A definition that was read, ready to write programs.
 #[derive(Clone, Debug)]
@@ -119,12 +120,34 @@ impl Post {
             None => output.notes.push(Note { message: &posts::POST_WITHOUT_DIALECT, arguments: Vec::new() }),
             Some(target) => {
                 let errors = target::check(&output.text, &target);
-                if !errors.is_empty() {
-                    return Err(errors.into_iter().map(|error| error.in_file(&self.file)).collect());
-                }
+                let found =
+                    if errors.is_empty() { self.read_back(&output.text, job, &target) } else { Err(errors) };
+                found.map_err(|errors| {
+                    errors.into_iter().map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
+                })?;
             }
         }
         Ok(output)
+    }
+
+    /// Whether the text makes the machine do what the job says.
+    fn read_back(&self, text: &[u8], job: &Job, target: &Target) -> Result<(), Vec<Diagnostic>> {
+        let (decimals, chord) = match &self.engine {
+            Engine::CamBam(definition) if definition.is_wrapped() => return Ok(()),
+            Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
+            Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
+        };
+        let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
+        let tolerance = Tolerance { place: half, feed: half, chord, ends: Ends::Cutting };
+        read_back::check(text, job, target, &tolerance)
+    }
+
+    /// The unit that is written, in mm.
+    fn unit(&self, job: &Job) -> f64 {
+        match &self.engine {
+            Engine::CamBam(_) => job.units.millimetres(),
+            Engine::Cad6(definition) => definition.units().unwrap_or(job.units).millimetres(),
+        }
     }
 
     /// Whom the output is for, if that is said.

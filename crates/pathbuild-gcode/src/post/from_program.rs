@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::approx::{at_least, near};
 use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep, Xy};
 
-use super::job::{Entry, Job, Operation};
+use super::job::{Entry, Job, Operation, describe};
 use super::step::{Arc, Hole, HoleKind, Step};
 use super::tools::{Fitted, Fitter, ToolTable};
 
@@ -224,41 +224,4 @@ fn drop_way_between_holes(steps: &mut Vec<Step>, next: &Hole) {
             steps.pop();
         }
     }
-}
-
-/// Fills in what an operation's moves tell about it.
-fn describe(operation: &mut Operation, thickness: f64) {
-    if operation.surface == f64::NEG_INFINITY {
-        operation.surface = thickness;
-    }
-    operation.retract = operation.surface;
-    let depth_of = |step: &Step| match step {
-        Step::Feed { to, .. } => to.z,
-        Step::Arc(arc) => Some(arc.to[2]),
-        Step::Hole(hole) => Some(hole.bottom),
-        _ => None,
-    };
-    let feed_where = |is_meant: &dyn Fn(&Step, &Step) -> bool| {
-        operation.steps.windows(2).find(|pair| is_meant(&pair[0], &pair[1])).and_then(|pair| pair[1].feed())
-    };
-    let plunge_feed = feed_where(&is_straight_down).or(operation.holes().find_map(|hole| hole.feed));
-    let cut_feed = feed_where(&|before, step| is_cut(step) && !is_straight_down(before, step));
-    operation.plunge_feed = plunge_feed;
-    operation.cut_feed = cut_feed;
-    operation.target_depth = operation.steps.iter().filter_map(depth_of).reduce(f64::min);
-}
-
-fn is_cut(step: &Step) -> bool {
-    matches!(step, Step::Feed { .. } | Step::Arc(_))
-}
-
-/// Whether a step goes down by feed where the one before it ended.
-fn is_straight_down(before: &Step, step: &Step) -> bool {
-    let end_of = |step: &Step| match step {
-        Step::Rapid { to } | Step::Feed { to, .. } => to.axes(),
-        Step::Arc(arc) => arc.to.map(Some),
-        _ => [None; 3],
-    };
-    let (from, to) = (end_of(before), end_of(step));
-    matches!(step, Step::Feed { .. }) && from[..2] == to[..2] && to[2] < from[2]
 }

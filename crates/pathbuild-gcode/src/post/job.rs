@@ -74,6 +74,16 @@ pub enum Units {
     Inches,
 }
 
+impl Units {
+    /// The unit's length in mm.
+    pub(super) fn millimetres(self) -> f64 {
+        match self {
+            Self::Millimetres => 1.0,
+            Self::Inches => 25.4,
+        }
+    }
+}
+
 /// Custom text before and after something.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -167,7 +177,7 @@ impl Operation {
             Step::Rapid { to } | Step::Feed { to, .. } | Step::Probe { to, .. } => Some(*to),
             Step::Arc(arc) => Some(arc.to.into()),
             Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].into()),
-            Step::Dwell { .. } | Step::Comment(_) => None,
+            Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
         };
         self.steps.iter().find_map(target).unwrap_or_default()
     }
@@ -281,4 +291,41 @@ pub enum Entry {
     Clearance,
     /// Exactly there, which may be deep in the material (sweepless milling): the tool is there already unless it was changed.
     At([f64; 3]),
+}
+
+/// Fills in what an operation's moves tell about it; a surface that nobody gave is at `thickness`.
+pub(super) fn describe(operation: &mut Operation, thickness: f64) {
+    if operation.surface == f64::NEG_INFINITY {
+        operation.surface = thickness;
+    }
+    operation.retract = operation.surface;
+    let depth_of = |step: &Step| match step {
+        Step::Feed { to, .. } => to.z,
+        Step::Arc(arc) => Some(arc.to[2]),
+        Step::Hole(hole) => Some(hole.bottom),
+        _ => None,
+    };
+    let feed_where = |is_meant: &dyn Fn(&Step, &Step) -> bool| {
+        operation.steps.windows(2).find(|pair| is_meant(&pair[0], &pair[1])).and_then(|pair| pair[1].feed())
+    };
+    let plunge_feed = feed_where(&is_straight_down).or(operation.holes().find_map(|hole| hole.feed));
+    let cut_feed = feed_where(&|before, step| is_cut(step) && !is_straight_down(before, step));
+    operation.plunge_feed = plunge_feed;
+    operation.cut_feed = cut_feed;
+    operation.target_depth = operation.steps.iter().filter_map(depth_of).reduce(f64::min);
+}
+
+fn is_cut(step: &Step) -> bool {
+    matches!(step, Step::Feed { .. } | Step::Arc(_))
+}
+
+/// Whether a step goes down by feed where the one before it ended.
+fn is_straight_down(before: &Step, step: &Step) -> bool {
+    let end_of = |step: &Step| match step {
+        Step::Rapid { to } | Step::Feed { to, .. } => to.axes(),
+        Step::Arc(arc) => arc.to.map(Some),
+        _ => [None; 3],
+    };
+    let (from, to) = (end_of(before), end_of(step));
+    matches!(step, Step::Feed { .. }) && from[..2] == to[..2] && to[2] < from[2]
 }

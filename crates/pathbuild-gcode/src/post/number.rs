@@ -22,6 +22,11 @@ impl NumberFormat {
         Self { whole: 1, least, most }
     }
 
+    /// Digits after the point at most.
+    pub(crate) fn most_decimals(self) -> u8 {
+        u8::try_from(self.most).unwrap_or(u8::MAX)
+    }
+
     /// The number as text; never `-0`.
     pub(crate) fn format(self, value: f64) -> String {
         let digits = Digits::of(value).round(self.most);

@@ -59,6 +59,8 @@ pub enum Step {
         /// mm/min.
         feed: Option<f64>,
     },
+    /// Waiting for whoever stands at the machine.
+    Stop,
     /// A remark for whoever stands at the machine.
     Comment(Box<str>),
 }
@@ -121,7 +123,7 @@ impl Step {
             Self::Feed { feed, .. } | Self::Probe { feed, .. } => *feed,
             Self::Arc(arc) => arc.feed,
             Self::Hole(hole) => hole.feed,
-            Self::Rapid { .. } | Self::Dwell { .. } | Self::Comment(_) => None,
+            Self::Rapid { .. } | Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
         }
     }
 
@@ -136,7 +138,7 @@ impl Step {
             Self::Arc(arc) => all(&arc.from) && all(&arc.centre) && all(&arc.to) && feed(&arc.feed),
             Self::Hole(hole) => hole.is_finite(),
             Self::Dwell { seconds } => seconds.is_finite(),
-            Self::Comment(_) => true,
+            Self::Stop | Self::Comment(_) => true,
         }
     }
 }

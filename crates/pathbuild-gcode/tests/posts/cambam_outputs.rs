@@ -1,115 +1,45 @@
 //! Programs that CamBam wrote, read and written again with our engine, come out byte for byte. (/work/shared/cambam-output)
 
 use camino::Utf8Path;
-use pathbuild_gcode::post::{
-    Arc, Hole, HoleKind, Job, Operation, Position, Post, PostOptions, Spindle, Step, Tool, Units,
-    VelocityMode,
-};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_gcode::post::{Job, Post, PostOptions, Remark, Units, VelocityMode};
 
 use crate::support::shared;
 
-/// A reader for the few forms that CamBam's programs have: one move a line, coordinates as they change.
-struct Reader {
-    job: Job,
-    /// In mm.
-    unit: f64,
-    at: [Option<f64>; 3],
-    feed: Option<f64>,
-    retract: f64,
-    velocity: VelocityMode,
-    tools: Vec<Tool>,
-    /// Behind the last operation's end comment; what follows is the footer's.
-    is_over: bool,
-}
-
+/// A program of CamBam's as a job. What a job knows and a program's moves do not tell (diameters, units, G61) is looked up in the text.
 fn read(text: &str, name: &str) -> Job {
-    let unit = if text.contains("\nG20 ") { 25.4 } else { 1.0 };
-    let job = Job { name: name.into(), ..Job::default() };
-    let velocity = VelocityMode::ConstantVelocity;
-    let (at, tools) = ([None; 3], Vec::new());
-    let mut reader = Reader { job, unit, at, feed: None, retract: 0.0, velocity, tools, is_over: false };
-    if unit > 1.0 {
-        reader.job.units = Units::Inches;
+    let interpretation = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
+    assert_eq!(interpretation.problems.iter().filter(|problem| problem.is_error()).count(), 0);
+    let header: Vec<&str> = text.lines().map_while(comment).collect();
+    let job = Job::from_steps(name, &interpretation.steps, &|text| match text.trim() {
+        text if header.contains(&text) || tool(text).is_some() => Remark::Goes,
+        text if text.starts_with("MOP End: ") => Remark::End,
+        text => Remark::Operation(text.trim_start_matches("MOP Start: ")),
+    });
+    let mut job = job.unwrap();
+    if text.contains("\nG20 ") {
+        job.units = Units::Inches;
     }
-    text.lines().for_each(|line| reader.line(line.trim()));
-    reader.job
+    let unit = if job.units == Units::Inches { 25.4 } else { 1.0 };
+    for operation in &mut job.operations {
+        let index = operation.tool.index;
+        let of_tool = text.lines().filter_map(comment).filter_map(tool).find(|(known, _)| *known == index);
+        operation.tool.diameter = of_tool.unwrap().1 * unit;
+        if text.contains(" G61 ") {
+            operation.velocity = VelocityMode::ExactStop;
+        }
+    }
+    job
 }
 
-impl Reader {
-    fn line(&mut self, line: &str) {
-        match line.strip_prefix('(') {
-            Some(comment) => self.comment(comment.trim_end_matches(')').trim()),
-            None => self.code(line),
-        }
-    }
-
-    fn comment(&mut self, text: &str) {
-        if let Some((index, diameter)) = tool_comment(text) {
-            self.tools.push(Tool::new(index, diameter * self.unit, ""));
-        } else if text.starts_with("MOP End") {
-            self.is_over = true;
-        } else if let Some(clearance) = self.at[2] {
-            self.is_over = false;
-            let tool = self.tools.last().unwrap().clone();
-            let mut operation = Operation::new(text.trim_start_matches("MOP Start: "), tool);
-            operation.clearance = self.job.operations.last().map_or(clearance, |last| last.clearance);
-            operation.velocity = self.velocity;
-            operation.spindle = Some(Spindle::Clockwise);
-            self.job.operations.push(operation);
-        }
-    }
-
-    fn code(&mut self, line: &str) {
-        let number =
-            |letter: char| line.split(' ').find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
-        if line.contains("G61") {
-            self.velocity = VelocityMode::ExactStop;
-        }
-        let before = self.at;
-        let unit = self.unit;
-        let length = |letter| number(letter).map(|value| value * unit);
-        self.at = [length('X').or(before[0]), length('Y').or(before[1]), length('Z').or(before[2])];
-        self.feed = length('F').or(self.feed);
-        self.retract = length('R').unwrap_or(self.retract);
-        let (to, feed, level) = (Position::from(self.at), self.feed, before[2]);
-        let arc = |clockwise| {
-            let from = before.map(Option::unwrap);
-            let centre = [from[0] + length('I').unwrap(), from[1] + length('J').unwrap(), 0.0];
-            Step::Arc(Arc { clockwise, from, centre, to: self.at.map(Option::unwrap), feed })
-        };
-        let step = match line.split(' ').next() {
-            Some("G0") => Step::Rapid { to },
-            Some("G1") => Step::Feed { to, feed },
-            Some("G2") => arc(true),
-            Some("G3") => arc(false),
-            Some("G81") => self.hole(level.unwrap()),
-            _ => return self.machine(number('T'), number('S')),
-        };
-        if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.is_over) {
-            operation.steps.push(step);
-        }
-    }
-
-    fn hole(&mut self, level: f64) -> Step {
-        let [x, y, bottom] = self.at.map(Option::unwrap);
-        self.at[2] = Some(level);
-        let (at, retract) = ([x, y], self.retract);
-        Step::Hole(Hole { at, level, retract, bottom, exit: level, feed: self.feed, kind: HoleKind::Plain })
-    }
-
-    fn machine(&mut self, tool: Option<f64>, speed: Option<f64>) {
-        let Some(operation) = self.job.operations.last_mut() else { return };
-        if let Some(tool) = tool {
-            operation.tool =
-                self.tools.iter().rev().find(|known| f64::from(known.index) == tool).unwrap().clone();
-            // What was moved so far was the way to the tool change.
-            operation.steps.clear();
-        }
-        operation.speed = speed.or(operation.speed);
-    }
+/// The text of a line that is a comment.
+fn comment(line: &str) -> Option<&str> {
+    line.trim().strip_prefix('(').map(|text| text.trim_end_matches(')').trim())
 }
 
-fn tool_comment(text: &str) -> Option<(u32, f64)> {
+/// Index and diameter in a remark about a tool.
+fn tool(text: &str) -> Option<(u32, f64)> {
     let (index, diameter) = text.strip_prefix('T')?.split_once(" : ")?;
     Some((index.parse().ok()?, diameter.parse().ok()?))
 }

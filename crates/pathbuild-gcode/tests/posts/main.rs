@@ -12,6 +12,7 @@ mod cambam_lines;
 mod cambam_moves;
 mod cambam_outputs;
 mod jobs;
+mod read_programs;
 mod robustness;
 mod support;
 mod target;

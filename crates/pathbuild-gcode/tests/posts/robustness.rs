@@ -124,10 +124,10 @@ fn write(bytes: &[u8]) {
     let macros = [("a", "{$b}{$b}"), ("b", "{$x}"), ("Q1", "~Q2~+1"), ("Q2", "2")];
     let macros = macros.map(|(name, value)| PostMacro { name: name.into(), value: value.into() }).to_vec();
     let options = PostOptions { macros, cycles: true, ..PostOptions::default() };
-    if let Ok(post) = Post::read(bytes, Utf8Path::new("any")) {
-        if let Ok(output) = post.write(&program(), &options) {
-            assert!(output.text.len() < 1 << 24, "{} bytes", output.text.len());
-        }
+    if let Ok(post) = Post::read(bytes, Utf8Path::new("any"))
+        && let Ok(output) = post.write(&program(), &options)
+    {
+        assert!(output.text.len() < 1 << 24, "{} bytes", output.text.len());
     }
 }
 

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
 
-use crate::support::{definition, job, texts};
+use crate::support::{definition, feed, job, rapid, texts};
 
 /// A text written as it is, for a target.
 fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
@@ -94,7 +94,7 @@ fn a_bare_number_is_a_tool_where_the_target_knows_that() {
 
 #[test]
 fn lines_are_as_long_as_the_target_takes_them() {
-    let line = |letters: usize| format!("G1 (a remark) X{}", "1".repeat(letters));
+    let line = |letters: usize| format!("G0 (a remark) X{}", "0".repeat(letters));
     assert!(write_with(&dialect("grbl"), &line(76), &PostOptions::default()).is_ok());
     assert_eq!(refused("grbl", &line(77)), ["line 1 of the output has 80 characters; grbl takes 79"]);
     assert!(write_with(&dialect("rs274"), &line(240), &PostOptions::default()).is_ok());
@@ -133,8 +133,8 @@ fn umlauts_are_written_as_the_configuration_says() {
 
 #[test]
 fn comments_within_comments_are_no_such_where_that_is_an_error() {
-    assert_eq!(written("linuxcnc", "(a (b) X1"), "(a [b) X1\n");
-    assert_eq!(written("grbl", "(a (b) X1"), "(a (b) X1\n");
+    assert_eq!(written("linuxcnc", "(a (b) M0"), "(a [b) M0\n");
+    assert_eq!(written("grbl", "(a (b) M0"), "(a (b) M0\n");
 }
 
 #[test]
@@ -198,9 +198,55 @@ fn a_control_without_cycles_gets_their_moves() {
         !moves.contains("G83") && moves.contains("G1 F60.0 Z-1.0") && moves.contains("G1 Z-3.0"),
         "{moves}"
     );
-    let own = cycle(
-        "<G81/><G83/><CannedCycleStart/><CannedCycleEnd/><DrillPeck>G1 {$z}\nG0 Z5</DrillPeck>",
-        "grbl",
+}
+
+#[test]
+fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
+    let kind = HoleKind::Plain;
+    let plain =
+        Hole { at: [0.0, 0.0], level: 5.0, retract: 1.0, bottom: -3.0, exit: 5.0, feed: Some(60.0), kind };
+    let text = definition(
+        "<PostFile>{$mops}</PostFile><MOP>{$blocks}</MOP><G81/><CannedCycleStart/><CannedCycleEnd/>\
+         <Drill>(by hand)\n{$g0} Z{$mop.retractheight}\n{$g1} {$z} {$f}\n{$g0} Z{$mop.clearanceplane}</Drill>",
     );
-    assert!(own.contains("G1 Z-3.0\r\nG0 Z5"), "a definition that writes moves itself is let: {own}");
+    let options = PostOptions { dialect: Some("grbl".into()), cycles: true, ..PostOptions::default() };
+    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let output = post.write(&job(vec![Step::Hole(plain)]), &options).unwrap();
+    assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
+}
+
+/// Writes without a dialect, when anything may be written, and with one, when the text is read back.
+fn read_back(elements: &str, steps: Vec<Step>) -> Result<(), Vec<String>> {
+    let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
+    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    post.write(&job(steps.clone()), &PostOptions::default()).unwrap();
+    let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    post.write(&job(steps), &options).map(drop).map_err(|errors| {
+        let notes =
+            |error: &Diagnostic| error.notes.iter().map(|note| note.text(Lang::En)).collect::<String>();
+        errors.iter().map(|error| format!("{} {}", error.text(Lang::En), notes(error))).collect()
+    })
+}
+
+#[test]
+fn what_moves_otherwise_than_the_program_is_not_written() {
+    let steps = || vec![feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0), rapid(10.0, 0.0, 5.0)];
+    assert_eq!(read_back("", steps()), Ok(()));
+    let errors = read_back("<FeedMove>{$g1} {$_f} {$-x} {$_y} {$_z}</FeedMove>", steps()).unwrap_err();
+    assert!(errors[0].starts_with("line 4 of the output does not do what the program says"), "{errors:?}");
+    assert!(read_back("<FeedMove>{$g1} F99 {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "another feed");
+    assert!(read_back("<FeedMove>{$g0} {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "a rapid");
+    assert!(read_back("<FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove>", steps()).is_err(), "no Z");
+    let between = vec![feed(0.4, 0.0, -1.0), feed(9.4, 0.0, -1.0)];
+    assert_eq!(
+        read_back("<NumberFormat>0</NumberFormat>", between),
+        Ok(()),
+        "within half a unit of the last digit"
+    );
+}
+
+#[test]
+fn what_the_reader_refuses_is_not_written() {
+    let errors = read_back("<MOP>G1 X1\n{$blocks}</MOP>", vec![feed(0.0, 0.0, -1.0)]).unwrap_err();
+    assert!(errors[0].contains("a cutting move without a feed"), "{errors:?}");
 }

@@ -29,6 +29,8 @@ pub(super) enum What<'a> {
     Rapid { to: Point },
     /// Standing still, in seconds.
     Dwell(f64),
+    /// Waiting for a person.
+    Stop,
     /// A remark.
     Comment(&'a str),
 }

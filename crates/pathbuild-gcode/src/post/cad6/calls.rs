@@ -132,6 +132,10 @@ impl<'a> Builder<'a> {
                 self.aside(What::Dwell(*seconds));
                 Ok(())
             }
+            Step::Stop => {
+                self.aside(What::Stop);
+                Ok(())
+            }
             Step::Probe { .. } => {
                 let diagnostic =
                     Diagnostic::new(&posts::NO_TEXT_FOR).with("operation", &*self.present().name);
@@ -324,7 +328,7 @@ impl<'a> Builder<'a> {
         self.is_first = true;
         let places = self.calls.iter_mut().rev().map_while(|call| match &mut call.what {
             What::Line { place, .. } | What::Arc { place, .. } => Some(Some(place)),
-            What::Comment(_) | What::Dwell(_) | What::Rapid { .. } => Some(None),
+            What::Comment(_) | What::Dwell(_) | What::Stop | What::Rapid { .. } => Some(None),
             _ => None,
         });
         if let Some(place) = places.flatten().next() {

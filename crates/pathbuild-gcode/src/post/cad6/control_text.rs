@@ -55,6 +55,8 @@ kinds! {
     SubprogramEnd "subprogram-end";
     /// pathbuild's own: every rapid move. With it, contours have no start and end, and every move is written as it is.
     Rapid "rapid";
+    /// pathbuild's own: waiting for a person.
+    Stop "stop";
     /// pathbuild's own: standing still.
     Dwell "dwell";
     /// pathbuild's own: a remark.

@@ -12,6 +12,7 @@ use super::control_text::{ControlText, Kind};
 use super::lints;
 use super::marks::is_private;
 use super::settings::{SETTINGS, Settings};
+use crate::post::Units;
 use crate::post::suggest::nearest;
 
 /// A definition as its file has it.
@@ -56,6 +57,21 @@ impl Definition {
     /// The dialect that it names.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.settings.dialect.as_deref()
+    }
+
+    /// Decimals of rounded numbers.
+    pub(crate) fn decimals(&self) -> u8 {
+        u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
+    }
+
+    /// Greatest distance in mm of a line from the arc that it stands for.
+    pub(crate) fn chord(&self) -> f64 {
+        self.settings.arc_tolerance
+    }
+
+    /// The unit that is written; `None`: the program's.
+    pub(crate) fn units(&self) -> Option<Units> {
+        self.settings.units
     }
 
     /// What it says about itself.

@@ -27,7 +27,7 @@ pub(super) struct Caller<'a, 'r> {
 pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runner<'a>) -> Called {
     let calls = calls(job, runner.definition)?;
     let units = runner.definition.settings.units.unwrap_or(job.units);
-    let unit = if units == Units::Inches { 25.4 } else { 1.0 };
+    let unit = units.millimetres();
     let mut caller = Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0 };
     caller.constants(units, options);
     caller.runner.call(Kind::ProgramStart)?;
@@ -141,6 +141,10 @@ impl Caller<'_, '_> {
                 self.set("DwellTime", *seconds);
                 self.require(Kind::Dwell, operation)?;
                 self.runner.call(Kind::Dwell)
+            }
+            What::Stop => {
+                self.require(Kind::Stop, operation)?;
+                self.runner.call(Kind::Stop)
             }
             What::Comment(text) => {
                 self.text("CommentText", text);

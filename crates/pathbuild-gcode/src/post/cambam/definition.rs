@@ -9,6 +9,7 @@ use super::names::MacroArguments;
 use super::options::{Options, Refusal};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
+use crate::post::job::Units;
 
 /// A definition as its file has it.
 #[derive(Clone, Debug)]
@@ -48,6 +49,21 @@ impl Definition {
     /// The dialect that it names.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.options.dialect.as_deref()
+    }
+
+    /// Whether paths are wrapped round a cylinder.
+    pub(crate) fn is_wrapped(&self) -> bool {
+        self.options.rotary.wrap
+    }
+
+    /// Decimals of the numbers that are written.
+    pub(crate) fn decimals(&self) -> u8 {
+        self.options.number_format.most_decimals()
+    }
+
+    /// Greatest distance in mm of a line from the arc that it stands for.
+    pub(crate) fn chord(&self, units: Units) -> f64 {
+        self.options.arc_tolerance * units.millimetres()
     }
 
     /// Whether a hole becomes the word of a cycle.

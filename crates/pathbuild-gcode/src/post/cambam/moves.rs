@@ -48,6 +48,7 @@ impl Writer<'_> {
                 let values = self.with_feed(*feed);
                 self.go(Section::Probe, to.axes(), values)
             }
+            Step::Stop => self.lines_of(Section::Stop),
             Step::Comment(text) => self.comment(text),
         }
     }

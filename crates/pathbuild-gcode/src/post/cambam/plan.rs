@@ -7,7 +7,7 @@ use super::definition::{Definition, is_built_in, template_error};
 use super::macros::Macro;
 use super::section::Section;
 use super::template::Template;
-use crate::post::job::{Job, Texts, Units};
+use crate::post::job::{Job, Texts};
 use crate::post::suggest::nearest;
 use crate::post::{PostMacro, PostOptions};
 
@@ -63,10 +63,7 @@ impl<'a> Plan<'a> {
 
     /// The unit that is written, in mm.
     pub(super) fn unit(&self) -> f64 {
-        match self.job.units {
-            Units::Millimetres => 1.0,
-            Units::Inches => 25.4,
-        }
+        self.job.units.millimetres()
     }
 
     /// Greatest distance of a line from the arc that it stands for, in mm.

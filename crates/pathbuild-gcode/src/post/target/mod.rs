@@ -26,6 +26,8 @@ pub(super) struct Target {
     bare_tool_number: bool,
     /// Lines may begin with N.
     line_numbers: bool,
+    /// The dialect that reads its moves.
+    pub(super) reader: Dialect,
 }
 
 /// How a control's comments are spelt.
@@ -72,7 +74,13 @@ impl Target {
             longest: spelling.line_length,
             bare_tool_number: spelling.bare_tool_number,
             line_numbers: spelling.block_numbers.is_some(),
+            reader: dialect,
         }
+    }
+
+    /// Whether the reader knows the target's own rules, and not only its moves.
+    pub(super) fn is_read_exactly(&self) -> bool {
+        self.reader.name() == self.name
     }
 
     /// Whether it knows the cycle G81.

@@ -1,7 +1,7 @@
 //! The targets that are no dialects of the reader. Their words are those of the makers' manuals for mills.
 
 use super::{Comments, Target};
-use crate::dialect::Words;
+use crate::dialect::{Dialect, Words};
 
 const ROUND: Comments = Comments { round: true, nested: false, semicolon: false, slashes: false };
 
@@ -24,6 +24,7 @@ const TARGET: Target = Target {
     longest: None,
     bare_tool_number: false,
     line_numbers: true,
+    reader: Dialect::LinuxCnc,
 };
 
 pub(super) static TARGETS: &[Target] = &[
@@ -91,6 +92,7 @@ pub(super) static TARGETS: &[Target] = &[
         },
         comments: Comments { round: false, nested: false, semicolon: true, slashes: false },
         percent: false,
+        reader: Dialect::Grbl,
         ..TARGET
     },
 ];
