@@ -21,7 +21,7 @@ use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use outputs::{OutputKind, Writing, stem_fault};
-pub use provenance::Provenance;
+pub use provenance::{HEAD, Provenance, title};
 pub use resolve::{Wanted, WantedPath};
 pub use work::{CheckedTarget, Emitted};
 

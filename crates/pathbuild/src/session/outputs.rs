@@ -46,9 +46,7 @@ impl OutputKind {
         let header = Header { provenance: provenance.to_owned() };
         match self {
             Self::Milling | Self::Clean => native::program(program, &header, &writing.options),
-            Self::Probing => {
-                native::probing_program(program, &header, writing.probe_feed, &writing.options)
-            }
+            Self::Probing => native::probing_program(program, &header, writing.probe_feed, &writing.options),
             Self::Values => native::values_file(program, writing.options.charset),
         }
     }

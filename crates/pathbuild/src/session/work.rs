@@ -135,8 +135,9 @@ fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
         return None;
     }
     let root = path(db, reached.root?).path.as_ref()?;
-    let has_probes =
-        |reached: &Reached<'_>| path(db, reached.instance).path.as_ref().is_some_and(|path| !path.probes.is_empty());
+    let has_probes = |reached: &Reached<'_>| {
+        path(db, reached.instance).path.as_ref().is_some_and(|path| !path.probes.is_empty())
+    };
     Some(Emitted {
         path: root.name.as_str().into(),
         suffix: root.output_suffix.clone(),
