@@ -24,7 +24,7 @@ pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
 pub use joined::program;
 pub use lookup::{Found, files_for, find_path, holders, name_table};
-pub use raw::{NameKey, PathPlace, path_names, path_place, raw_file, raw_path};
+pub use raw::{NameKey, PathPlace, content_hash, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
 pub use texts::assigned_texts;

@@ -45,6 +45,8 @@ pub struct Reading {
     pub entities: usize,
     /// Longest text in bytes.
     pub text_length: usize,
+    /// Whether drawings are hashed, for saying out of which a program was made. It takes about as long as reading them.
+    pub is_hashed: bool,
 }
 
 /// Where embedded paths are looked for.
@@ -100,6 +102,7 @@ impl Default for Reading {
             file_size: 256 << 20,
             entities: 2_000_000,
             text_length: 65_536,
+            is_hashed: false,
         }
     }
 }

@@ -4,6 +4,7 @@ mod memory;
 mod os;
 
 use std::fmt::Debug;
+use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -17,6 +18,15 @@ pub trait System: Debug + Send + Sync {
     /// # Errors
     /// When there is no such regular file, it cannot be read, or it has more bytes than `limit`.
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
+
+    /// The first bytes of a file, at most so many.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError>;
+
+    /// When a file was last changed, where that is known.
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime>;
 
     /// The names in a directory, sorted; of those that are no UTF-8 there is a lossy spelling, which no file has.
     ///

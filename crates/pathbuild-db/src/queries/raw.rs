@@ -48,12 +48,16 @@ pub struct PathEntry<'db> {
     pub map: SourceMap,
 }
 
-/// What is wrong with the file as a whole.
+/// What is known of the file as a whole.
 #[salsa::tracked(debug)]
 pub struct FileReport<'db> {
     #[tracked]
     #[returns(ref)]
     pub diagnostics: Vec<Diagnostic>,
+    /// Of its bytes, where the settings ask for it and it could be read.
+    #[tracked]
+    #[returns(copy)]
+    pub hash: Option<[u8; 32]>,
 }
 
 /// Reads a drawing.
@@ -63,8 +67,13 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
     file.revision(db);
     let settings = Settings::get(db);
     let reading = settings.reading(db);
+    let mut hash = None;
     let read = match db.system().read(file.path(db), reading.file_size) {
-        Ok(bytes) => parse(&bytes, reading, settings.language(db)),
+        Ok(bytes) => {
+            // Of these bytes, not of what a second look would find: they are what is compiled.
+            hash = reading.is_hashed.then(|| *blake3::hash(&bytes).as_bytes());
+            parse(&bytes, reading, settings.language(db))
+        }
         Err(error) => Err(Box::new(unreadable(error, reading))),
     };
     let raw = read
@@ -75,7 +84,7 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
         |(raw, map): (RawPath, SourceMap)| PathEntry::new(db, raw.name.folded().into_boxed_str(), raw, map);
     FileContents {
         paths: raw.paths.into_iter().map(entry).collect(),
-        report: FileReport::new(db, diagnostics),
+        report: FileReport::new(db, diagnostics, hash),
     }
 }
 
@@ -148,6 +157,11 @@ pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<Path
 /// What is wrong with the file as a whole.
 pub(super) fn file_diagnostics(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     raw_file(db, file).report.diagnostics(db)
+}
+
+/// The hash of the bytes that a file's paths were read from; `None` where it could not be read, or the settings do not ask for hashes.
+pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
+    raw_file(db, file).report.hash(db)
 }
 
 /// A panic in here is a bug that one file shows: it must not keep the others from being read.

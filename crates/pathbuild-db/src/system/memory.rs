@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -31,6 +32,16 @@ impl System for MemorySystem {
         let bytes = files.get(path).ok_or(ReadError::Missing)?;
         let size = bytes.len() as u64;
         if size > limit { Err(ReadError::TooLarge { size }) } else { Ok(bytes.clone()) }
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = self.read(path, u64::MAX)?;
+        bytes.truncate(length);
+        Ok(bytes)
+    }
+
+    fn modified(&self, _: &Utf8Path) -> Option<SystemTime> {
+        None
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {

@@ -3,6 +3,7 @@
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
+use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -23,6 +24,18 @@ impl System for OsSystem {
         // A file may grow between the question for its size and the last byte.
         let read = Read::by_ref(&mut file).take(limit.saturating_add(1)).read_to_end(&mut bytes)? as u64;
         if read > limit { Err(ReadError::TooLarge { size: read }) } else { Ok(bytes) }
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let file = File::open(path)?;
+        regular_size(&file.metadata()?)?;
+        let mut bytes = Vec::new();
+        file.take(length as u64).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        fs::metadata(path).ok()?.modified().ok()
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {

@@ -57,6 +57,13 @@ messages! {
         help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// Removing failed.
+    CANNOT_REMOVE: CannotWrite {
+        en: "cannot remove {name}: {reason}",
+        de: "{name} kann nicht entfernt werden: {reason}",
+        help_en: "check the directory's permissions, and whether another program has the file open",
+        help_de: "Rechte des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
+    }
     /// Writing failed.
     CANNOT_WRITE: CannotWrite {
         en: "cannot write {name}: {reason}",

@@ -15,6 +15,13 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht",
     }
+    /// A pattern of targets that no path has.
+    NO_TARGET: NoPath {
+        en: "no path of the library matches the target {pattern}",
+        de: "kein Pfad der Bibliothek entspricht dem Ziel {pattern}",
+        help_en: "targets are patterns of path names: * is any text, ? one character",
+        help_de: "Ziele sind Muster von Pfadnamen: * ist beliebiger Text, ? ein Zeichen",
+    }
     /// A name on the command line that nothing has.
     NO_SUCH_PATH: PathNotFound {
         en: "there is no path or drawing {name}",

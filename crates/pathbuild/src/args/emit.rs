@@ -11,10 +11,10 @@ pub struct EmitArgs {
     #[command(flatten)]
     pub inputs: Inputs,
     /// Write nothing: is what lies on disk current?
-    #[arg(long, hide = true)]
+    #[arg(long)]
     pub check: bool,
     /// With --check: compare the moves only
-    #[arg(long, requires = "check", hide = true)]
+    #[arg(long, requires = "check")]
     pub moves: bool,
     /// Overwrite measured values in _Z.txt
     #[arg(long)]
@@ -26,13 +26,14 @@ pub struct EmitArgs {
     #[arg(long, value_name = "NAME", hide = true)]
     pub join: Option<String>,
     /// Write what the files were made from, for make and ninja
-    #[arg(long, value_name = "FILE", hide = true)]
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
     pub deps: Option<Utf8PathBuf>,
     /// Write to standard output: `-o -`
-    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true, hide = true)]
+    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["check", "deps", "remove_stale"])]
     pub output: Option<String>,
     /// Remove G-code that pathbuild wrote earlier and nothing would write now
-    #[arg(long, conflicts_with = "check", hide = true)]
+    #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
     /// Dialect in which a post's output is read back
     #[arg(long, value_name = "DIALECT", hide = true)]

@@ -25,12 +25,8 @@ fn check(args: &CheckArgs) -> Vec<(&'static str, bool)> {
 
 fn emit(args: &EmitArgs) -> Vec<(&'static str, bool)> {
     vec![
-        ("--check", args.check),
         ("--post", args.post.is_some()),
         ("--join", args.join.is_some()),
-        ("--deps", args.deps.is_some()),
-        ("--output", args.output.is_some()),
-        ("--remove-stale", args.remove_stale),
         ("--dialect", args.dialect.is_some()),
         ("--date", args.date.is_some()),
         ("--run-post-build", args.run_post_build),

@@ -5,6 +5,7 @@ mod elsewhere;
 mod graph;
 mod library;
 mod outputs;
+mod provenance;
 mod resolve;
 mod settings;
 mod watchdog;
@@ -19,9 +20,10 @@ use pathbuild_db::{Database, Db, SourceFile};
 use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use outputs::{Output, outputs};
+pub use outputs::{OutputKind, Writing, stem_fault};
+pub use provenance::{HEAD, Provenance, title};
 pub use resolve::{Wanted, WantedPath};
-pub use work::CheckedTarget;
+pub use work::{CheckedTarget, Emitted};
 
 /// A database with the run's settings.
 #[derive(Debug)]
@@ -33,8 +35,17 @@ pub struct Session<'a> {
 impl<'a> Session<'a> {
     /// A session over the files of the operating system.
     pub fn new(context: &'a Context) -> Self {
+        Self::over(context, false)
+    }
+
+    /// A session that can say out of which drawings a program was made.
+    pub fn with_hashes(context: &'a Context) -> Self {
+        Self::over(context, true)
+    }
+
+    fn over(context: &'a Context, is_hashed: bool) -> Self {
         let db = Database::new(Arc::new(OsSystem));
-        settings::apply(&db, context);
+        settings::apply(&db, context, is_hashed);
         Self { db, context }
     }
 
@@ -48,7 +59,7 @@ impl<'a> Session<'a> {
     }
 
     /// The one spelling of a path: relative to the working directory where it lies below it, without `.` and `x/..`.
-    fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
+    pub fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
         normal(path, &self.context.working_directory)
     }
 }

@@ -1,44 +1,58 @@
 //! The files that a program becomes. (spec/60-gcode.md, "Files")
 
-use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_toolpath::Program;
 
-/// A file to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Output {
-    /// Where.
-    pub path: Utf8PathBuf,
-    /// Its whole text.
-    pub text: String,
-    /// Whether a person writes measured values into it, which must not be lost.
-    pub holds_values: bool,
+/// The kinds of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputKind {
+    /// The program, where there are no probes.
+    Milling,
+    /// The program with correction formulas.
+    Clean,
+    /// The probing run.
+    Probing,
+    /// Where a person writes measured values, which must not be lost.
+    Values,
 }
 
-/// The files of a program: one without probes, three with. `stem`: the drawing's name, or the path's where a drawing holds several,
-/// with what R adds. `feed`: for probing where the drawing gives no Z.
-pub fn outputs(
-    program: &Program,
-    directory: &Utf8Path,
-    stem: &str,
-    header: &Header,
-    feed: f64,
-    options: &WriteOptions,
-) -> Vec<Output> {
-    let output = |suffix: &str, text: String| Output {
-        path: directory.join(format!("{stem}{suffix}")),
-        text,
-        holds_values: suffix == VALUES,
-    };
-    let milling = native::program(program, header, options);
-    if program.probes.is_empty() {
-        return vec![output("_Milling.gcode", milling)];
+/// How files are written, whatever is in them.
+#[derive(Clone, Copy, Debug)]
+pub struct Writing {
+    /// Language, characters, rapid feed.
+    pub options: WriteOptions,
+    /// The feed in mm/min for probing where the drawing gives no Z.
+    pub probe_feed: f64,
+}
+
+impl OutputKind {
+    /// The files of a program.
+    pub fn of(has_probes: bool) -> &'static [Self] {
+        if has_probes { &[Self::Clean, Self::Probing, Self::Values] } else { &[Self::Milling] }
     }
-    vec![
-        output("_Clean.gcode", milling),
-        output("_Probing.gcode", native::probing_program(program, header, feed, options)),
-        output(VALUES, native::values_file(program, options.charset)),
-    ]
+
+    /// What their names end in, behind the drawing's or path's name and R.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Milling => "_Milling.gcode",
+            Self::Clean => "_Clean.gcode",
+            Self::Probing => "_Probing.gcode",
+            Self::Values => "_Z.txt",
+        }
+    }
+
+    /// The whole text.
+    pub fn text(self, program: &Program, provenance: &str, writing: &Writing) -> String {
+        let header = Header { provenance: provenance.to_owned() };
+        match self {
+            Self::Milling | Self::Clean => native::program(program, &header, &writing.options),
+            Self::Probing => native::probing_program(program, &header, writing.probe_feed, &writing.options),
+            Self::Values => native::values_file(program, writing.options.charset),
+        }
+    }
 }
 
-const VALUES: &str = "_Z.txt";
+/// Whether a name, which R is a part of, cannot be a file's.
+pub fn stem_fault(stem: &str) -> bool {
+    stem.contains(['/', '\\']) || stem.contains(char::is_control)
+}

@@ -19,6 +19,8 @@ pub struct Wanted {
     pub drawings: Vec<WantedDrawing>,
     /// Paths that were named.
     pub paths: Vec<WantedPath>,
+    /// Directories that were named; without arguments, those of the library.
+    pub directories: Vec<Utf8PathBuf>,
     /// Names that mean nothing, or too much.
     pub problems: Vec<Diagnostic>,
 }
@@ -53,8 +55,8 @@ impl Session<'_> {
             }
         }
         if inputs.inputs.is_empty() {
-            for drawing in self.library() {
-                wanted.add_drawing(self.file(&drawing), false);
+            for directory in &self.context.settings.general.library.value {
+                self.add_directory(self.normal(directory), &mut wanted);
             }
         }
         wanted
@@ -78,15 +80,26 @@ impl Session<'_> {
         drawings.iter().map(|drawing| self.file(drawing)).collect()
     }
 
+    /// These directories and all below them, each once.
+    pub fn directories_below(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
+        let below = directories.iter().flat_map(|directory| library::directories(directory));
+        distinct(below.map(|directory| self.normal(&directory)))
+    }
+
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
         let normal = self.normal(place);
         if self.is_directory(place) && !library::is_drawing(&normal) {
-            for drawing in library::drawings(&normal) {
-                wanted.add_drawing(self.file(&drawing), false);
-            }
+            self.add_directory(normal, wanted);
         } else {
             wanted.add_drawing(self.db.file(&normal), true);
         }
+    }
+
+    fn add_directory(&self, directory: Utf8PathBuf, wanted: &mut Wanted) {
+        for drawing in library::drawings(&directory) {
+            wanted.add_drawing(self.file(&drawing), false);
+        }
+        wanted.directories.push(directory);
     }
 
     fn is_directory(&self, place: &Utf8Path) -> bool {

@@ -12,7 +12,7 @@ use crate::config::types;
 use crate::context::Context;
 
 /// Makes the database's settings. The configuration has been read without faults, so its patterns compile.
-pub(super) fn apply(db: &Database, context: &Context) {
+pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
     let general = &context.settings.general;
     let limits = &context.settings.limits;
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
@@ -26,6 +26,7 @@ pub(super) fn apply(db: &Database, context: &Context) {
         file_size: limits.file_size.value,
         entities: count(limits.entities.value),
         text_length: count(limits.text_length.value),
+        is_hashed,
     };
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),

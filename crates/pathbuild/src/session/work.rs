@@ -1,10 +1,9 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
-use std::sync::Arc;
-
-use pathbuild_db::{Database, MissingOption, Role, SourceFile, Target, closure, locate, path_names, program};
+use pathbuild_db::{
+    Closure, Database, MissingOption, Reached, Role, SourceFile, Target, closure, locate, path, path_names,
+};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_toolpath::Program;
 use rayon::prelude::*;
 
 use super::watchdog::Watchdog;
@@ -21,8 +20,19 @@ pub struct CheckedTarget {
     pub files: Vec<SourceFile>,
     /// Options that it needs and that nobody gave.
     pub missing_options: Vec<MissingOption>,
-    /// Its program, where it was asked for and nothing is wrong.
-    pub program: Option<Arc<Program>>,
+    /// What it becomes, where nothing is wrong.
+    pub emitted: Option<Emitted>,
+}
+
+/// What is known of a program before it is made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Emitted {
+    /// The path, as the drawing spells it.
+    pub path: Box<str>,
+    /// R: what is added to the names of its files.
+    pub suffix: Box<str>,
+    /// Whether there are probes in it or in anything that it embeds.
+    pub has_probes: bool,
 }
 
 /// Stacks of worker threads: queries call each other once for each level of embedding.
@@ -49,24 +59,27 @@ impl Session<'_> {
 
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.work_on(targets, false)
+        let results = self.guarded(targets, |db, target| check(db, *target));
+        let given_up = |(result, target): (Result<_, Box<Diagnostic>>, &Target)| {
+            result.unwrap_or_else(|problem| given_up(&self.db, *target, *problem))
+        };
+        results.into_iter().zip(targets).map(given_up).collect()
     }
 
-    /// Checks targets and makes the programs of those that are right.
-    pub fn make(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.work_on(targets, true)
-    }
-
-    /// Each target for itself: one that takes too long or shows a bug does not keep the others from being done.
-    fn work_on(&self, targets: &[Target], is_made: bool) -> Vec<CheckedTarget> {
+    /// Works on each item for itself: one that takes too long or shows a bug does not keep the others from being done. The order of the
+    /// results is that of the items.
+    pub fn guarded<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        work: impl Fn(&Database, &T) -> R + Sync,
+    ) -> Vec<Result<R, Box<Diagnostic>>> {
         let limit = self.context.settings.limits.seconds_per_path.value;
         let watchdog = Watchdog::new(limit);
-        let work = |db: &Database, target: &Target| {
+        let work = |db: &Database, item: &T| {
             let _watched = watchdog.begin(db);
-            let checked = db.guarded(limit, || check(db, *target, is_made));
-            checked.unwrap_or_else(|problem| given_up(db, *target, problem))
+            db.guarded(limit, || work(db, item)).map_err(Box::new)
         };
-        watchdog.during(|| self.spread(targets, work))
+        watchdog.during(|| self.spread(items, work))
     }
 
     /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
@@ -101,11 +114,11 @@ fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget
         diagnostics: vec![problem.in_file(file.path(db)).in_path(target.name(db))],
         files: vec![file],
         missing_options: Vec::new(),
-        program: None,
+        emitted: None,
     }
 }
 
-fn check(db: &Database, target: Target, is_made: bool) -> CheckedTarget {
+fn check(db: &Database, target: Target) -> CheckedTarget {
     let reached = closure(db, target);
     let located = reached.diagnostics.iter().map(|diagnostic| locate(db, diagnostic.clone()));
     CheckedTarget {
@@ -113,6 +126,21 @@ fn check(db: &Database, target: Target, is_made: bool) -> CheckedTarget {
         diagnostics: located.collect(),
         files: reached.files(db),
         missing_options: reached.missing_options.clone(),
-        program: if is_made { program(db, target).clone() } else { None },
+        emitted: emitted(db, reached),
     }
+}
+
+fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
+    if reached.has_errors() {
+        return None;
+    }
+    let root = path(db, reached.root?).path.as_ref()?;
+    let has_probes = |reached: &Reached<'_>| {
+        path(db, reached.instance).path.as_ref().is_some_and(|path| !path.probes.is_empty())
+    };
+    Some(Emitted {
+        path: root.name.as_str().into(),
+        suffix: root.output_suffix.clone(),
+        has_probes: reached.reached.iter().any(has_probes),
+    })
 }

@@ -1,0 +1,49 @@
+//! What files were made from, as `make` and `ninja` read it. (spec/05-command-line.md, `emit --deps`)
+
+use std::fmt::Write;
+
+use camino::Utf8Path;
+use pathbuild_db::Db;
+use pathbuild_diagnostic::Diagnostic;
+
+use super::deliver::cannot_write;
+use super::job::Job;
+use crate::context::Context;
+use crate::session::Session;
+
+/// Writes the file: for each path a rule of the files that it becomes, and the drawings and the configuration that they are made from.
+pub(super) fn write(
+    context: &Context,
+    session: &Session<'_>,
+    file: &Utf8Path,
+    jobs: &[Job],
+) -> Option<Diagnostic> {
+    let db = session.db();
+    let configuration = context.settings.file.as_ref().map(|file| session.normal(file));
+    let mut text = String::new();
+    for job in jobs {
+        let outputs: Vec<String> = job.files.iter().map(|(_, path)| escaped(path)).collect();
+        _ = write!(text, "{}:", outputs.join(" "));
+        let sources = job.sources.iter().map(|source| source.path(db).as_path());
+        for source in sources.chain(configuration.as_deref()) {
+            _ = write!(text, " {}", escaped(source));
+        }
+        text.push('\n');
+    }
+    let file = session.normal(file);
+    let written = db.system().write(&file, text.as_bytes());
+    written.err().map(|reason| cannot_write(file.as_str(), &reason))
+}
+
+/// A name in which nothing is taken for more than itself.
+fn escaped(path: &Utf8Path) -> String {
+    let mut escaped = String::with_capacity(path.as_str().len());
+    for character in path.as_str().chars() {
+        match character {
+            ' ' | '#' => escaped.extend(['\\', character]),
+            '$' => escaped.push_str("$$"),
+            character => escaped.push(character),
+        }
+    }
+    escaped
+}

@@ -1,0 +1,41 @@
+//! The options that programs need.
+
+use pathbuild_db::MissingOption;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::native::{Charset, WriteOptions};
+
+use super::deliver::Task;
+use crate::config::types;
+use crate::context::Context;
+use crate::session::{CheckedTarget, Writing};
+
+/// A value that a program needs and nobody gives is wrong usage; what has errors is not asked for it.
+pub(super) fn missing(context: &Context, task: Task, checked: &[CheckedTarget]) -> Option<String> {
+    let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
+    let is_missing = |option| sound().any(|checked| checked.missing_options.contains(&option));
+    let has_no_rapid = context.settings.general.rapid.value.is_none() && sound().next().is_some();
+    let missing = [
+        (is_missing(MissingOption::Feed), "feed", "the milling feed in mm/min of paths without F"),
+        (is_missing(MissingOption::SweepHeight), "sweep-height", "the sweep height in mm of paths without S"),
+        (has_no_rapid && task.writes_times(), "rapid", "the rapid feed in mm/min, for times"),
+    ];
+    let lines = missing.iter().filter(|(is_missing, ..)| *is_missing);
+    let lines: Vec<String> = lines
+        .map(|(_, name, what)| format!("missing {what}: give --{name}, or set `{name}` in pathbuild.toml"))
+        .collect();
+    (!lines.is_empty()).then(|| lines.join("\n"))
+}
+
+/// How files are written.
+pub(super) fn writing(context: &Context) -> Writing {
+    let general = &context.settings.general;
+    let charset = match general.charset.value {
+        types::Charset::Ascii => Charset::Ascii,
+        types::Charset::Utf8 => Charset::Utf8,
+    };
+    let rapid = general.rapid.value.unwrap_or_default();
+    Writing {
+        options: WriteOptions { lang: context.lang(), charset, rapid },
+        probe_feed: general.probe_feed.value.or(general.feed.value).unwrap_or_default(),
+    }
+}

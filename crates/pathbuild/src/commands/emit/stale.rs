@@ -1,0 +1,148 @@
+//! G-code that was written earlier and that nothing would write now. (PB520, spec/05-command-line.md)
+//!
+//! It is looked for only where the run knows everything that could have written it: beside drawings of directories that were named, or in the
+//! output directory. A program says itself which path of which drawing it was made from.
+
+use std::collections::BTreeSet;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{Db, SourceFile, path_names};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::{files, outputs as messages};
+use pathbuild_gcode::native::{Charset, comment};
+
+use super::asked::Asked;
+use super::job::{Job, output_directory};
+use crate::context::Context;
+use crate::session::{HEAD, OutputKind, Provenance, Session, title};
+
+/// Reports what is stale, or removes it.
+pub(super) fn deal_with(
+    context: &Context,
+    session: &Session<'_>,
+    asked: &Asked,
+    jobs: &[Job],
+    is_removed: bool,
+) -> Vec<Diagnostic> {
+    let stale = stale(context, session, asked, jobs);
+    let deal_with = |path: Utf8PathBuf| {
+        let name = path.file_name().unwrap_or_default();
+        if !is_removed {
+            return Some(Diagnostic::new(&messages::STALE).with("name", name).in_file(&path));
+        }
+        match session.db().system().remove(&path) {
+            Ok(()) => {
+                let removed = context.choose("stale, removed", "veraltet, entfernt");
+                context.printer.status(format_args!("{path}: {removed}"));
+                None
+            }
+            Err(reason) => {
+                let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", name);
+                Some(problem.with("reason", &*reason).in_file(&path))
+            }
+        }
+    };
+    stale.into_iter().filter_map(deal_with).collect()
+}
+
+fn stale(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Vec<Utf8PathBuf> {
+    if asked.covered.is_empty() && asked.directories.is_empty() {
+        return Vec::new();
+    }
+    let writers = Writers::new(context, session, asked, jobs);
+    let directories = match &context.settings.general.out_dir.value {
+        Some(directory) => vec![session.normal(directory)],
+        None => session.directories_below(&asked.directories),
+    };
+    let system = session.db().system();
+    let mut stale = Vec::new();
+    for directory in directories {
+        let names: Vec<String> = system
+            .list(&directory)
+            .unwrap_or_default()
+            .into_iter()
+            .filter(|entry| !entry.is_directory)
+            .map(|entry| entry.name.into())
+            .collect();
+        for name in names.iter().filter(|name| is_gcode(name)) {
+            let path = directory.join(name);
+            let head = system.head(&path, HEAD).unwrap_or_default();
+            let title = Provenance::of_program(&head).map(|(_, title)| title);
+            if title.is_some_and(|title| writers.have_left(&directory, &path, &title, &names)) {
+                stale.push(path);
+            }
+        }
+    }
+    stale
+}
+
+fn is_gcode(name: &str) -> bool {
+    Utf8Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gcode"))
+}
+
+/// What writes files.
+struct Writers {
+    /// Everything that the run's paths become.
+    outputs: BTreeSet<Utf8PathBuf>,
+    /// Paths of covered drawings that the run makes nothing of, because they are wrong or no targets: what they became earlier may be
+    /// theirs still.
+    idle: BTreeSet<Title>,
+    /// Drawings of which every path is known.
+    covered: BTreeSet<Title>,
+    /// Other drawings that there are.
+    others: BTreeSet<Title>,
+    /// Whether drawings of all of the library, or beside the program, are known: one that is not among them is gone.
+    knows_all: bool,
+}
+
+/// Where programs are written, and what they say they are made from.
+type Title = (Utf8PathBuf, String);
+
+impl Writers {
+    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
+        let db = session.db();
+        let place = |file: SourceFile| output_directory(context, session, file);
+        let name = |file: SourceFile| file.path(db).file_name().unwrap_or_default();
+        let drawing = |file: SourceFile| (place(file), comment(name(file), Charset::Ascii));
+        let made: BTreeSet<Title> = jobs
+            .iter()
+            .map(|job| (place(job.target.file(db)), title(name(job.target.file(db)), &job.path)))
+            .collect();
+        let of_covered = asked.covered.iter().flat_map(|file| {
+            path_names(db, *file).iter().map(|path| (place(*file), title(name(*file), path.as_str())))
+        });
+        let has_library = session.has_library();
+        let library = if has_library { session.everything() } else { Vec::new() };
+        Self {
+            outputs: jobs.iter().flat_map(outputs).collect(),
+            idle: of_covered.filter(|title| !made.contains(title)).collect(),
+            covered: asked.covered.iter().map(|file| drawing(*file)).collect(),
+            others: library.into_iter().filter(|file| !asked.covered.contains(file)).map(drawing).collect(),
+            knows_all: has_library || context.settings.general.out_dir.value.is_none(),
+        }
+    }
+
+    /// Whether nothing would write a program now. `beside`: what lies in its directory.
+    fn have_left(&self, directory: &Utf8Path, path: &Utf8Path, title: &str, beside: &[String]) -> bool {
+        let title = comment(title, Charset::Ascii);
+        let Some((drawing, _)) = title[1..].rsplit_once(": ") else { return false };
+        let named = |text: String| (directory.to_owned(), text);
+        let drawing = named(format!("({drawing})"));
+        let is_beside = beside.iter().any(|name| comment(name, Charset::Ascii) == drawing.1);
+        if self.outputs.contains(path)
+            || self.idle.contains(&named(title.clone()))
+            || self.others.contains(&drawing)
+        {
+            return false;
+        }
+        // A drawing that is there, but that the run does not know (an ignored one), is left alone.
+        self.covered.contains(&drawing) || (self.knows_all && !is_beside)
+    }
+}
+
+/// The files of a job, and what `adjust` makes of them.
+fn outputs(job: &Job) -> Vec<Utf8PathBuf> {
+    let mut outputs: Vec<Utf8PathBuf> = job.files.iter().map(|(_, path)| path.clone()).collect();
+    outputs.push(format!("{}{}", job.stem, OutputKind::Milling.suffix()).into());
+    outputs
+}
