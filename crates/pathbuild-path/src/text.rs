@@ -73,8 +73,12 @@ impl ParameterText {
         TextFault::new(&self.text, 0..self.text.len())
     }
 
-    /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places.
+    /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
+    /// text that is not read.
     pub fn problems(&self, class: ElementClass) -> Vec<Diagnostic> {
+        if class == ElementClass::Unread {
+            return Vec::new();
+        }
         let of_piece = |(index, piece): (usize, &Piece)| {
             let problem = self.problem(index, piece, class)?;
             Some(problem.with_text(self.fault(piece)))
@@ -85,7 +89,7 @@ impl ParameterText {
     fn problem(&self, index: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
         let first = self.text[piece.span.start as usize..].chars().next()?;
         let Some(letter) = piece.letter else {
-            return (class != ElementClass::Unread).then(|| unknown_letter(first, class));
+            return Some(unknown_letter(first, class));
         };
         if class.use_of(letter) == Use::Unknown {
             return Some(unknown_letter(first, class));

@@ -1,0 +1,134 @@
+//! Special circles, holes and helical circles; what belongs to no plane. (spec/10-drawing.md, "Special circles (PHANTOM)")
+
+use pathbuild_path::SegmentKind;
+
+use crate::support::{compile, path, raw, read, wrong};
+
+/// What a PHANTOM circle of a diameter is.
+fn special(diameter: &str) -> String {
+    let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
+    let is = [
+        (raw.start.is_some(), "start"),
+        (raw.end.is_some(), "end"),
+        (!raw.turns.is_empty(), "turn"),
+        (!raw.probes.is_empty(), "probe"),
+        (raw.diagnostics.iter().any(|found| found.code().to_string() == "PB105"), "PB105"),
+    ];
+    is.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn special_circles_are_told_apart_by_their_diameters() {
+    let known =
+        [("1", "start"), ("1.5", "turn"), ("2", "end"), ("6", "probe"), ("3", "PB105"), ("0.5", "PB105")];
+    for (diameter, what) in known {
+        assert_eq!(special(diameter), what, "{diameter}");
+    }
+}
+
+/// near() on the radius: 1e-6 of the radius and 0.001 mm.
+#[test]
+fn diameters_compare_approximately() {
+    let edges = [
+        ("1.0000009", "start"),
+        ("1.0000012", "PB105"),
+        ("0.9999991", "start"),
+        ("0.9999988", "PB105"),
+        ("1.5000014", "turn"),
+        ("1.5000017", "PB105"),
+        ("2.0000019", "end"),
+        ("2.0000022", "PB105"),
+        ("6.0000058", "probe"),
+        ("6.0000062", "PB105"),
+    ];
+    for (diameter, what) in edges {
+        assert_eq!(special(diameter), what, "{diameter}");
+    }
+}
+
+#[test]
+fn a_path_has_one_start_and_one_end() {
+    let good = "mill 0,0 20,0\nend 20,0";
+    assert_eq!(wrong(&path("T5 O3 I1 B0", good)), [""; 0]);
+    assert_eq!(wrong(&path("T5 O3 I1 B0", &format!("{good}\nstart 50,50"))), ["PB103"]);
+    assert_eq!(wrong(&path("T5 O3 I1 B0", &format!("{good}\nend 50,50"))), ["PB104"]);
+    assert_eq!(wrong(&path("T5 O3 I1 B0", "mill 0,0 20,0")), ["PB102"]);
+    assert_eq!(wrong("layer 1234.1P\nmill 0,0 20,0 \"B0\"\nend 20,0"), ["PB101"]);
+}
+
+/// Two starts belong to one path also where they are on different layers of it.
+#[test]
+fn markers_are_counted_over_all_layers_of_a_path() {
+    let tilde = path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0\nlayer 1234.1P~A\nstart 50,50");
+    assert_eq!(wrong(&tilde), ["PB103"]);
+}
+
+#[test]
+fn other_paths_of_the_file_are_read_all_the_same() {
+    let good = "layer 1234.2P\nstart 0,50 \"T5 O3 I1 B0\"\nmill 0,50 20,50\nend 20,50";
+    let file = read(&format!("layer 1234.1P\nmill 0,0 20,0\nend 20,0\n{good}"));
+    let sound: Vec<bool> = file.paths.iter().map(|(raw, _)| raw.is_sound()).collect();
+    assert_eq!(sound, [false, true]);
+}
+
+#[test]
+fn elements_lie_in_the_plane() {
+    for statement in ["mill 0,0 20,0", "mill arc 0,0 20,0 r 15", "circle 20,0 d 3", "circle 20,0 d 8"] {
+        let drawing = |z: &str| path("T5 O3 I1 B0", &format!("sweep 0,0 20,0\n{statement} z {z}\nend 20,0"));
+        let off_plane = |z| wrong(&drawing(z)).contains(&"PB110".to_owned());
+        assert!(!off_plane("0.000000001"), "{statement}");
+        assert!(off_plane("0.00000001"), "{statement}");
+    }
+    assert_eq!(wrong(&path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0 z 1")), ["PB110"]);
+}
+
+/// With O3: what a circle of a diameter is.
+fn drilled_or_milled(diameter: &str) -> String {
+    let statements = format!("sweep 0,0 20,0\ncircle 20,0 d {diameter}\nend 20,0");
+    let compiled = compile(&path("T5 O3 I1 B0", &statements));
+    match (&compiled.path, compiled.found.first()) {
+        (_, Some(found)) => found.code().to_string(),
+        (Some(path), None) => match path.segments[0].kind {
+            SegmentKind::Hole(_) => "hole".to_owned(),
+            SegmentKind::Helix(_) => "helix".to_owned(),
+            _ => "something else".to_owned(),
+        },
+        (None, None) => "nothing".to_owned(),
+    }
+}
+
+#[test]
+fn a_circle_of_the_cutters_diameter_is_a_hole_a_larger_one_helical_a_smaller_one_wrong() {
+    let edges = [
+        ("3", "hole"),
+        ("3.0000029", "hole"),
+        ("3.0000031", "helix"),
+        ("2.9999971", "hole"),
+        ("2.9999969", "PB109"),
+        ("12", "helix"),
+    ];
+    for (diameter, what) in edges {
+        assert_eq!(drilled_or_milled(diameter), what, "{diameter}");
+    }
+}
+
+#[test]
+fn a_helical_circle_is_no_larger_than_a() {
+    let helix = |parameters: &str, diameter: &str| {
+        wrong(&path(
+            &format!("T5 O3 I1 B0 {parameters}"),
+            &format!("sweep 0,0 20,0\ncircle 20,0 d {diameter}\nend 20,0"),
+        ))
+    };
+    assert_eq!(helix("", "12"), [""; 0]);
+    assert_eq!(helix("", "12.0001"), ["PB405"]);
+    assert_eq!(helix("A20", "20"), [""; 0]);
+    assert_eq!(helix("A20", "20.0001"), ["PB405"]);
+    assert_eq!(helix("A7", "8"), ["PB405"]);
+}
+
+/// O is the path's own literal, and a subpath's O is no matter to its circles.
+#[test]
+fn holes_are_of_the_paths_o() {
+    assert_eq!(wrong(&path("T5 O=X I1 B0 :X1~3", "sweep 0,0 20,0\ncircle 20,0 d 3\nend 20,0")), ["PB206 O"]);
+}

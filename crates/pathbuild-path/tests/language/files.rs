@@ -1,0 +1,109 @@
+//! Which files may hold a path. (spec/20-paths-and-files.md, "Which files may hold a path")
+
+use pathbuild_path::{FilePattern, PathKey, PathPattern};
+
+fn holds_with(file: &str, path: &str, stem: &str, name: &str) -> bool {
+    let key = PathKey::new(name, &PathPattern::new(path).unwrap()).expect("it is a path's name");
+    FilePattern::new(file).unwrap().ranges(stem).iter().any(|range| range.holds(&key))
+}
+
+fn holds(stem: &str, name: &str) -> bool {
+    holds_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, name)
+}
+
+/// Which of some paths a file of this name may hold.
+fn held<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
+    names.iter().copied().filter(|name| holds(stem, name)).collect()
+}
+
+#[test]
+fn the_table_of_the_specification_holds() {
+    assert_eq!(held("8000", &["8000.1A", "8001.1A"]), ["8000.1A"]);
+    let range = held("8000-8002", &["8000.0A", "8001.99A", "8002.99A", "8003.1A", "7999.9A"]);
+    assert_eq!(range, ["8000.0A", "8001.99A", "8002.99A"]);
+    assert_eq!(held("8000-8002,8004", &["8004.1A", "8003.0A"]), ["8004.1A"]);
+    assert_eq!(held("8000.4-8001,8000.1-8001.3", &["8000.2A", "8000.0A"]), ["8000.2A"]);
+    assert_eq!(held("8000.2-8000.3,8000.5", &["8000.4A", "8000.5A"]), ["8000.5A"]);
+    assert_eq!(held("1234.1-1234.10", &["1234.8A", "1234.5B", "1234.40A"]), ["1234.8A", "1234.5B"]);
+}
+
+#[test]
+fn both_ends_of_a_range_are_in_it() {
+    let names = ["1300.1A", "1300.2A", "1300.5A", "1300.9A", "1300.10A"];
+    assert_eq!(held("1300.2-1300.9", &names), ["1300.2A", "1300.5A", "1300.9A"]);
+}
+
+#[test]
+fn anything_may_stand_between_and_around_names() {
+    let names = ["1234.5A", "1300.1A", "1350.1A"];
+    assert_eq!(held("new 1234.1-1234.10,1300 gears", &names), ["1234.5A", "1300.1A"]);
+    assert_eq!(held("1234.5_1300", &names), ["1234.5A", "1300.1A"]);
+    assert_eq!(held("gears", &names), [""; 0]);
+}
+
+/// Blanks beside the hyphen make two names of a range.
+#[test]
+fn a_range_has_nothing_but_its_hyphen_between_its_ends() {
+    assert!(holds("8000-8002", "8001.1A"));
+    assert!(!holds("8000 - 8002", "8001.1A"));
+    assert!(holds("8000 - 8002", "8002.1A"));
+}
+
+/// Leftmost first and not overlapping: the middle name belongs to the first range, and no second one begins with it.
+#[test]
+fn ranges_do_not_overlap() {
+    let names = ["1001.1A", "1002.1A", "1003.1A", "1004.1A", "1005.1A"];
+    assert_eq!(held("1001-1003-1005", &names), ["1001.1A", "1002.1A", "1003.1A", "1005.1A"]);
+}
+
+/// A range that is written the wrong way round is none, but its ends are names.
+#[test]
+fn the_ends_of_a_range_are_names_too() {
+    assert_eq!(held("8002-8000", &["8000.1A", "8001.1A", "8002.1A"]), ["8000.1A", "8002.1A"]);
+}
+
+#[test]
+fn a_name_with_more_groups_than_the_file_is_in_it_and_not_the_other_way_round() {
+    let path = "([0-9]{4})(?:[.]([0-9]+))?(?:[.]([A-Z]))?";
+    let holds = |stem, name| holds_with(FilePattern::DEFAULT, path, stem, name);
+    assert!(holds("1234", "1234.3.A"));
+    assert!(holds("1234.3", "1234.3.A"));
+    assert!(holds("1234.3", "1234.3"));
+    assert!(!holds("1234.3", "1234"));
+    // A file part that is greater ends a range behind the path.
+    assert!(holds("1233-1234.3", "1234"));
+    assert!(!holds("1234.3-1235", "1234"));
+}
+
+#[test]
+fn whole_numbers_compare_by_value() {
+    assert!(holds("8999.01", "8999.1A"));
+    assert!(!holds("8999.10", "8999.1A"));
+    assert_eq!(held("1234.9-1234.11", &["1234.10A", "1234.100A", "1234.8A"]), ["1234.10A"]);
+    let long = format!("1234.{}", "9".repeat(50));
+    assert!(holds(&format!("1234.1-{long}"), &format!("{long}A")));
+    assert!(!holds(&format!("1234.1-{long}"), &format!("{long}0A")));
+}
+
+#[test]
+fn texts_compare_without_case() {
+    let holds = |stem, name| holds_with("([A-Z]+)(?:[.]([0-9]+))?", "([A-Z]+)[.]([0-9]+)", stem, name);
+    assert!(holds("gear.1-GEAR.9", "Gear.5"));
+    assert!(holds("axle-Gear", "BOLT.1"));
+    assert!(!holds("axle-gear", "HUB.1"));
+}
+
+/// "10" and "9" are compared as texts where the other group is no integer.
+#[test]
+fn a_number_and_a_text_compare_as_texts() {
+    let holds = |stem, name| holds_with("([A-Z0-9]+)", "([A-Z0-9]+)", stem, name);
+    assert!(holds("10-9A", "2A"));
+    assert!(!holds("3-9A", "2A"));
+}
+
+#[test]
+fn a_pattern_must_compile_and_match_something() {
+    assert!(FilePattern::new("([0-9]").is_err());
+    assert!(FilePattern::new("[0-9]*").is_err());
+    assert!(FilePattern::new("[0-9]+").is_ok());
+}

@@ -1,0 +1,205 @@
+//! Where each letter is allowed: every cell of the table of spec/30-parameters.md.
+
+use crate::support::{path, wrong};
+
+/// All letters, each with a value that is right wherever the letter is allowed.
+const LETTERS: [(char, &str); 23] = [
+    ('A', "20"),
+    ('B', "0.5"),
+    ('C', "1"),
+    ('D', "2.5"),
+    ('E', "x"),
+    ('F', "100"),
+    ('H', "1"),
+    ('I', "0.5"),
+    ('L', "x"),
+    ('M', "x"),
+    ('N', "1"),
+    ('O', "3"),
+    ('P', "0.9"),
+    ('Q', "x"),
+    ('R', "x"),
+    ('S', "10"),
+    ('T', "4"),
+    ('U', "4.1"),
+    ('W', "4"),
+    ('Z', "50"),
+    ('>', "1111.1P"),
+    ('@', "1111.1P"),
+    (':', "a1~2"),
+];
+
+/// What a path gives so that nothing is missing on any element.
+const PATH: &str = "T5 O3 Mx F200 B1 D3 I1 P1 U4";
+
+/// A cell of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cell {
+    /// `!`: own or the path's.
+    Needed,
+    /// `o`.
+    Allowed,
+    /// `c!` and `c`: what the chain's first segment says.
+    ChainNeeded,
+    Chain,
+    /// `-`: without effect.
+    Ignored,
+    /// `p` and empty: not known in the element's own text.
+    Unknown,
+}
+
+/// A row: cells as `LETTER:CELL`, those that are not known left out. `p` is not written: it is no matter of the element's text.
+fn cell(row: &str, letter: char) -> Cell {
+    let cell = row.split(' ').find(|cell| cell.starts_with(letter)).map(|cell| &cell[2..]);
+    match cell {
+        Some("!") => Cell::Needed,
+        Some("o") => Cell::Allowed,
+        Some("c!") => Cell::ChainNeeded,
+        Some("c") => Cell::Chain,
+        Some("-") => Cell::Ignored,
+        None => Cell::Unknown,
+        Some(other) => panic!("{other}"),
+    }
+}
+
+/// Goes through a row. `element` draws the element with a text, and all that makes a path of it.
+fn check_row(row: &str, element: impl Fn(&str) -> String) {
+    for (letter, value) in LETTERS {
+        let (cell, own) = (cell(row, letter), format!("{letter}{value}"));
+        let found = |parameters: &str, text: &str| wrong(&path(parameters, &element(text)));
+        let expected = match cell {
+            Cell::Ignored => vec![format!("PB210 {letter}")],
+            Cell::Unknown => vec![format!("PB202 {letter}")],
+            _ => vec![],
+        };
+        assert_eq!(found(PATH, &own), expected, "{cell:?}: {own} on the element");
+        if matches!(cell, Cell::Needed | Cell::ChainNeeded) {
+            let without = without(PATH, letter);
+            assert_eq!(found(&without, ""), [format!("PB201 {letter}")], "neither gives {letter}");
+            assert_eq!(found(&without, &own), [""; 0], "only the element gives {letter}");
+            assert_eq!(found(PATH, ""), [""; 0], "only the path gives {letter}");
+        }
+    }
+}
+
+/// The same, and that a letter of a chain has no effect on a segment that is not the first.
+fn check_chain_row(row: &str, statement: &str) {
+    check_row(row, |text| format!("{statement} 0,0 40,0{}\nend 40,0", note(text)));
+    for (letter, value) in LETTERS {
+        let text = format!("{letter}{value}");
+        let second =
+            path(PATH, &format!("{statement} 0,0 40,0\n{statement} 40,0 80,0{}\nend 80,0", note(&text)));
+        let expected = match cell(row, letter) {
+            Cell::Needed | Cell::Allowed => vec![],
+            Cell::ChainNeeded | Cell::Chain | Cell::Ignored => vec![format!("PB210 {letter}")],
+            Cell::Unknown => vec![format!("PB202 {letter}")],
+        };
+        assert_eq!(wrong(&second), expected, "{text} on the second segment");
+    }
+}
+
+fn without(parameters: &str, letter: char) -> String {
+    parameters.split(' ').filter(|piece| !piece.starts_with(letter)).collect::<Vec<_>>().join(" ")
+}
+
+fn note(text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!(" \"{text}\"") }
+}
+
+/// A circle at the end of a sweep.
+fn circle(circle: &'static str) -> impl Fn(&str) -> String {
+    move |text| format!("sweep 0,0 40,0\ncircle {}{}\nend 40,0", circle, note(text))
+}
+
+#[test]
+fn path_start() {
+    let row = "F:o B:o D:o I:o C:o W:o P:o U:o S:o T:! O:! M:o A:o Z:o ::o E:o R:o";
+    for (letter, value) in LETTERS {
+        let own = format!("{letter}{value}");
+        let found = |parameters: &str| wrong(&path(parameters, "mill 0,0 40,0\nend 40,0"));
+        let expected = match cell(row, letter) {
+            Cell::Unknown if letter == '@' => vec!["PB208".to_owned()],
+            Cell::Unknown => vec![format!("PB202 {letter}")],
+            _ => vec![],
+        };
+        let others = without(PATH, letter);
+        assert_eq!(found(&format!("{others} {own}")), expected, "{own} at the start");
+        if cell(row, letter) == Cell::Needed {
+            assert_eq!(found(&others), [format!("PB201 {letter}")]);
+        }
+    }
+}
+
+#[test]
+fn milling_segment() {
+    check_chain_row("F:o B:! D:- I:c! C:c W:c S:- N:o Q:o", "mill");
+}
+
+#[test]
+fn marking_segment() {
+    check_chain_row("F:o B:- D:! I:c! C:c W:c S:- N:o Q:o", "mark");
+}
+
+#[test]
+fn support_segment() {
+    check_chain_row("F:o B:! D:! I:c! C:c W:c P:! U:! S:- N:o Q:o", "bars");
+}
+
+#[test]
+fn sweep() {
+    check_row("S:o N:o", |text| format!("line DASHED 0,0 40,0{}\nend 40,0", note(text)));
+}
+
+#[test]
+fn drilled_hole() {
+    check_row("F:o B:! D:- C:o Q:o", circle("40,0 d 3"));
+}
+
+/// There is nothing to leave standing in a hole.
+#[test]
+fn drilled_hole_with_bars() {
+    check_row("F:o B:! D:- C:o Q:o", circle("BORDER 40,0 d 3"));
+}
+
+#[test]
+fn drilled_mark() {
+    check_row("F:o B:- D:! C:o Q:o", circle("DIVIDE 40,0 d 3"));
+}
+
+#[test]
+fn helical_circle() {
+    check_row("F:o B:! D:- I:! Q:o", circle("40,0 d 8"));
+}
+
+#[test]
+fn helical_mark() {
+    check_row("F:o B:- D:! I:! Q:o", circle("DIVIDE 40,0 d 8"));
+}
+
+#[test]
+fn helical_circle_with_bars() {
+    check_row("F:o B:! D:! I:! P:! U:! Q:o", circle("BORDER 40,0 d 10"));
+}
+
+/// T and O are needed, and always there: the path has them.
+#[test]
+fn subpath() {
+    check_row("N:o T:o O:o M:o H:o >:o ::o", |text| {
+        let name = if text.starts_with('>') { "" } else { ">1111.1P " };
+        format!("subpath 0,0 40,0 \"{name}{text}\"\nend 40,0")
+    });
+}
+
+#[test]
+fn probe() {
+    check_row("T:o H:o Z:o L:o", |text| format!("mill 0,0 40,0\nprobe 20,40{}\nend 40,0", note(text)));
+}
+
+/// The text of a DOT line is not read, and a HIDDEN line takes none.
+#[test]
+fn silent_sweeps() {
+    for (letter, value) in LETTERS {
+        let drawing = format!("skip 0,0 40,0 \"{letter}{value} {letter}{value} ?\"\nend 40,0");
+        assert_eq!(wrong(&path(PATH, &drawing)), [""; 0]);
+    }
+}

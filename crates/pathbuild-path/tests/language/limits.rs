@@ -1,0 +1,178 @@
+//! Values against their limits: PB203. (spec/30-parameters.md, "Checks")
+
+use pathbuild_path::Path;
+
+use crate::support::{codes, compile, path, wrong};
+
+/// A path with a milled line, and the text of its start.
+fn start(text: &str) -> Vec<String> {
+    wrong(&path(text, "mill 0,0 40,0\nend 40,0"))
+}
+
+/// A statement on a path from (0, 0) to (40, 0).
+fn on(statement: &str, parameters: &str) -> Vec<String> {
+    let errors = wrong(&path(parameters, &format!("{statement}\nend 40,0")));
+    errors.into_iter().filter(|found| !found.starts_with("PB210")).collect()
+}
+
+/// Nothing is greater than 0 by less than 0.000000001.
+const INSIDE: &str = "0.0000000011";
+const OUTSIDE: &str = "0.0000000009";
+
+#[test]
+fn a_paths_values_are_greater_than_0() {
+    for letter in ['F', 'I', 'C', 'O', 'A', 'W', 'Z', 'P', 'U'] {
+        let with = |value: &str| {
+            let others: Vec<&str> =
+                ["T5", "O3", "I1", "B0"].into_iter().filter(|piece| !piece.starts_with(letter)).collect();
+            start(&format!("{} {letter}{value}", others.join(" ")))
+        };
+        assert_eq!(with(INSIDE), [""; 0], "{letter}");
+        for outside in [OUTSIDE, "0", "-1"] {
+            assert_eq!(with(outside), [format!("PB203 {letter}")], "{letter}{outside}");
+        }
+    }
+    assert_eq!(start(&format!("T{INSIDE} O3 I1 B-1")), [""; 0]);
+    assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
+}
+
+#[test]
+fn an_elements_values_are_greater_than_0() {
+    let parameters = "T5 O3 I1 B0 D2 P1 U4 Mx";
+    let table = [
+        ("mill 0,0 40,0 \"#\"", "FICW"),
+        ("mark 0,0 40,0 \"#\"", "FICW"),
+        ("bars 0,0 40,0 \"#\"", "FICWP"),
+        ("sweep 0,0 40,0\ncircle 40,0 d 3 \"#\"", "FC"),
+        ("sweep 0,0 40,0\ncircle 40,0 d 8 \"#\"", "FI"),
+        ("sweep 0,0 40,0\ncircle BORDER 40,0 d 10 \"#\"", "FIP"),
+        ("subpath 0,0 40,0 \">1111.1P #\"", "O"),
+        ("mill 0,0 40,0\nprobe 20,40 \"#\"", "Z"),
+    ];
+    for (statement, letters) in table {
+        for letter in letters.chars() {
+            let with = |value: &str| on(&statement.replace('#', &format!("{letter}{value}")), parameters);
+            assert_eq!(with(INSIDE), [""; 0], "{letter} {statement}");
+            assert_eq!(with(OUTSIDE), [format!("PB203 {letter}")], "{letter} {statement}");
+        }
+    }
+    // More than 0, but then bars without end: that is another rule.
+    assert_eq!(on(&format!("bars 0,0 40,0 \"U{OUTSIDE}\""), parameters)[0], "PB203 U");
+    assert!(!on(&format!("bars 0,0 40,0 \"U{INSIDE}\""), parameters).contains(&"PB203 U".to_owned()));
+}
+
+#[test]
+fn s_is_above_t() {
+    assert_eq!(start("T5 O3 I1 B0 S5.000006"), [""; 0]);
+    for outside in ["5.000004", "5", "4"] {
+        assert_eq!(start(&format!("T5 O3 I1 B0 S{outside}")), ["PB203 S"]);
+    }
+    let sweep = |text: &str| on(&format!("sweep 0,0 40,0 \"{text}\""), "T5 O3 S20");
+    assert_eq!(sweep("S5.1"), [""; 0]);
+    assert_eq!(sweep("S5"), ["PB203 S"]);
+}
+
+#[test]
+fn b_and_d_are_below_t() {
+    for letter in ['B', 'D'] {
+        let with = |value: &str| {
+            start(&format!("T5 O3 I1 {letter}{value} {}", if letter == 'B' { "" } else { "B0" }))
+        };
+        assert_eq!(with("4.99999"), [""; 0], "{letter}");
+        for outside in ["4.999996", "5", "6"] {
+            assert_eq!(with(outside), [format!("PB203 {letter}")], "{letter}{outside}");
+        }
+    }
+    assert_eq!(on("mill 0,0 40,0 \"B4.9\"", "T5 O3 I1"), [""; 0]);
+    assert_eq!(on("mill 0,0 40,0 \"B5\"", "T5 O3 I1"), ["PB203 B"]);
+    assert_eq!(on("mark 0,0 40,0 \"D4.9\"", "T5 O3 I1"), [""; 0]);
+    assert_eq!(on("mark 0,0 40,0 \"D5\"", "T5 O3 I1"), ["PB203 D"]);
+}
+
+/// Also a letter that has no effect there says something impossible.
+#[test]
+fn letters_without_effect_are_checked_too() {
+    assert_eq!(on("mark 0,0 40,0 \"B4.9\"", "T5 O3 I1 D2"), [""; 0]);
+    assert_eq!(on("mark 0,0 40,0 \"B5\"", "T5 O3 I1 D2"), ["PB203 B"]);
+    assert_eq!(on("mill 0,0 40,0 \"D5\"", "T5 O3 I1 B0"), ["PB203 D"]);
+    assert_eq!(on("mill 0,0 40,0 \"S5\"", "T5 O3 I1 B0"), ["PB203 S"]);
+}
+
+/// A letter that the table does not list for an element is compared all the same, with the value that the path gives.
+#[test]
+fn an_elements_own_t_is_compared_with_the_paths_values() {
+    let probe =
+        |text: &str, parameters: &str| on(&format!("mill 0,0 40,0\nprobe 20,40 \"{text}\""), parameters);
+    assert_eq!(probe("T9.9", "T5 O3 I1 B0 S10"), [""; 0]);
+    assert_eq!(probe("T10", "T5 O3 I1 B0 S10"), ["PB203 S"]);
+    let subpath =
+        |text: &str, parameters: &str| on(&format!("subpath 0,0 40,0 \">1111.1P {text}\""), parameters);
+    assert_eq!(subpath("T1.1", "T5 O3 I1 B1"), [""; 0]);
+    assert_eq!(subpath("T1", "T5 O3 I1 B1"), ["PB203 B"]);
+    assert_eq!(subpath("T2", "T5 O3 I1 B0 D2"), ["PB203 D"]);
+    assert_eq!(subpath("T10", "T5 O3 I1 B1 S10"), ["PB203 S"]);
+}
+
+/// What is wrong with the path's values alone is reported there, not on every element again.
+#[test]
+fn the_paths_own_faults_are_reported_once() {
+    assert_eq!(on("mill 0,0 40,0 \"F100\"", "T5 O3 I1 B6"), ["PB203 B"]);
+    assert_eq!(on("mill 0,0 40,0 \"B1\"", "T5 O3 I1 B6"), ["PB203 B"]);
+}
+
+#[test]
+fn d_is_above_b_on_paths_and_where_there_are_bars() {
+    assert_eq!(start("T5 O3 I1 B1 D1.00001"), [""; 0]);
+    for outside in ["1.000001", "1", "0"] {
+        assert_eq!(start(&format!("T5 O3 I1 B1 D{outside}")), ["PB203 D"]);
+    }
+    let parameters = "T5 O3 I1 B1 P1 U4";
+    assert_eq!(on("bars 0,0 40,0 \"D1.1\"", parameters), [""; 0]);
+    assert_eq!(on("bars 0,0 40,0 \"D1\"", parameters), ["PB203 D"]);
+    assert_eq!(on("bars 0,0 40,0 \"B2\"", "T5 O3 I1 D2 P1 U4"), ["PB203 D"]);
+    assert_eq!(on("sweep 0,0 40,0\ncircle BORDER 40,0 d 10 \"D1\"", parameters), ["PB203 D"]);
+    // Elsewhere they have nothing to do with each other.
+    assert_eq!(on("mill 0,0 40,0 \"B3\"", "T5 O3 I1 D2"), [""; 0]);
+    assert_eq!(on("mark 0,0 40,0 \"D0.5\"", "T5 O3 I1 B1"), [""; 0]);
+}
+
+#[test]
+fn p_and_u_are_greater_than_0_on_paths_and_where_there_are_bars() {
+    assert_eq!(start("T5 O3 I1 B0 P0"), ["PB203 P"]);
+    assert_eq!(start("T5 O3 I1 B0 U-1"), ["PB203 U"]);
+}
+
+/// The S that a path without S gets from its role must be above everything that has a T of its own, too.
+#[test]
+fn the_default_sweep_height_is_above_every_t() {
+    let path_of = |text: &str| -> Path {
+        let statements = format!("subpath 0,0 40,0 \">1111.1P\"\nprobe 20,40 \"{text}\"\nend 40,0");
+        compile(&path("T5 O3 I1 B0", &statements)).path.unwrap()
+    };
+    let check = |path: &Path, height: f64| codes(&path.check_sweep_height(height));
+    assert_eq!(check(&path_of("Lx"), 5.1), [""; 0]);
+    assert_eq!(check(&path_of("Lx"), 5.0), ["PB203"]);
+    assert_eq!(check(&path_of("T7"), 7.1), [""; 0]);
+    assert_eq!(check(&path_of("T7"), 7.0), ["PB203"]);
+    let subpath = compile(&path("T5 O3 I1 B0", "subpath 0,0 40,0 \">1111.1P T7\"\nend 40,0")).path.unwrap();
+    assert_eq!(check(&subpath, 7.1), [""; 0]);
+    assert_eq!(check(&subpath, 7.0), ["PB203"]);
+    // An S of its own was checked with the other values.
+    let with = compile(&path("T5 O3 I1 B0 S20", "mill 0,0 40,0\nend 40,0")).path.unwrap();
+    assert_eq!(check(&with, 1.0), [""; 0]);
+}
+
+#[test]
+fn there_is_room_for_the_cutter_between_bars() {
+    // Two bars on 10 mm: 10 / 2 - P between them.
+    let bars = |p: &str, u: &str| on("bars 0,0 10,0\nsweep 10,0 40,0", &format!("T5 O3 I1 B0 D2 P{p} U{u}"));
+    assert_eq!(bars("2", "3"), [""; 0]);
+    assert_eq!(bars("2.00001", "2.9"), ["PB406"]);
+    // No bar at all where there is no room for one.
+    assert_eq!(bars("5.1", "5"), [""; 0]);
+    assert_eq!(bars("5", "5"), [""; 0]);
+    let circle = |u: &str| on("sweep 0,0 40,0\ncircle BORDER 40,0 d 11", &format!("T5 O3 I1 B0 D2 P1 U{u}"));
+    // The cutter's centre runs on a circle of 8 mm: 25.13 mm.
+    assert_eq!(circle("4"), [""; 0]);
+    assert_eq!(circle("2.5"), ["PB406"]);
+}

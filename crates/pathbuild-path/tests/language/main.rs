@@ -1,0 +1,22 @@
+//! The rules of the drawing language, each with one drawing just inside and one just outside. (spec/10-drawing.md to
+//! spec/50-path-building.md)
+#![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
+
+mod assignment;
+mod chains;
+mod circles;
+mod files;
+mod letters;
+mod limits;
+mod line_types;
+mod names;
+mod parameters;
+mod range_table;
+mod stars;
+mod text_circle;
+mod texts;
+mod turns;
+mod variables;
+mod walk;
+
+mod support;

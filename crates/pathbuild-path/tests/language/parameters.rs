@@ -1,0 +1,216 @@
+//! Which value holds: the element's own, else the path's. (spec/30-parameters.md)
+
+use pathbuild_path::{CutSegment, Path, SegmentKind};
+
+use crate::support::{compile, path, read, wrong};
+
+const PATH: [(char, &str); 13] = [
+    ('T', "5"),
+    ('O', "3"),
+    ('M', "x"),
+    ('F', "200"),
+    ('B', "1"),
+    ('D', "3"),
+    ('I', "1"),
+    ('C', "1"),
+    ('W', "4"),
+    ('P', "1"),
+    ('U', "4"),
+    ('Z', "50"),
+    ('A', "20"),
+];
+
+/// Another value for each letter.
+fn other(letter: char) -> &'static str {
+    match letter {
+        'T' => "4.5",
+        'O' => "2.5",
+        'M' => "y",
+        'F' => "100",
+        'B' | 'I' => "0.5",
+        'D' => "2.5",
+        'C' => "2",
+        'W' => "4.2",
+        'P' => "0.9",
+        'U' => "4.1",
+        'Z' => "60",
+        _ => panic!("{letter}"),
+    }
+}
+
+fn parameters(changed: Option<char>) -> String {
+    let piece = |(letter, value): &(char, &str)| {
+        format!("{letter}{}", if changed == Some(*letter) { other(*letter) } else { value })
+    };
+    PATH.iter().map(piece).collect::<Vec<_>>().join(" ")
+}
+
+/// What a path knows of its first segment and its probe, without where it is written.
+fn known(parameters: &str, statements: &str) -> String {
+    let compiled = compile(&path(parameters, statements));
+    let errors: Vec<_> = compiled.found.iter().filter(|found| found.is_error()).collect();
+    assert!(errors.is_empty(), "{errors:?} with {parameters}\n{statements}");
+    let path: Path = compiled.path.unwrap();
+    let segment = match path.segments[0].kind.clone() {
+        SegmentKind::Cut(cut) => format!("{:?}", CutSegment { own_chain_letters: Vec::new(), ..cut }),
+        SegmentKind::Subpath(subpath) => {
+            format!("{} {} {:?}", subpath.thickness, subpath.tool, subpath.material)
+        }
+        kind => format!("{kind:?}"),
+    };
+    let probe = path.probes.first().map(|probe| (probe.height, probe.feed));
+    format!("{segment} {probe:?}")
+}
+
+/// That these letters hold from the element where it gives them, else from the path.
+fn check(letters: &str, statement: impl Fn(&str) -> String) {
+    for letter in letters.chars() {
+        let own = format!("{letter}{}", other(letter));
+        let plain = known(&parameters(None), &statement(""));
+        let from_element = known(&parameters(None), &statement(&own));
+        let from_path = known(&parameters(Some(letter)), &statement(""));
+        let back = format!("{letter}{}", PATH.iter().find(|(known, _)| *known == letter).unwrap().1);
+        assert_ne!(plain, from_path, "{letter} of the path matters");
+        assert_eq!(from_element, from_path, "{letter} of the element is as good as the path's");
+        let over = known(&parameters(Some(letter)), &statement(&back));
+        assert_eq!(over, plain, "{letter} of the element wins over the path's");
+    }
+}
+
+fn on_line(kind: &'static str) -> impl Fn(&str) -> String {
+    move |text| format!("{kind} 0,0 40,0 \"Q1 {text}\"\nend 40,0")
+}
+
+fn on_circle(circle: &'static str) -> impl Fn(&str) -> String {
+    move |text| format!("sweep 0,0 40,0\ncircle {circle} \"Q1 {text}\"\nend 40,0")
+}
+
+#[test]
+fn segments_of_chains() {
+    check("FBICW", on_line("mill"));
+    check("FDICW", on_line("mark"));
+    check("FBDICWPU", on_line("bars"));
+}
+
+#[test]
+fn subpaths_and_probes() {
+    check("TOM", |text| format!("subpath 0,0 40,0 \">1111.1P {text}\"\nend 40,0"));
+    check("TZ", |text| format!("mill 0,0 40,0\nprobe 20,40 \"Lx {text}\"\nend 40,0"));
+}
+
+#[test]
+fn circles() {
+    check("FBC", on_circle("40,0 d 3"));
+    check("FDC", on_circle("DIVIDE 40,0 d 3"));
+    check("FBI", on_circle("40,0 d 8"));
+    check("FDI", on_circle("DIVIDE 40,0 d 8"));
+    check("FBDIPU", on_circle("BORDER 40,0 d 10"));
+}
+
+#[test]
+fn h_and_n_and_s_have_no_value_of_the_path() {
+    let compiled =
+        compile(&path("T5 O3 I1 B1", "subpath 0,0 40,0 \">1111.1P\"\nprobe 20,40 \"H2\"\nend 40,0"));
+    let path_without = compiled.path.unwrap();
+    let SegmentKind::Subpath(subpath) = &path_without.segments[0].kind else { panic!() };
+    assert_eq!((subpath.height, path_without.probes[0].height), (0.0, 7.0));
+    let compiled = compile(&path("T5 O3 I1 B1", "subpath 0,0 40,0 \">1111.1P H1,5\"\nend 40,0"));
+    let path_with = compiled.path.unwrap();
+    let SegmentKind::Subpath(subpath) = &path_with.segments[0].kind else { panic!() };
+    assert_eq!(subpath.height, 1.5);
+}
+
+#[test]
+fn a_sweep_has_its_own_height_or_that_of_the_path() {
+    let height = |text: &str| {
+        let path =
+            compile(&path("T5 O3 S20", &format!("line DASHED 0,0 40,0 {text}\nend 40,0"))).path.unwrap();
+        let SegmentKind::Sweep(sweep) = path.segments[0].kind.clone() else { panic!() };
+        sweep.height
+    };
+    assert_eq!((height(""), height("\"S12\"")), (None, Some(12.0)));
+}
+
+#[test]
+fn the_default_s_of_an_embedded_or_checked_path_is_t_and_o() {
+    let path_of = |parameters: &str| compile(&path(parameters, "mill 0,0 40,0\nend 40,0")).path.unwrap();
+    let without = path_of("T5 O3 I1 B0");
+    assert_eq!(without.embedded_sweep_height(), 8.0);
+    assert_eq!(
+        (without.emitted_sweep_height(Some(30.0)), without.emitted_sweep_height(None)),
+        (Some(30.0), None)
+    );
+    let with = path_of("T5 O3 I1 B0 S20");
+    assert_eq!((with.embedded_sweep_height(), with.emitted_sweep_height(Some(30.0))), (20.0, Some(20.0)));
+}
+
+/// Everything that is milled or drilled needs a feed, but only a chain needs the path's even where all its segments have their own.
+#[test]
+fn a_path_needs_the_option_for_a_feed_where_it_gives_none() {
+    let needs = |parameters: &str, statements: &str| {
+        compile(&path(&format!("T5 O3 I1 B0 {parameters}"), statements)).path.unwrap().needs_feed()
+    };
+    assert!(needs("", "mill 0,0 40,0\nend 40,0"));
+    assert!(needs("", "mill 0,0 40,0 \"F100\"\nend 40,0"));
+    assert!(!needs("F100", "mill 0,0 40,0\nend 40,0"));
+    assert!(!needs("", "sweep 0,0 40,0\nend 40,0"));
+    assert!(needs("", "sweep 0,0 40,0\ncircle 40,0 d 3\nend 40,0"));
+    assert!(!needs("", "sweep 0,0 40,0\ncircle 40,0 d 3 \"F100\"\nend 40,0"));
+    assert!(needs("", "sweep 0,0 40,0\ncircle 40,0 d 8\nend 40,0"));
+    assert!(!needs("", "sweep 0,0 40,0\ncircle 40,0 d 8 \"F100\"\nend 40,0"));
+    assert!(!needs("", "subpath 0,0 40,0 \">1111.1P\"\nend 40,0"));
+}
+
+const GIVER: &str = "layer 1234.2P\nstart 0,100 \"T5 O3 I1 B1\"\nmill 0,100 40,100\nend 40,100";
+
+/// What is wrong with a path that uses @ beside one that gives.
+fn at(text: &str, giver: &str) -> Vec<String> {
+    wrong(&format!("{}\n{giver}", path(text, "mill 0,0 40,0\nend 40,0")))
+}
+
+#[test]
+fn at_takes_the_parameters_of_another_path_of_the_drawing() {
+    assert_eq!(at("@1234.2P", GIVER), [""; 0]);
+    assert_eq!(at("@1234.2p", GIVER), [""; 0]);
+    assert_eq!(at("@1234.3P", GIVER), ["PB208"]);
+    assert_eq!(at("@1234.2P F100", GIVER), ["PB208"]);
+    assert_eq!(at("@1234.2P", &GIVER.replace("\"T5 O3 I1 B1\"", "\"@1234.1P\"")), ["PB208"]);
+    assert_eq!(at("@1234.1P", GIVER), ["PB208"]);
+    assert_eq!(at("@1234.2P", "layer 1234.2P\nmill 0,100 40,100\nend 40,100"), ["PB208"]);
+}
+
+#[test]
+fn at_takes_everything_that_the_other_start_says() {
+    let drawing = |text: &str, giver: &str| {
+        format!("{}\n{}", path(text, "mill 0,0 40,0\nend 40,0"), GIVER.replace("T5 O3 I1 B1", giver))
+    };
+    let all = "T5 O3 I1 B1 F100 S20 My Rz E1111 W4 C2";
+    let (own, borrowed) = (compile(&drawing(all, all)), compile(&drawing("@1234.2P", all)));
+    assert!(own.found.is_empty() && borrowed.found.is_empty());
+    let show = |compiled: crate::support::Compiled| {
+        let path = compiled.path.unwrap();
+        let of_path = (
+            path.tool,
+            path.thickness,
+            path.sweep_height,
+            path.material,
+            path.feed,
+            path.output_suffix,
+            path.embeds_only,
+        );
+        format!("{of_path:?} {:?}", path.segments[0].kind)
+    };
+    assert_eq!(show(own), show(borrowed));
+}
+
+/// What is wrong with borrowed parameters is the other path's fault, and reported as such.
+#[test]
+fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
+    let file =
+        read(&format!("{}\n{}", path("@1234.2P", "mill 0,0 40,0\nend 40,0"), GIVER.replace("B1", "B1 X1")));
+    for (path, _) in &file.paths {
+        let found: Vec<_> =
+            path.diagnostics.iter().map(|found| (found.code().to_string(), found.path.as_deref())).collect();
+        assert_eq!(found, [("PB202".to_owned(), Some("1234.2P"))], "{:?}", path.name);
+    }
+}

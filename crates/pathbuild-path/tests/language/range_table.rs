@@ -1,0 +1,98 @@
+//! The sorted table of name ranges says what looking at every range says.
+
+use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable};
+use proptest::prelude::*;
+
+/// The ranges in the names of some files.
+fn ranges(pattern: &FilePattern, stems: &[String]) -> Vec<(NameRange, u32)> {
+    let of_file = |(number, stem): (u32, &String)| {
+        pattern.ranges(stem).into_iter().map(move |range| (range, number)).collect::<Vec<_>>()
+    };
+    (0..).zip(stems).flat_map(of_file).collect()
+}
+
+fn scan(entries: &[(NameRange, u32)], path: &PathKey) -> Vec<u32> {
+    let mut files: Vec<u32> =
+        entries.iter().filter(|(range, _)| range.holds(path)).map(|(_, file)| *file).collect();
+    files.dedup();
+    files
+}
+
+fn check(
+    file: &str,
+    path: &str,
+    stems: &[String],
+    names: &[String],
+    is_sorted: bool,
+) -> Result<(), TestCaseError> {
+    let pattern = PathPattern::new(path).unwrap();
+    let entries = ranges(&FilePattern::new(file).unwrap(), stems);
+    let table = RangeTable::new(entries.clone());
+    prop_assert!(table.is_sorted() || !is_sorted);
+    for name in names {
+        let Some(key) = PathKey::new(name, &pattern) else { continue };
+        prop_assert_eq!(table.files(&key), scan(&entries, &key), "{} in {:?}", name, stems);
+    }
+    Ok(())
+}
+
+/// A part of a file's name by the default pattern: few numbers, so that ranges meet.
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        (1000..1006_u32).prop_map(|group| group.to_string()),
+        (1000..1006_u32, 0..12_u32).prop_map(|(group, part)| format!("{group}.{part}")),
+        (1000..1006_u32, 0..12_u32).prop_map(|(group, part)| format!("{group}.0{part}")),
+    ]
+}
+
+fn stem(part: impl Strategy<Value = String> + Clone) -> impl Strategy<Value = String> {
+    let name = prop_oneof![part.clone(), (part.clone(), part).prop_map(|(from, to)| format!("{from}-{to}"))];
+    prop::collection::vec(name, 0..4).prop_map(|names| names.join(","))
+}
+
+/// A group of a pattern whose groups are integers, texts, or nothing.
+fn mixed() -> impl Strategy<Value = String> + Clone {
+    "([0-9]{1,2}|[A-C]{1,2})?([.]([0-9]|[A-B]))?"
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_table_says_what_the_scan_says(
+        stems in prop::collection::vec(stem(number().boxed()), 0..12),
+        names in prop::collection::vec((999..1007_u32, 0..13_u32), 1..8),
+    ) {
+        let names: Vec<String> = names.into_iter().map(|(group, part)| format!("{group}.{part}A")).collect();
+        check(FilePattern::DEFAULT, PathPattern::DEFAULT, &stems, &names, true)?;
+    }
+
+    /// Groups that are sometimes integers and sometimes texts have no order, and groups can be missing anywhere.
+    #[test]
+    fn the_table_says_what_the_scan_says_where_there_is_no_order(
+        stems in prop::collection::vec(stem(mixed()), 0..8),
+        names in prop::collection::vec(mixed(), 1..8),
+    ) {
+        let pattern = "([0-9]+|[A-Z]+)(?:[.]([0-9]+|[A-Z]+))?|[.]([0-9]+|[A-Z]+)";
+        check(pattern, pattern, &stems, &names, false)?;
+    }
+}
+
+#[test]
+fn a_table_of_integers_has_an_order_and_one_of_both_has_none() {
+    let table = |pattern: &str, stem: &str| {
+        RangeTable::new(ranges(&FilePattern::new(pattern).unwrap(), &[stem.to_owned()])).is_sorted()
+    };
+    assert!(table(FilePattern::DEFAULT, "1000-1001.5,1002"));
+    assert!(table("([0-9]+)([A-Z]*)", "1000A-1001B,1002"));
+    assert!(!table("([0-9A-Z]+)", "1000-1001B"));
+}
+
+/// A file is named once, however many of its ranges hold the path, and files are in order.
+#[test]
+fn each_file_is_found_once_and_in_order() {
+    let stems = ["1001-1003,1002".to_owned(), "1002".to_owned(), "1000-1009".to_owned()];
+    let entries = ranges(&FilePattern::default(), &stems);
+    let key = PathKey::new("1002.1A", &PathPattern::default()).unwrap();
+    assert_eq!(RangeTable::new(entries).files(&key), [0, 1, 2]);
+}

@@ -1,0 +1,124 @@
+//! Drawings in text form, taken through the language.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_draw::Sheet;
+use pathbuild_dxf::{Options, Units};
+use pathbuild_path::{
+    Bindings, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Xy, bind, raw_file, walk,
+};
+
+/// What became of a path.
+pub(crate) struct Compiled {
+    pub(crate) path: Option<Path>,
+    pub(crate) items: Vec<Item>,
+    /// What was found, stage by stage.
+    pub(crate) found: Vec<Diagnostic>,
+}
+
+pub(crate) fn language() -> Language {
+    Language {
+        path_pattern: PathPattern::default(),
+        line_types: LineTypeAliases::default(),
+        text_limit: 65_536,
+        join_tolerance: 0.0,
+    }
+}
+
+/// The paths of a drawing.
+pub(crate) fn read(drawing: &str) -> RawFile {
+    read_as(drawing, &language())
+}
+
+pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
+    let sheet = Sheet::parse(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let options = Options {
+        keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
+        units: Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 10_000,
+        max_text: 65_536,
+    };
+    raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &options), language)
+}
+
+/// The only path of a drawing, without its values.
+pub(crate) fn raw(drawing: &str) -> RawPath {
+    let mut paths = read(drawing).paths;
+    assert_eq!(paths.len(), 1, "paths in\n{drawing}");
+    paths.remove(0).0
+}
+
+/// The first path of a drawing, with check values.
+pub(crate) fn compile(drawing: &str) -> Compiled {
+    let (raw, _) = read(drawing).paths.into_iter().next().expect("there is a path");
+    compile_raw(&raw, &Bindings::check_values(&raw), &language())
+}
+
+/// A path stage by stage, each gone into only when the ones before found no error.
+pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
+    let mut compiled = Compiled { path: None, items: Vec::new(), found: raw.diagnostics.clone() };
+    if raw.is_sound() {
+        let (path, found) = bind(raw, bindings, language);
+        compiled.path = path;
+        compiled.found.extend(found);
+    }
+    if let Some(path) = &compiled.path {
+        let walked = walk(path, language.join_tolerance);
+        compiled.items = walked.items;
+        compiled.found.extend(walked.diagnostics);
+    }
+    compiled
+}
+
+/// The codes of findings with the letters they are about.
+pub(crate) fn codes(found: &[Diagnostic]) -> Vec<String> {
+    let code = |found: &Diagnostic| {
+        let letter = found.arguments.iter().find(|(name, _)| *name == "letter");
+        let letter = letter.map(|(_, letter)| format!(" {}", letter.render(pathbuild_diagnostic::Lang::En)));
+        format!("{}{}", found.code(), letter.unwrap_or_default())
+    };
+    found.iter().map(code).collect()
+}
+
+/// The codes of what is wrong with the first path of a drawing.
+pub(crate) fn wrong(drawing: &str) -> Vec<String> {
+    codes(&compile(drawing).found)
+}
+
+/// A drawing of one path: the text of its start at (0, 0), and further statements.
+pub(crate) fn path(parameters: &str, statements: &str) -> String {
+    format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
+}
+
+/// What is done along the first path of a drawing, in order: a line for each item, chains in brackets.
+#[track_caller]
+pub(crate) fn items(drawing: &str) -> Vec<String> {
+    let compiled = compile(drawing);
+    let errors: Vec<&Diagnostic> = compiled.found.iter().filter(|found| found.is_error()).collect();
+    assert!(errors.is_empty(), "{errors:?} in\n{drawing}");
+    compiled.items.iter().map(item).collect()
+}
+
+fn item(item: &Item) -> String {
+    match item {
+        Item::Chain(chain) => {
+            let member = |member: &pathbuild_path::ChainSegment| {
+                let back = if member.is_return { " back" } else { "" };
+                format!("{}{back}", ends(member.cut.curve.start(), member.cut.curve.end()))
+            };
+            format!("[{}]", chain.segments.iter().map(member).collect::<Vec<_>>().join(", "))
+        }
+        Item::Hole { hole, .. } => format!("hole {}", point(hole.centre)),
+        Item::Helix { helix, .. } => format!("helix {} r{}", point(helix.centre), helix.radius),
+        Item::Sweep { sweep, .. } => format!("sweep {}", ends(sweep.start, sweep.end)),
+        Item::Subpath(subpath) => format!("subpath {}", ends(subpath.start, subpath.end)),
+    }
+}
+
+fn ends(start: Xy, end: Xy) -> String {
+    format!("{} {}", point(start), point(end))
+}
+
+fn point(point: Xy) -> String {
+    format!("{},{}", point.x, point.y)
+}

@@ -1,0 +1,115 @@
+//! The circle by which a text finds its element. (spec/10-drawing.md, "The text circle")
+
+use pathbuild_dxf::{HorizontalAlign, MText, Point3, Text, VerticalAlign};
+use pathbuild_path::TextCircle;
+
+const ANCHOR: Point3 = Point3 { x: 100.0, y: 200.0, z: 0.0 };
+
+/// Ten characters of 2 mm: w = 12.
+fn text() -> Text {
+    Text {
+        string: "0123456789".into(),
+        anchor: ANCHOR,
+        height: 2.0,
+        rotation: 0.0,
+        horizontal: HorizontalAlign::Left,
+        vertical: VerticalAlign::Baseline,
+        backwards: false,
+        upside_down: false,
+    }
+}
+
+/// Two lines of at most ten characters of 2 mm: w = 12, H = 4.
+fn mtext() -> MText {
+    MText {
+        raw: r"0123456789\P012".into(),
+        plain: "0123456789\n012".into(),
+        anchor: ANCHOR,
+        height: 2.0,
+        rotation: 0.0,
+        horizontal: HorizontalAlign::Left,
+        vertical: VerticalAlign::Top,
+    }
+}
+
+/// Where a text's circle is, from its anchor.
+fn offset(circle: TextCircle) -> (f64, f64) {
+    let round = |number: f64| (number * 1e9).round() / 1e9;
+    (round(circle.centre.x - ANCHOR.x), round(circle.centre.y - ANCHOR.y))
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-12
+}
+
+#[test]
+fn the_radius_of_a_text_is_half_its_diagonal() {
+    assert!(close(TextCircle::of_text(&text()).radius, (12.0_f64 * 12.0 + 4.0).sqrt() / 2.0));
+}
+
+#[test]
+fn the_radius_of_an_mtext_is_half_its_diagonal_but_at_most_0_7_of_its_height() {
+    assert!(close(TextCircle::of_mtext(&mtext()).radius, 0.7 * 4.0));
+    let narrow = MText { plain: "012\n012".into(), ..mtext() };
+    assert!(close(TextCircle::of_mtext(&narrow).radius, (3.6_f64 * 3.6 + 16.0).sqrt() / 2.0));
+    let one_line = MText { plain: "0".into(), ..mtext() };
+    assert!(close(TextCircle::of_mtext(&one_line).radius, (1.2_f64 * 1.2 + 4.0).sqrt() / 2.0));
+}
+
+#[test]
+fn alignment_moves_the_centre() {
+    let horizontal =
+        [(HorizontalAlign::Left, 6.0), (HorizontalAlign::Centre, 0.0), (HorizontalAlign::Right, -6.0)];
+    let vertical = [
+        (VerticalAlign::Baseline, 0.5),
+        (VerticalAlign::Bottom, 0.5),
+        (VerticalAlign::Middle, 0.0),
+        (VerticalAlign::Top, -0.5),
+    ];
+    for (horizontal, x) in horizontal {
+        for (vertical, up) in vertical {
+            let one_line = TextCircle::of_text(&Text { horizontal, vertical, ..text() });
+            assert_eq!(offset(one_line), (x, 2.0 * up), "TEXT {horizontal:?} {vertical:?}");
+            let two_lines = TextCircle::of_mtext(&MText { horizontal, vertical, ..mtext() });
+            assert_eq!(offset(two_lines), (x, 4.0 * up), "MTEXT {horizontal:?} {vertical:?}");
+        }
+    }
+}
+
+#[test]
+fn rotation_turns_the_offset() {
+    let turned = |rotation| offset(TextCircle::of_text(&Text { rotation, ..text() }));
+    assert_eq!(turned(90.0), (-1.0, 6.0));
+    assert_eq!(turned(180.0), (-6.0, -1.0));
+    assert_eq!(turned(-90.0), (1.0, -6.0));
+    assert_eq!(turned(450.0), (-1.0, 6.0));
+    assert_eq!(offset(TextCircle::of_mtext(&MText { rotation: 90.0, ..mtext() })), (2.0, 6.0));
+}
+
+#[test]
+fn mirrored_texts_mirror_the_offset() {
+    let drawn =
+        |backwards, upside_down| offset(TextCircle::of_text(&Text { backwards, upside_down, ..text() }));
+    assert_eq!(drawn(true, false), (-6.0, 1.0));
+    assert_eq!(drawn(false, true), (6.0, -1.0));
+    assert_eq!(drawn(true, true), (-6.0, -1.0));
+    // The mirrored text is turned, not the other way round.
+    let turned = Text { backwards: true, rotation: 90.0, ..text() };
+    assert_eq!(offset(TextCircle::of_text(&turned)), (-1.0, -6.0));
+}
+
+/// `%%d` is one character to the eye and three to the circle.
+#[test]
+fn lengths_are_those_of_the_raw_string() {
+    let with_code = Text { string: "1234567%%d".into(), ..text() };
+    assert_eq!(offset(TextCircle::of_text(&with_code)), (6.0, 1.0));
+    let with_code = MText { plain: "1234567%%d\n012".into(), ..mtext() };
+    assert_eq!(offset(TextCircle::of_mtext(&with_code)), (6.0, -2.0));
+}
+
+/// Characters, not bytes.
+#[test]
+fn every_character_counts_once() {
+    let umlauts = Text { string: "äöüß€äöüß€".into(), ..text() };
+    assert_eq!(offset(TextCircle::of_text(&umlauts)), (6.0, 1.0));
+}

@@ -1,0 +1,164 @@
+//! What stands in a parameter text. (spec/10-drawing.md, "Inside a text")
+
+use pathbuild_path::{ElementClass, Letter, ParameterText, parse_integer, parse_number};
+
+use crate::support::{codes, compile, path, raw, wrong};
+
+/// The pieces of a text: letters with their values, `?` for what is no letter.
+fn pieces(text: &str) -> Vec<String> {
+    let text = ParameterText::new(text);
+    let piece = |piece: &pathbuild_path::Piece| {
+        format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(piece))
+    };
+    text.pieces().iter().map(piece).collect()
+}
+
+#[test]
+fn pieces_are_separated_by_blanks_and_line_breaks() {
+    for blank in [" ", "   ", "\t", "\n", "\r\n", " \n\t "] {
+        assert_eq!(pieces(&format!("{blank}B-0,3{blank}Qa.b{blank}")), ["B=-0,3", "Q=a.b"]);
+    }
+    assert_eq!(pieces(""), [""; 0]);
+}
+
+/// A comment with a gap in it is written with non-breaking spaces.
+#[test]
+fn a_non_breaking_space_separates_nothing() {
+    assert_eq!(pieces("Qa\u{a0}b B1"), ["Q=a\u{a0}b", "B=1"]);
+}
+
+#[test]
+fn a_tilde_at_a_lines_end_continues_the_value() {
+    assert_eq!(pieces("Qlong~\nvalue B1"), ["Q=longvalue", "B=1"]);
+    assert_eq!(pieces("Qlong~\r\n \t value B1"), ["Q=longvalue", "B=1"]);
+    assert_eq!(pieces("Qlong~\n\n\nvalue"), ["Q=longvalue"]);
+    assert_eq!(pieces("Qone~\ntwo~\nthree"), ["Q=onetwothree"]);
+    // Elsewhere a tilde is itself.
+    assert_eq!(pieces(":a1~2 Qx~"), [":=a1~2", "Q=x~"]);
+    assert_eq!(pieces("Qlong~ \nB1"), ["Q=long~", "B=1"]);
+}
+
+#[test]
+fn the_first_character_is_the_letter() {
+    assert_eq!(pieces(">1234.1P @x :a1 B"), [">=1234.1P", "@=x", ":=a1", "B="]);
+    assert_eq!(pieces("ß1 b1 _D"), ["?=1", "?=1", "?=D"]);
+}
+
+#[test]
+fn percent_codes_are_replaced() {
+    let text = |codes: &str| {
+        let raw = raw(&path("T5 O3 I1 B0", &format!("mill 0,0 40,0 \"Q{codes}\"\nend 40,0")));
+        raw.text_of(raw.elements[0].text).unwrap().as_str().to_owned()
+    };
+    assert_eq!(text("%%c%%d%%p"), "Q_D_G_+");
+    assert_eq!(text("%%C%%D%%P"), "Q_D_G_+");
+    assert_eq!(text("5%%%c"), "Q5%_D");
+    assert_eq!(text("%%u%%"), "Q%%u%%");
+}
+
+fn problems(text: &str) -> Vec<String> {
+    codes(&ParameterText::new(text).problems(ElementClass::Mill))
+}
+
+#[test]
+fn a_letter_stands_once_in_a_text() {
+    assert_eq!(problems("B1 F100"), [""; 0]);
+    assert_eq!(problems("B1 F100 B1"), ["PB204 B"]);
+    let variables = |text: &str| codes(&ParameterText::new(text).problems(ElementClass::PathStart));
+    assert_eq!(variables(":a1~2 :b1~2"), [""; 0]);
+    assert_eq!(variables(":a1~2 :b1~2 :a3~4"), ["PB204"]);
+}
+
+#[test]
+fn letters_are_upper_case_and_the_help_says_so() {
+    let found = ParameterText::new("b1").problems(ElementClass::Mill);
+    assert_eq!(codes(&found), ["PB202 b"]);
+    assert!(
+        found[0].help(pathbuild_diagnostic::Lang::En).unwrap().starts_with("letters are upper case: \"B\"?")
+    );
+    let found = ParameterText::new("X1").problems(ElementClass::Mill);
+    assert_eq!(
+        found[0].help(pathbuild_diagnostic::Lang::En).unwrap(),
+        "it knows B, C, F, I, N, Q, W; values follow their letter without a space"
+    );
+}
+
+#[test]
+fn the_offending_piece_is_underlined() {
+    let found = ParameterText::new("F100 X1 B0").problems(ElementClass::Mill);
+    let text = found[0].text.as_ref().unwrap();
+    assert_eq!(&text.text[text.span()], "X1");
+}
+
+#[test]
+fn n_o_and_at_use_no_variables() {
+    let start = |parameters: &str| wrong(&path(parameters, "mill 0,0 40,0\nend 40,0"));
+    assert_eq!(start("T=a O3 I1 B0 :a5~6"), [""; 0]);
+    assert_eq!(start("T5 O=a I1 B0 :a5~6"), ["PB206 O"]);
+    assert_eq!(start("@=a"), ["PB208"]);
+    let mill = |text: &str| wrong(&path("T5 O3 I1 B0 :a1~2", &format!("mill 0,0 40,0 \"{text}\"\nend 40,0")));
+    assert_eq!(mill("B=a"), [""; 0]);
+    assert_eq!(mill("N=a"), ["PB206 N"]);
+}
+
+#[test]
+fn numbers_have_a_sign_digits_and_one_mark() {
+    for (text, number) in
+        [("5", 5.0), ("-0,3", -0.3), ("+1.25", 1.25), ("007", 7.0), (".5", 0.5), ("5.", 5.0), ("-,5", -0.5)]
+    {
+        assert_eq!(parse_number(text), Some(number), "{text}");
+    }
+    let wrong = [
+        "", "-", "+-1", "1e3", "1.2.3", "1,2.3", "1'000", "1 000", "0x10", "inf", "NaN", "٣", "1_0", ".", ",",
+    ];
+    for text in wrong {
+        assert_eq!(parse_number(text), None, "{text}");
+    }
+    assert_eq!(parse_number(&"9".repeat(308)).map(f64::is_finite), Some(true));
+    assert_eq!(parse_number(&"9".repeat(310)), None);
+}
+
+#[test]
+fn n_is_a_whole_number() {
+    assert_eq!(
+        (parse_integer("12"), parse_integer("-3"), parse_integer("+4")),
+        (Some(12), Some(-3), Some(4))
+    );
+    for text in ["1.5", "1,0", "1.", "", "a", "99999999999999999999"] {
+        assert_eq!(parse_integer(text), None, "{text}");
+    }
+    let mill = |text: &str| wrong(&path("T5 O3 I1 B0", &format!("mill 0,0 40,0 \"{text}\"\nend 40,0")));
+    assert_eq!(mill("N1"), [""; 0]);
+    assert_eq!(mill("N1.5"), ["PB205 N"]);
+}
+
+/// What is there and no number is not missing besides.
+#[test]
+fn what_is_no_number_is_reported_alone() {
+    let mill = |text: &str| wrong(&path("T5 O3 I1", &format!("mill 0,0 40,0 \"{text}\"\nend 40,0")));
+    assert_eq!(mill("B1"), [""; 0]);
+    assert_eq!(mill("Bx"), ["PB205 B"]);
+    assert_eq!(mill("F1"), ["PB201 B"]);
+    assert_eq!(wrong(&path("Tx O3 I1 B0", "mill 0,0 40,0\nend 40,0")), ["PB205 T"]);
+    // Nor is a value that nothing can be said about compared with its limits.
+    assert_eq!(wrong(&path("T5 O3 I1 Bx S4", "mill 0,0 40,0\nend 40,0")), ["PB205 B", "PB203 S"]);
+}
+
+#[test]
+fn a_start_has_a_text() {
+    assert_eq!(wrong("layer 1234.1P\nstart 0,0\nmill 0,0 40,0\nend 40,0"), ["PB207"]);
+}
+
+#[test]
+fn e_is_a_regular_expression() {
+    let e = |text: &str| wrong(&path(&format!("T5 O3 I1 B0 E{text}"), "mill 0,0 40,0\nend 40,0"));
+    assert_eq!(e("^20[0-9]+"), [""; 0]);
+    assert_eq!(e("20[0-9"), ["PB209"]);
+}
+
+#[test]
+fn other_values_are_taken_as_they_are() {
+    let compiled = compile(&path("T5 O3 I1 B0 Rx-1 MÄ", "mill 0,0 40,0 \"Qa,b\"\nend 40,0"));
+    let path = compiled.path.unwrap();
+    assert_eq!((&*path.output_suffix, path.material.as_deref()), ("x-1", Some("Ä")));
+}

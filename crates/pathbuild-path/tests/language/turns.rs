@@ -1,0 +1,190 @@
+//! Turn markers: dead ends. (spec/50-path-building.md, "Turn markers (dead ends)")
+
+use crate::support::{compile, items, path, wrong};
+
+const P: &str = "T5 O3 I1 B0 D2 P1 U4 Mx";
+
+fn walked(statements: &str) -> Vec<String> {
+    items(&path(P, statements))
+}
+
+fn codes_of(statements: &str) -> Vec<String> {
+    wrong(&path(P, statements))
+}
+
+/// From (0, 0) to (20, 0), from where a branch goes up to (20, 10) and the path on to (40, 0).
+fn branch(statement: &str) -> Vec<String> {
+    walked(&format!("mill 0,0 20,0\n{statement}\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0"))
+}
+
+#[test]
+fn what_is_milled_is_milled_back_in_the_same_chain() {
+    assert_eq!(branch("mill 20,0 20,10"), ["[0,0 20,0, 20,0 20,10, 20,10 20,0 back, 20,0 40,0]"]);
+    assert_eq!(branch("mark 20,0 20,10"), branch("mill 20,0 20,10"));
+    assert_eq!(branch("bars 20,0 20,10 \"U9\""), branch("mill 20,0 20,10"));
+    assert_eq!(branch("mill 20,0 25,5 20,10").len(), 1);
+}
+
+#[test]
+fn an_arc_is_run_back_the_other_way() {
+    let compiled = compile(&path(
+        P,
+        "mill 0,0 20,0\nmill arc 20,0 20,10 r 5\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0",
+    ));
+    let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
+    let clockwise: Vec<bool> = chain.segments[1..3]
+        .iter()
+        .map(|member| matches!(member.cut.curve, pathbuild_path::Curve::Arc(arc) if arc.clockwise))
+        .collect();
+    assert_eq!(clockwise, [false, true]);
+}
+
+#[test]
+fn a_sweep_is_swept_back_at_its_own_height() {
+    let statements =
+        "mill 0,0 20,0\nline DASHED 20,0 20,10 \"S12\"\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0";
+    assert_eq!(walked(statements), ["[0,0 20,0]", "sweep 20,0 20,10", "sweep 20,10 20,0", "[20,0 40,0]"]);
+    let compiled = compile(&path(P, statements));
+    let heights: Vec<Option<f64>> = compiled
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            pathbuild_path::Item::Sweep { sweep, .. } => Some(sweep.height),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(heights, [Some(12.0), Some(12.0)]);
+    for silent in ["line HIDDEN 20,0 20,10", "skip 20,0 20,10 \">1111.1P\""] {
+        assert_eq!(branch(silent)[1..3], ["sweep 20,0 20,10", "sweep 20,10 20,0"]);
+    }
+}
+
+#[test]
+fn over_a_subpath_the_tool_sweeps_back() {
+    assert_eq!(branch("subpath 20,0 20,10 \">1111.1P\"")[1..3], ["subpath 20,0 20,10", "sweep 20,10 20,0"]);
+}
+
+#[test]
+fn over_a_hole_nothing_is_done_and_a_helical_circle_raises_the_tool() {
+    let hole =
+        walked("mill 0,0 20,0 20,10\ncircle 20,10 d 3\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0");
+    assert_eq!(hole, ["[0,0 20,0, 20,0 20,10]", "hole 20,10", "[20,10 20,0 back, 20,0 40,0]"]);
+    let helix =
+        walked("mill 0,0 20,0 20,10\ncircle 20,10 d 8\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0");
+    assert_eq!(
+        helix,
+        ["[0,0 20,0, 20,0 20,10]", "helix 20,10 r4", "sweep 20,10 20,10", "[20,10 20,0 back, 20,0 40,0]"]
+    );
+}
+
+/// A hole on the way ends the chain of the way back as well.
+#[test]
+fn a_hole_on_the_way_ends_the_chain_of_the_way_back() {
+    let walked =
+        walked("mill 0,0 20,0 20,10 20,20\ncircle 20,10 d 3\nmill 20,0 40,0 \"N9999\"\nturn 20,20\nend 40,0");
+    assert_eq!(
+        walked,
+        [
+            "[0,0 20,0, 20,0 20,10]",
+            "hole 20,10",
+            "[20,10 20,20, 20,20 20,10 back]",
+            "[20,10 20,0 back, 20,0 40,0]"
+        ]
+    );
+}
+
+#[test]
+fn without_a_marker_a_dead_end_is_an_error() {
+    let dead_end = "mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nend 40,0";
+    assert_eq!(codes_of(dead_end), ["PB401"]);
+    assert_eq!(codes_of(&format!("{dead_end}\nturn 20,10")), [""; 0]);
+    assert_eq!(codes_of(&format!("{dead_end}\nturn 20.00003,10")), [""; 0]);
+    assert_eq!(codes_of(&format!("{dead_end}\nturn 20.00004,10")), ["PB401"]);
+}
+
+/// The tool goes back only as far as something branches off; what was gone back over is not gone back over again.
+#[test]
+fn each_segment_is_returned_over_once() {
+    let comb = "mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9997\"\nmill 40,0 40,10\nmill 40,0 60,0 \"N9999\"\nturn 20,10\nturn 40,10\nend 60,0";
+    let comb = comb
+        .replace("mill 0,0 20,0 20,10\n", "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\n")
+        .replace("mill 40,0 40,10", "mill 40,0 40,10 \"N1\"");
+    assert_eq!(
+        walked(&comb),
+        ["[0,0 20,0, 20,0 20,10, 20,10 20,0 back, 20,0 40,0, 40,0 40,10, 40,10 40,0 back, 40,0 60,0]"]
+    );
+}
+
+#[test]
+fn a_dead_end_within_a_dead_end_leads_back_to_the_first() {
+    // From (20, 0) up to (20, 10); there a branch to (30, 10), and on to (20, 20); then along to (40, 0).
+    let statements = "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\nmill 20,10 30,10 \"N1\"\nmill 20,10 20,20 \"N2\"\nmill 20,0 40,0 \"N3\"\n\
+                      turn 30,10\nturn 20,20\nend 40,0";
+    assert_eq!(
+        walked(statements),
+        [
+            "[0,0 20,0, 20,0 20,10, 20,10 30,10, 30,10 20,10 back, 20,10 20,20, 20,20 20,10 back, 20,10 20,0 back, 20,0 40,0]"
+        ]
+    );
+}
+
+#[test]
+fn a_marker_has_no_effect_where_something_continues_or_on_the_way_back() {
+    assert_eq!(codes_of("mill 0,0 20,0 40,0\nturn 20,0\nend 40,0"), ["PB114"]);
+    // On the way back from (20, 20) the marker at (20, 10) is passed.
+    let passed = "mill 0,0 20,0 20,10 20,20\nmill 20,0 40,0 \"N9999\"\nturn 20,20\nturn 20,10\nend 40,0";
+    assert_eq!(codes_of(passed), ["PB114"]);
+}
+
+#[test]
+fn several_markers_at_one_point_are_one() {
+    assert_eq!(
+        codes_of("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nturn 20,10\nend 40,0"),
+        [""; 0]
+    );
+}
+
+#[test]
+fn a_marker_of_a_tilde_layer_belongs_to_the_path() {
+    assert_eq!(
+        codes_of("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nend 40,0\nlayer 1234.1P~A\nturn 20,10"),
+        [""; 0]
+    );
+}
+
+#[test]
+fn the_way_back_ends_at_the_start() {
+    let statements = "mill 0,0 20,0\nmill 50,0 60,0\nturn 20,0\nend 60,0";
+    let compiled = compile(&path(P, statements));
+    let found = &compiled.found[0];
+    assert_eq!(found.code().to_string(), "PB401");
+    assert!(
+        found
+            .text(pathbuild_diagnostic::Lang::En)
+            .starts_with("going back from this turn marker found nothing")
+    );
+    assert_eq!(
+        found.notes[0].text(pathbuild_diagnostic::Lang::En),
+        "the nearest open end is at (50, 0), 30 mm away (a milling segment)"
+    );
+    // What branches off at the start itself is found.
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 0,0 0,30\nturn 20,0\nend 0,30"), [""; 0]);
+}
+
+/// The marker is looked at before the end marker.
+#[test]
+fn at_a_marker_on_the_end_the_tool_goes_back() {
+    assert_eq!(codes_of("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 20,10"), ["PB403"]);
+}
+
+/// When nothing is left, the tool goes back until the end.
+#[test]
+fn with_nothing_left_the_tool_goes_back_to_the_end() {
+    assert_eq!(
+        walked("mill 0,0 20,0 20,10 30,10\nturn 30,10\nend 20,0"),
+        ["[0,0 20,0, 20,0 20,10, 20,10 30,10, 30,10 20,10 back, 20,10 20,0 back]"]
+    );
+    assert_eq!(walked("mill 0,0 20,0\nturn 20,0\nend 0,0"), ["[0,0 20,0, 20,0 0,0 back]"]);
+    assert_eq!(codes_of("mill 0,0 20,0\nturn 20,0\nend 90,0"), ["PB403"]);
+    assert_eq!(codes_of("mill 0,0 20,0\nend 0,0"), ["PB403"]);
+}

@@ -1,0 +1,196 @@
+//! Variables. (spec/40-variables.md)
+
+use pathbuild_path::{Bindings, Definition, SegmentKind};
+
+use crate::support::{codes, compile_raw, language, path, raw, wrong};
+
+fn definition(text: &str) -> Definition {
+    Definition::parse(text).unwrap_or_else(|problem| panic!("{text}: {problem:?}"))
+}
+
+/// Which of some values a definition allows.
+fn allowed<'a>(text: &str, values: &[&'a str]) -> Vec<&'a str> {
+    let definition = definition(text);
+    values.iter().copied().filter(|value| definition.allows(value)).collect()
+}
+
+fn is_wrong(text: &str) -> bool {
+    Definition::parse(text).is_err_and(|problem| codes(&[*problem]) == ["PB301"])
+}
+
+#[test]
+fn a_range_allows_both_ends_and_what_is_between() {
+    let values = ["-0.5", "-0,5", "0", "1.2", "1.1999999", "-0.51", "1.21", "x", ""];
+    assert_eq!(allowed("x-0.5~1,2", &values), ["-0.5", "-0,5", "0", "1.2", "1.1999999"]);
+    assert_eq!(allowed("x2~2", &["2", "2.1"]), ["2"]);
+    // Approximately, as everywhere.
+    assert_eq!(allowed("x1~2", &["2.000001", "2.00001"]), ["2.000001"]);
+}
+
+#[test]
+fn a_range_is_the_right_way_round() {
+    assert!(is_wrong("x2~1"));
+    assert!(!is_wrong("x1~2"));
+    assert!(is_wrong("x2~1,9"));
+}
+
+/// With decimal commas it would be a list as well: the range is tried first.
+#[test]
+fn a_range_comes_before_a_list() {
+    assert_eq!(allowed("x-0,5~0,4", &["0", "-0,5", "5~0"]), ["0", "-0,5"]);
+    assert_eq!(allowed("x1~a,2", &["1~a", "2", "1.5"]), ["1~a", "2"]);
+}
+
+#[test]
+fn a_list_allows_its_texts_exactly() {
+    assert_eq!(allowed("xP1,P2,P3", &["P1", "P3", "p1", "P", "P1,P2", ""]), ["P1", "P3"]);
+    // Compared as text: 1.0 is not 1.
+    assert_eq!(allowed("x1,2", &["1", "1.0"]), ["1"]);
+    assert_eq!(allowed("x?P1,?P2", &["P1", "?P1", "P2"]), ["P1", "P2"]);
+    assert_eq!(allowed("xa\u{a0},\u{a0}b", &["a", "b"]), ["a", "b"]);
+    assert!(is_wrong("xP1,,P3"));
+    assert!(is_wrong("xP1,"));
+    assert!(is_wrong("x,"));
+    assert!(is_wrong("x?,P1"));
+}
+
+#[test]
+fn a_question_mark_allows_single_characters() {
+    assert_eq!(allowed("x?PQß", &["P", "ß", "PQ", "p", "?", ""]), ["P", "ß"]);
+    assert!(is_wrong("x?"));
+}
+
+#[test]
+fn anything_else_is_no_definition() {
+    for text in ["x", "", "xP1", "x1", "x1~", "x~1", "xa~b", "x1;2"] {
+        assert!(is_wrong(text), "{text}");
+    }
+}
+
+#[test]
+fn a_wrong_definition_is_reported_at_the_start() {
+    let with =
+        |definition: &str| wrong(&path(&format!("T5 O3 I1 B0 {definition}"), "mill 0,0 40,0\nend 40,0"));
+    assert_eq!(with(":x1~2"), [""; 0]);
+    assert_eq!(with(":x1"), ["PB301"]);
+    assert_eq!(with(":"), ["PB301"]);
+}
+
+/// k counts from 0 over all variables as they are written.
+#[test]
+fn check_values_are_examples_of_each_definition() {
+    let values = |definitions: &str| {
+        let raw = raw(&path(&format!("T5 O3 I1 B0 {definitions}"), "mill 0,0 40,0\nend 40,0"));
+        Bindings::check_values(&raw).iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>()
+    };
+    assert_eq!(values(":a1~2,5 :b1~2,5 :c1~2,5"), ["a=1", "b=2,5", "c=1"]);
+    assert_eq!(values(":cP,Q :aP,Q :bP,Q"), ["a=Q", "b=P", "c=P"]);
+    assert_eq!(values(":a?xyz :b?xyz :c?xyz :d?xyz"), ["a=x", "b=y", "c=z", "d=x"]);
+    assert_eq!(values(":a1~2 :bP,Q,R :c?xyz"), ["a=1", "b=Q", "c=z"]);
+    assert_eq!(values(""), [""; 0]);
+}
+
+#[test]
+fn corner_values_are_all_of_a_list_and_the_ends_of_a_range() {
+    assert_eq!(definition("a1~2,5").corner_values(), ["1", "2,5"]);
+    assert_eq!(definition("aP,Q,R").corner_values(), ["P", "Q", "R"]);
+    assert_eq!(definition("a?xy").corner_values(), ["x", "y"]);
+}
+
+/// A path with a text on its line, and values for its variables.
+fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
+    let definitions: Vec<String> = values.iter().map(|(name, _)| format!(":{name}1~2")).collect();
+    let raw = raw(&path(
+        &format!("T5 O3 I1 B0 {}", definitions.join(" ")),
+        &format!("mill 0,0 40,0 \"{text}\"\nend 40,0"),
+    ));
+    let bindings = Bindings::new(values.iter().map(|(name, value)| (*name, (*value).into())));
+    compile_raw(&raw, &bindings, &language())
+}
+
+/// What Q comes to, or the codes of what is wrong.
+fn filled(text: &str, values: &[(char, &str)]) -> String {
+    let compiled = bound(&format!("Q{text}"), values);
+    match compiled.path.map(|path| path.segments[0].kind.clone()) {
+        Some(SegmentKind::Cut(cut)) => cut.comment.unwrap().into(),
+        _ => codes(&compiled.found).join(" "),
+    }
+}
+
+#[test]
+fn references_are_replaced_wherever_they_stand() {
+    assert_eq!(filled("=a", &[('a', "x")]), "x");
+    assert_eq!(filled("2051.=aP=a=b", &[('a', "3"), ('b', "4")]), "2051.3P34");
+    assert_eq!(filled("=ab", &[('a', "x")]), "xb");
+    assert_eq!(filled("plain", &[('a', "x")]), "plain");
+}
+
+#[test]
+fn values_may_contain_references() {
+    assert_eq!(filled("=a", &[('a', "<=b>"), ('b', "<=c>"), ('c', "x")]), "<<x>>");
+    assert_eq!(filled("=a=a", &[('a', "=b=b"), ('b', "x")]), "xxxx");
+}
+
+#[test]
+fn a_value_that_leads_back_to_itself_is_an_error() {
+    assert_eq!(filled("=a", &[('a', "=a")]), "PB305");
+    assert_eq!(filled("=a", &[('a', "=b"), ('b', "=c"), ('c', "=a")]), "PB305");
+    assert_eq!(filled("=a", &[('a', "=b"), ('b', "=c"), ('c', "x")]), "x");
+}
+
+#[test]
+fn a_reference_to_nothing_is_an_error() {
+    assert_eq!(filled("=x", &[('a', "1")]), "PB303");
+    assert_eq!(filled("=", &[('a', "1")]), "PB303");
+    assert_eq!(filled("=a", &[('a', "=x")]), "PB303");
+    assert_eq!(filled("=A", &[('a', "1")]), "PB303");
+}
+
+/// Variables that double: each round would make the text twice as long.
+#[test]
+fn a_text_does_not_grow_beyond_the_limit() {
+    let double: Vec<(char, String)> =
+        ('a'..'z').map(|name| (name, format!("={0}={0}", char::from(name as u8 + 1)))).collect();
+    let mut values: Vec<(char, &str)> = double.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    values.push(('z', "x"));
+    assert_eq!(filled("=a", &values), "PB005");
+    // Ten levels are 512 letters.
+    assert_eq!(filled("=q", &values).len(), 512);
+}
+
+#[test]
+fn a_filled_value_is_checked_like_any_other() {
+    let codes_of = |text: &str, value: &str| codes(&bound(text, &[('a', value)]).found);
+    assert_eq!(codes_of("B=a", "1"), [""; 0]);
+    assert_eq!(codes_of("B=a", "x"), ["PB205 B"]);
+    assert_eq!(codes_of("B=a", "5"), ["PB203 B"]);
+}
+
+/// A definition is no text with references, though it may have "=" in it: `:a=b,=c` is a list of two references.
+#[test]
+fn definitions_are_not_filled_in() {
+    assert_eq!(definition("a=b,=c").corner_values(), ["=b", "=c"]);
+    assert_eq!(wrong(&path("T5 O3 I1 B0 :a=b,=b :b1~2", "mill 0,0 40,0 \"B=a\"\nend 40,0")), [""; 0]);
+}
+
+#[test]
+fn a_path_is_not_emitted_without_values_of_its_variables() {
+    let raw = raw(&path("T5 O3 I1 B0 :a1~2 :b1~2", "mill 0,0 40,0\nend 40,0"));
+    let missing = |values: &[(char, &str)]| {
+        codes(
+            &raw.missing_values(&Bindings::new(values.iter().map(|(name, value)| (*name, (*value).into())))),
+        )
+    };
+    assert_eq!(missing(&[('a', "1"), ('b', "1")]), [""; 0]);
+    assert_eq!(missing(&[('a', "1")]), ["PB302"]);
+    assert_eq!(missing(&[]), ["PB302", "PB302"]);
+}
+
+/// Bindings are the same however they were written.
+#[test]
+fn bindings_compare_without_order() {
+    let bindings =
+        |values: [(char, &str); 2]| Bindings::new(values.map(|(name, value)| (name, value.into())));
+    assert_eq!(bindings([('a', "1"), ('b', "2")]), bindings([('b', "2"), ('a', "1")]));
+    assert_ne!(bindings([('a', "1"), ('b', "2")]), bindings([('a', "2"), ('b', "1")]));
+}

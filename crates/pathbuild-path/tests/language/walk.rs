@@ -1,0 +1,144 @@
+//! The walk from the start to the end. (spec/50-path-building.md, "The walk")
+
+use pathbuild_diagnostic::Lang;
+
+use crate::support::{codes, compile, compile_raw, items, language, path, raw, wrong};
+use pathbuild_path::Bindings;
+
+const P: &str = "T5 O3 I1 B0 D2";
+
+/// What is wrong with a path of these statements, and the help's sentences.
+fn found(statements: &str) -> (Vec<String>, Vec<String>) {
+    let compiled = compile(&path(P, statements));
+    let notes = compiled.found.iter().flat_map(|found| &found.notes);
+    (codes(&compiled.found), notes.map(|note| note.text(Lang::En)).collect())
+}
+
+fn codes_of(statements: &str) -> Vec<String> {
+    found(statements).0
+}
+
+#[test]
+fn segments_follow_each_other_whatever_way_they_are_drawn() {
+    let lines = "mill 40,0 40,20\nmill 0,0 20,0\nmill 40,0 20,0\nend 40,20";
+    assert_eq!(items(&path(P, lines)), ["[0,0 20,0, 20,0 40,0, 40,0 40,20]"]);
+}
+
+#[test]
+fn an_arc_is_turned_round_with_its_direction() {
+    let arc = |statement: &str| {
+        let compiled = compile(&path(P, &format!("{statement}\nend 20,0")));
+        let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
+        let pathbuild_path::Curve::Arc(arc) = chain.segments[0].cut.curve else { panic!() };
+        (arc.clockwise, arc.degrees.round())
+    };
+    assert_eq!(arc("mill arc centre 10,0 r 10 from 180 to 0"), (false, 180.0));
+    assert_eq!(arc("mill arc centre 10,0 r 10 from 0 to 180"), (true, 180.0));
+}
+
+/// Points coincide where the square of their distance is near 0: within 0.0000316 mm.
+#[test]
+fn ends_that_nearly_meet_do() {
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 20.000031,0 40,0\nend 40,0"), [""; 0]);
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 20.000032,0 40,0\nend 40,0"), ["PB401"]);
+    assert_eq!(codes_of("mill 0.000031,0 20,0\nend 20,0"), [""; 0]);
+    assert_eq!(codes_of("mill 0.000032,0 20,0\nend 20,0"), ["PB401"]);
+    assert_eq!(codes_of("mill 0,0 20,0\nend 20.000031,0"), [""; 0]);
+    assert_eq!(codes_of("mill 0,0 20,0\nend 20.000032,0"), ["PB403"]);
+    // In both directions.
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00002,0.00002 40,0\nend 40,0"), [""; 0]);
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00003,0.00002 40,0\nend 40,0"), ["PB401"]);
+}
+
+#[test]
+fn nothing_continues_names_the_nearest_open_end() {
+    let (codes, notes) = found("mill 0,0 20,0\nmill 20.5,0 40,0\nmill 60,0 50,0\nend 40,0");
+    assert_eq!(codes, ["PB401"]);
+    assert_eq!(notes, ["the nearest open end is at (20.5, 0), 0.5 mm away (a milling segment)"]);
+}
+
+#[test]
+fn a_duplicate_is_named() {
+    let (codes, notes) = found("mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 0,0\nend 40,0");
+    assert_eq!(codes, ["PB402"]);
+    assert_eq!(
+        notes,
+        ["a milling segment at (20, 0) lies on one that was already traversed: it is drawn twice"]
+    );
+    // An arc between the same points is another way.
+    let (codes, notes) =
+        found("mill 0,0 20,0\nmill 20,0 40,0\nmill arc 40,0 60,0 r 10\nmill 60,0 80,0\nend 40,0");
+    assert_eq!((codes.len(), notes.len()), (1, 0));
+}
+
+#[test]
+fn segments_that_are_left_over_at_the_end_are_counted() {
+    let compiled = compile(&path(P, "mill 0,0 20,0\nmill 0,40 20,40\nmill 0,60 20,60\nend 20,0"));
+    assert_eq!(codes(&compiled.found), ["PB402"]);
+    let text = compiled.found[0].text(Lang::En);
+    assert_eq!(
+        text,
+        "the path ends here, but 2 of its segments were not reached; one is a milling segment at (0, 40)"
+    );
+}
+
+#[test]
+fn the_end_must_be_reached() {
+    assert_eq!(codes_of("mill 0,0 20,0\nend 20,0"), [""; 0]);
+    assert_eq!(codes_of("mill 0,0 20,0\nend 30,0"), ["PB403"]);
+    // Not after PB401, which is the same fault.
+    assert_eq!(codes_of("mill 0,0 20,0\nmill 30,0 40,0\nend 50,0"), ["PB401"]);
+}
+
+#[test]
+fn the_walk_passes_the_end_as_long_as_something_continues() {
+    let lines = "mill 0,0 20,0\nmill 20,0 20,20\nmill 20,20 0,0\nmill 0,0 20,20 \"N9999\"\nend 20,20";
+    assert_eq!(codes_of(lines), [""; 0]);
+    assert_eq!(items(&path(P, "mill 0,0 20,0\nmill 20,0 40,0\nmill 40,0 20,0.0\nend 20,0")).len(), 1);
+}
+
+#[test]
+fn a_path_has_segments() {
+    assert_eq!(codes_of("end 20,0"), ["PB404"]);
+    assert_eq!(codes_of("probe 20,20\nend 0,0"), ["PB404"]);
+    assert_eq!(codes_of("circle 0,0 d 3\nend 0,0"), [""; 0]);
+}
+
+#[test]
+fn a_closed_path_ends_where_it_starts() {
+    assert_eq!(codes_of("mill 0,0 20,0 20,20 0,0\nend 0,0"), [""; 0]);
+}
+
+/// Without tolerance nothing is joined; with it what is nearest, with a warning each.
+#[test]
+fn ends_within_the_tolerance_are_joined() {
+    let raw = raw(&path(P, "mill 0,0 20,0\nmill 20.01,0 40,0\nend 40.01,0"));
+    let found = |join_tolerance| {
+        let compiled = compile_raw(
+            &raw,
+            &Bindings::default(),
+            &pathbuild_path::Language { join_tolerance, ..language() },
+        );
+        codes(&compiled.found)
+    };
+    assert_eq!(found(0.0), ["PB401"]);
+    assert_eq!(found(0.009), ["PB401"]);
+    assert_eq!(found(0.011), ["PB115", "PB115"]);
+}
+
+#[test]
+fn a_curve_that_was_left_out_is_pointed_at() {
+    let (codes, notes) = found(
+        "mill 0,0 20,0\nellipse CONTINUOUS centre 30,0 major 10,0 ratio 0.5 from 180 to 360\nmill 40,0 60,0\nend 60,0",
+    );
+    assert_eq!(codes, ["PB111", "PB401"]);
+    assert!(
+        notes.iter().any(|note| note.starts_with("a curve that is no part of the path (ELLIPSE)")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn nothing_is_walked_where_the_values_are_wrong() {
+    assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 90,0")), ["PB201 B"]);
+}

@@ -1,0 +1,60 @@
+//! Arcs: direction, centre, ends. ("mill arc")
+
+use pathbuild_toolpath::{Move, Program, Step};
+
+use crate::support::{path, program, short};
+
+/// Arcs as `G02 I J X Y`.
+fn arcs(program: &Program) -> Vec<String> {
+    let of_step = |step: &Step| match step {
+        Step::Move { to: Move::Arc { clockwise, centre, to, .. }, .. } => Some(format!(
+            "{} {} {} {} {}",
+            if *clockwise { "G02" } else { "G03" },
+            short(centre.x),
+            short(centre.y),
+            short(to.x),
+            short(to.y)
+        )),
+        _ => None,
+    };
+    program.steps.iter().filter_map(of_step).collect()
+}
+
+fn milled(statement: &str, end: &str) -> Vec<String> {
+    arcs(&program(&path("T5 O3 I5 B0", &format!("{statement}\nend {end}"))))
+}
+
+#[test]
+fn an_arc_is_run_in_its_own_direction() {
+    // Counterclockwise as drawn, from the left of its centre to the right, below.
+    assert_eq!(milled("mill arc centre 10,0 r 10 from 180 to 0", "20,0"), ["G03 10 0 20 0"]);
+    assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180 cw", "20,0"), ["G02 10 0 20 0"]);
+}
+
+#[test]
+fn an_arc_that_is_run_from_its_end_turns_the_other_way() {
+    assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180", "20,0"), ["G02 10 0 20 0"]);
+}
+
+/// I and J count from where the run begins, also for later passes that begin at the other end.
+#[test]
+fn the_centre_counts_from_where_the_run_begins() {
+    let program = program(&path("T5 O3 I2 B0", "mill arc centre 0,10 r 10 from 270 to 0\nend 10,10"));
+    assert_eq!(arcs(&program), ["G03 0 10 10 10", "G02 -10 0 0 0", "G03 0 10 10 10"]);
+}
+
+#[test]
+fn an_arc_over_zero_degrees_is_not_run_the_long_way() {
+    let lengths = |statement: &str, end: &str| -> Vec<String> {
+        let program = program(&path("T5 O3 I5 B0", &format!("{statement}\nend {end}")));
+        let length = |step: &Step| match step {
+            Step::Move { to: Move::Arc { .. }, count } => Some(short(count.length)),
+            _ => None,
+        };
+        program.steps.iter().filter_map(length).collect()
+    };
+    // A quarter, and three quarters.
+    assert_eq!(lengths("mill arc centre 0,10 r 10 from 270 to 0", "10,10"), ["15.708"]);
+    assert_eq!(lengths("mill arc centre 0,10 r 10 from 270 to 180", "-10,10"), ["47.124"]);
+    assert_eq!(lengths("arc CONTINUOUS centre 10,0 r 10 from 180 to 180", "0,0"), ["62.832"]);
+}

@@ -1,0 +1,145 @@
+//! Support bars. ("Support bars")
+
+use pathbuild_toolpath::{FoldOptions, SupportBars};
+
+use crate::support::{OPTIONS, moves, path, program_with, shown};
+
+/// 40 mm with four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
+const FOUR: &str = "T5 O3 D2 B0 P2 U8";
+
+/// The points along a line of 40 mm, up to the first that repeats.
+fn milled(parameters: &str) -> Vec<String> {
+    moves(&path(parameters, "bars 0,0 40,0\nend 40,0"))
+}
+
+const SECTIONS: [&str; 17] = [
+    "M 2.5,0 2",
+    "M 3.5,0 0",
+    "M 6.5,0 0",
+    "M 7.5,0 2",
+    "M 12.5,0 2",
+    "M 13.5,0 0",
+    "M 16.5,0 0",
+    "M 17.5,0 2",
+    "M 22.5,0 2",
+    "M 23.5,0 0",
+    "M 26.5,0 0",
+    "M 27.5,0 2",
+    "M 32.5,0 2",
+    "M 33.5,0 0",
+    "M 36.5,0 0",
+    "M 37.5,0 2",
+    "M 40,0 2",
+];
+
+#[test]
+fn gaps_and_bars_follow_each_other() {
+    let milled = milled(&format!("{FOUR} I5"));
+    assert_eq!(milled[..3], ["L 5", "D 0", "L 2"]);
+    assert_eq!(milled[3..20], SECTIONS);
+    assert_eq!(milled[20..], ["L 10"]);
+}
+
+#[test]
+fn bars_matter_only_below_their_top() {
+    let milled = milled(&format!("{FOUR} I1"));
+    assert_eq!(milled[..7], ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "D 2", "M 40,0 2"]);
+    // Backwards from here: it begins with a bar as well.
+    assert_eq!(milled[7..13], ["D 1", "L 2", "M 37.5,0 2", "M 36.5,0 1", "M 33.5,0 1", "M 32.5,0 2"]);
+    let last = milled.len();
+    assert_eq!(milled[last - 5..], ["M 33.5,0 0", "M 36.5,0 0", "M 37.5,0 2", "M 40,0 2", "L 10"]);
+}
+
+#[test]
+fn the_number_of_bars_is_what_has_room() {
+    let gaps = |length: &str, parameters: &str| {
+        let drawing =
+            path(&format!("T5 O3 D2 B0 I5 {parameters}"), &format!("bars 0,0 {length},0\nend {length},0"));
+        moves(&drawing).iter().filter(|step| step.ends_with(" 0")).count().saturating_sub(1) / 2
+    };
+    assert_eq!(gaps("40", "P2 U8"), 4);
+    assert_eq!(gaps("39.999", "P2 U8"), 3);
+    assert_eq!(gaps("40", "P2 U38"), 1);
+    assert_eq!(gaps("40", "P2 U38.001"), 0);
+}
+
+/// Without a gap the segment stays at the bars' height.
+#[test]
+fn without_room_for_a_gap_nothing_below_d_is_milled() {
+    assert_eq!(
+        milled("T5 O3 D2 B0 P50 U50 I2"),
+        ["L 5", "D 3", "M 40,0 3", "D 1", "L 2", "M 0,0 2", "D 0", "L 2", "M 40,0 2", "L 10"]
+    );
+}
+
+/// As long as half a bar at most, and as short as the room between the bars.
+#[test]
+fn slopes_are_as_long_as_there_is_room() {
+    let slope = |parameters: &str| {
+        let milled = milled(&format!("T5 O3 I5 {parameters}"));
+        (milled[3].clone(), milled[4].clone())
+    };
+    let step = |text: &str| text.to_owned();
+    // 45 degrees: D - B.
+    assert_eq!(slope("D0.5 B0 P2 U8"), (step("M 2.5,0 0.5"), step("M 3,0 0")));
+    // P / 2.
+    assert_eq!(slope("D3 B0 P2 U8"), (step("M 2.5,0 3"), step("M 3.5,0 0")));
+    // (L / n - P - O) / 2: six bars of 3 mm, with 3.667 mm between them.
+    assert_eq!(slope("D3 B0 P3 U3.6"), (step("M 3,0 3"), step("M 3.333,0 0")));
+}
+
+/// The cutter just fits: no slope, nothing between.
+#[test]
+fn bars_may_be_a_cutters_diameter_apart() {
+    let milled = milled("T5 O3 I5 D2 B0 P2 U3");
+    assert_eq!(milled[..6], ["L 5", "D 0", "L 2", "M 2.5,0 2", "M 2.5,0 0", "M 2.5,0 0"]);
+}
+
+#[test]
+fn bars_stand_on_arcs_too() {
+    // A half circle of 31.416 mm: three bars, every 60 degrees.
+    let arc = moves(&path("T5 O3 I5 D2 B0 P2 U8", "bars arc centre 10,0 r 10 from 180 to 0\nend 20,0"));
+    assert_eq!(arc[..4], ["L 5", "D 0", "L 2", "A 0.311,-2.474 2"]);
+    assert_eq!(arc.iter().filter(|step| step.starts_with('A')).count(), 13);
+    assert_eq!(arc[arc.len() - 2..], ["A 20,0 2", "L 10"]);
+}
+
+/// Bars are counted in the path's own drawing and raised with it.
+#[test]
+fn bars_are_raised_by_h() {
+    let drawing = format!(
+        "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 40,0 \">1234.1P T5 H1\"\nend 40,0\n{}",
+        path(&format!("{FOUR} I5"), "bars 0,0 40,0\nend 40,0")
+    );
+    assert_eq!(moves(&drawing)[..6], ["L 6", "D 1", "L 3", "M 2.5,0 3", "M 3.5,0 1", "M 6.5,0 1"]);
+}
+
+#[test]
+fn solid_bars_are_not_drilled_into() {
+    let drawing = path(&format!("{FOUR} I5"), "bars 0,0 40,0\nend 40,0");
+    let solid = program_with(&drawing, FoldOptions { support_bars: SupportBars::Solid, ..OPTIONS });
+    let solid = shown(&solid, false);
+    assert_eq!(solid[..4], ["L 5", "D 2", "M 2.5,0 2", "M 3.5,0 0"]);
+    assert_eq!(solid[2..19], SECTIONS);
+}
+
+/// In the groove, too, a run begins and ends with a bar.
+#[test]
+fn sweepless_runs_spare_bars() {
+    let drawing = path("T5 O3 D2 B0 P2 U38 I5 W5", "bars 0,0 40,0\nend 40,0");
+    assert_eq!(
+        moves(&drawing),
+        [
+            "L 5",
+            "M 40,0 5",
+            "M 0,0 5",
+            "D 0",
+            "L 2",
+            "M 2.5,0 2",
+            "M 3.5,0 0",
+            "M 36.5,0 0",
+            "M 37.5,0 2",
+            "M 40,0 2"
+        ]
+    );
+}

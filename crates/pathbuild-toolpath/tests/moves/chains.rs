@@ -1,0 +1,184 @@
+//! Milling chains, pass by pass. ("Chains, ordinary milling")
+
+use pathbuild_toolpath::{Move, Step};
+
+use crate::support::{moves, moves_and_comments, path, program};
+
+const LINE: &str = "mill 0,0 40,0\nend 40,0";
+
+#[test]
+fn a_line_is_milled_to_and_fro_pass_by_pass() {
+    let expected = ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "L 10", "S 40,0"];
+    assert_eq!(moves(&path("T5 O3 I1 B3", LINE)), expected);
+}
+
+#[test]
+fn the_first_depth_is_one_infeed_below_the_surface_and_the_last_is_the_bottom() {
+    let depths = |infeed: &str, bottom: &str| {
+        let moves = moves(&path(&format!("T5 O3 I{infeed} B{bottom}"), LINE));
+        let milled = moves.iter().filter_map(|step| step.strip_prefix("M ")?.split(' ').nth(1));
+        milled.collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(depths("2.5", "0"), "2.5 0");
+    assert_eq!(depths("2", "0"), "3 1 0");
+    assert_eq!(depths("9", "0"), "0");
+    assert_eq!(depths("5", "0"), "0");
+    // Nearly the bottom is the bottom.
+    assert_eq!(depths("2.4999999", "0"), "2.5 0");
+    assert_eq!(depths("2.499", "0"), "2.501 0.002 0");
+}
+
+/// In binary 0.1 times 50 is not 5: the last of fifty subtractions is the bottom all the same.
+#[test]
+fn depths_arise_by_subtracting_again_and_again() {
+    let milled = moves(&path("T5 O3 I0.1 B0", LINE));
+    assert_eq!(milled.iter().filter(|step| step.starts_with('M')).count(), 50);
+}
+
+#[test]
+fn marks_end_at_d_and_lines_with_bars_at_b() {
+    assert_eq!(
+        moves(&path("T5 O3 I1 B0 D3", "mark 0,0 40,0\nend 40,0")),
+        ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "L 10", "S 40,0"]
+    );
+    let bars = moves(&path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0\nend 40,0"));
+    assert_eq!(bars, ["L 5", "D 0", "L 3", "M 40,0 3", "L 10"]);
+}
+
+#[test]
+fn the_nearest_edge_is_next() {
+    let expected = ["L 5", "D 4", "M 40,0 4", "M 40,30 4", "D 3", "M 40,0 3", "M 0,0 3", "L 10", "S 40,30"];
+    assert_eq!(moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30\nend 40,30")), expected);
+}
+
+/// Down by 1 mm at the end of the short line is nearer than on to the next at the same depth, but only where its edge above is done.
+#[test]
+fn an_edge_waits_for_the_one_above_it() {
+    let closed = moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30 0,0\nend 0,0"));
+    assert_eq!(
+        closed,
+        ["L 5", "D 4", "M 40,0 4", "M 40,30 4", "M 0,0 4", "D 3", "M 40,0 3", "M 40,30 3", "M 0,0 3", "L 10"]
+    );
+}
+
+/// Nearest in space: 3 mm down is farther than 2 mm along.
+#[test]
+fn distances_are_in_space() {
+    let order =
+        |infeed: &str| moves(&path(&format!("T9 O3 I{infeed} B1"), "mill 0,0 2,0\nmill 2,0 4,0\nend 4,0"));
+    // After the first edge of the second line (at 4, 0): its own next edge, or the first line's next, from (2, 0).
+    assert_eq!(order("4")[..5], ["L 9", "D 5", "M 2,0 5", "M 4,0 5", "D 1"]);
+    assert_eq!(order("4")[5], "M 2,0 1");
+}
+
+/// On a tie the first in segment order, and its end rather than its start.
+#[test]
+fn ties_go_to_the_first_segment_and_to_its_end() {
+    // A full circle begins and ends at one point: it is run from its end.
+    let circle = "arc CONTINUOUS centre 10,0 r 10 from 180 to 180\nend 0,0";
+    assert_eq!(moves(&path("T5 O3 I5 B0", circle)), ["L 5", "D 0", "C 0,0 0", "L 10"]);
+    // From the middle of a line that is milled to and fro, both ends of the next are as near.
+    let both = "mill 0,0 0,20\nmill 0,20 0,0\nend 0,0";
+    assert_eq!(moves(&path("T5 O3 I5 B0", both))[..4], ["L 5", "D 0", "M 0,20 0", "M 0,0 0"]);
+}
+
+#[test]
+fn at_last_the_tool_is_at_the_end_of_the_last_segment_at_sweep_height() {
+    let even = moves(&path("T5 O3 I1 B3", LINE));
+    assert_eq!(even[even.len() - 2..], ["L 10", "S 40,0"]);
+    let odd = moves(&path("T5 O3 I1 B4", LINE));
+    assert_eq!(odd, ["L 5", "D 4", "M 40,0 4", "L 10"]);
+}
+
+/// Travel: up to the sweep height, over, and down again.
+#[test]
+fn the_tool_travels_over_the_material() {
+    // The second line is deeper: its lower edges are left when all else is done.
+    let lines = "mill 0,0 40,0\nmill 40,0 80,0 \"B4\"\nmill 80,0 120,0\nend 120,0";
+    assert_eq!(
+        moves(&path("T5 O3 I1 B3", lines)),
+        [
+            "L 5",
+            "D 4",
+            "M 40,0 4",
+            "M 80,0 4",
+            "M 120,0 4",
+            "D 3",
+            "M 80,0 3",
+            "L 10",
+            "S 40,0",
+            "L 5",
+            "D 3",
+            "M 0,0 3",
+            "L 10",
+            "S 120,0"
+        ]
+    );
+}
+
+/// A path's own S holds for its chains; the option's where it has none.
+#[test]
+fn the_sweep_height_is_the_paths_or_the_options() {
+    let last = |parameters: &str| moves(&path(parameters, LINE)).iter().rev().nth(1).unwrap().clone();
+    assert_eq!(last("T5 O3 I1 B3 S8"), "L 8");
+    assert_eq!(last("T5 O3 I1 B3"), "L 10");
+}
+
+#[test]
+fn a_comment_stands_before_each_pass_of_its_segment() {
+    let lines = "mill 0,0 40,0 \"Qx\"\nmill 40,0 40,30\nend 40,30";
+    assert_eq!(
+        moves_and_comments(&path("T5 O3 I1 B3", lines)),
+        [
+            "L 5",
+            "D 4",
+            "Q x",
+            "M 40,0 4",
+            "M 40,30 4",
+            "D 3",
+            "M 40,0 3",
+            "Q x",
+            "M 0,0 3",
+            "L 10",
+            "S 40,30"
+        ]
+    );
+    assert_eq!(moves_and_comments(&path("T5 O3 I5 B0", "mill 0,0 40,0 \"Q\"\nend 40,0"))[2], "Q ");
+    // Before a bar's own retraction, too.
+    let bars = "bars 0,0 40,0 \"Qx\"\nend 40,0";
+    assert_eq!(moves_and_comments(&path("T5 O3 I5 B0 D3 P50 U50", bars))[..4], ["L 5", "D 0", "Q x", "L 3"]);
+}
+
+/// Z is corrected for where a move begins.
+#[test]
+fn heights_name_the_point_where_the_move_begins() {
+    let program = program(&path("T5 O3 I1 B4", "mill 0,0 40,0 40,30\nend 40,30"));
+    let points: Vec<(f64, f64)> = program
+        .steps
+        .iter()
+        .filter_map(|step| match step {
+            Step::Move { to: Move::Line { z, .. } | Move::Lift { z } | Move::Drill { z }, .. } => {
+                Some((z.at.x, z.at.y))
+            }
+            _ => None,
+        })
+        .collect();
+    assert_eq!(points, [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (40.0, 0.0), (40.0, 30.0)]);
+}
+
+/// The emitted path's start becomes X0 Y0.
+#[test]
+fn coordinates_count_from_the_start() {
+    let drawing = "layer 1234.1P\nstart 100,50 \"T5 O3 I5 B0\"\nmill 100,50 140,80\nend 140,80";
+    assert_eq!(moves(drawing), ["L 5", "D 0", "M 40,30 0", "L 10"]);
+}
+
+/// A dead end is milled out and back at every depth.
+#[test]
+fn returns_have_edges_of_their_own() {
+    let dead_end = "mill 0,0 20,0\nturn 20,0\nend 0,0";
+    assert_eq!(
+        moves(&path("T5 O3 I1 B3", dead_end)),
+        ["L 5", "D 4", "M 20,0 4", "M 0,0 4", "D 3", "M 20,0 3", "M 0,0 3", "L 10"]
+    );
+}

@@ -1,0 +1,19 @@
+//! Every move of a program, in which order, with which numbers. (spec/60-gcode.md)
+//!
+//! Moves are written in short: `S x,y` sweeps (G00 X Y), `L z` lifts (G00 Z), `D z` drills (G01 Z), `M x,y z` mills a line (G01),
+//! `A x,y z` and `C x,y z` mill an arc counterclockwise or clockwise (G03, G02).
+#![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
+
+mod arcs;
+mod bars;
+mod chains;
+mod helices;
+mod holes;
+mod merging;
+mod probes;
+mod statistics;
+mod subpaths;
+mod sweepless;
+mod sweeps;
+
+mod support;

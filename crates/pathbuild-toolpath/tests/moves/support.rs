@@ -1,0 +1,136 @@
+//! Drawings in text form to programs.
+
+use pathbuild_draw::Sheet;
+use pathbuild_dxf::Options;
+use pathbuild_path::{
+    Bindings, Item, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, bind, raw_file,
+    walk,
+};
+use pathbuild_toolpath::{Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, SupportBars, fold};
+
+/// The paths of a drawing, which may embed each other.
+struct Drawn(Vec<(Path, Vec<Item>)>);
+
+impl Parts for Drawn {
+    type Id = usize;
+
+    fn path(&self, id: usize) -> &Path {
+        &self.0[id].0
+    }
+
+    fn items(&self, id: usize) -> &[Item] {
+        &self.0[id].1
+    }
+
+    fn embedded(&self, id: usize, segment: usize) -> Option<usize> {
+        let SegmentKind::Subpath(subpath) = &self.path(id).segments[segment].kind else { return None };
+        let SubpathName::Found { name, .. } = &subpath.name else { return None };
+        self.0.iter().position(|(path, _)| path.name == *name)
+    }
+}
+
+pub(crate) const OPTIONS: FoldOptions =
+    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), support_bars: SupportBars::Compatible };
+
+/// The program of the first path of a drawing.
+#[track_caller]
+pub(crate) fn program(drawing: &str) -> Program {
+    program_with(drawing, OPTIONS)
+}
+
+#[track_caller]
+pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
+    let sheet = Sheet::parse(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let language = Language {
+        path_pattern: PathPattern::default(),
+        line_types: LineTypeAliases::default(),
+        text_limit: 65_536,
+        join_tolerance: 0.0,
+    };
+    let reading = Options {
+        keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
+        units: pathbuild_dxf::Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 10_000,
+        max_text: 65_536,
+    };
+    let file = raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &reading), &language);
+    let walked = |raw: &pathbuild_path::RawPath| {
+        let (path, found) = bind(raw, &Bindings::check_values(raw), &language);
+        let path = path.unwrap_or_else(|| panic!("{:?} {found:?} in\n{drawing}", raw.diagnostics));
+        let walked = walk(&path, 0.0);
+        assert!(!walked.items.is_empty(), "{:?} in\n{drawing}", walked.diagnostics);
+        (path, walked.items)
+    };
+    let parts = Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect());
+    fold(&parts, 0, "1234.1P.dxf", options)
+}
+
+/// A drawing of one path with the text of its start at (0, 0).
+pub(crate) fn path(parameters: &str, statements: &str) -> String {
+    format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
+}
+
+/// The moves of the first path of a drawing.
+#[track_caller]
+pub(crate) fn moves(drawing: &str) -> Vec<String> {
+    shown(&program(drawing), false)
+}
+
+/// Moves, with Q comments and marks of subpaths between.
+#[track_caller]
+pub(crate) fn moves_and_comments(drawing: &str) -> Vec<String> {
+    shown(&program(drawing), true)
+}
+
+pub(crate) fn shown(program: &Program, with_comments: bool) -> Vec<String> {
+    let show = |step: &Step| match step {
+        Step::Move { to, .. } => Some(motion(to)),
+        Step::Comment(shown) if with_comments => comment(shown, &program.names),
+        Step::Comment(_) => None,
+    };
+    program.steps.iter().filter_map(show).collect()
+}
+
+fn comment(comment: &Comment, names: &Names) -> Option<String> {
+    match comment {
+        Comment::Question(text) => Some(format!("Q {}", names.get(*text))),
+        Comment::StartSubpath(name) => Some(format!("START {}", names.get(*name))),
+        Comment::EndSubpath(name) => Some(format!("END {}", names.get(*name))),
+        Comment::Element { .. } | Comment::Pass { .. } => None,
+    }
+}
+
+fn motion(motion: &Move) -> String {
+    match motion {
+        Move::Sweep { to } => format!("S {},{}", short(to.x), short(to.y)),
+        Move::Lift { z } => format!("L {}", short(z.z)),
+        Move::Drill { z } => format!("D {}", short(z.z)),
+        Move::Line { to, z, .. } => format!("M {},{} {}", short(to.x), short(to.y), short(z.z)),
+        Move::Arc { clockwise, to, z, .. } => {
+            let direction = if *clockwise { "C" } else { "A" };
+            format!("{direction} {},{} {}", short(to.x), short(to.y), short(z.z))
+        }
+    }
+}
+
+/// A number with as many of its first three decimals as it needs.
+pub(crate) fn short(number: f64) -> String {
+    let number = format!("{number:.3}");
+    let number = number.trim_end_matches('0').trim_end_matches('.');
+    if number == "-0" { "0".to_owned() } else { number.to_owned() }
+}
+
+/// What each move counts as: class, length, and feed where it is not the rapid one.
+#[track_caller]
+pub(crate) fn counts(drawing: &str) -> Vec<String> {
+    let count = |count: &Count| {
+        let feed = count.feed.map(|feed| format!(" {}", short(feed))).unwrap_or_default();
+        format!("{:?} {}{feed}", count.class, short(count.length))
+    };
+    let of_step = |step: &Step| match step {
+        Step::Move { count: counted, .. } => Some(count(counted)),
+        Step::Comment(_) => None,
+    };
+    program(drawing).steps.iter().filter_map(of_step).collect()
+}
