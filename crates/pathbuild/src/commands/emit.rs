@@ -4,16 +4,16 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Db, MissingOption, Role, Target, check_file, path_names};
 use pathbuild_diagnostic::messages::{files, outputs as messages, probes};
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Diagnostic, Point, Value};
 use pathbuild_gcode::native::{Charset, Header, WriteOptions};
 use pathbuild_path::PathName;
-use pathbuild_toolpath::Statistics;
+use pathbuild_toolpath::{Correction, Outside, Program, Statistics, ZModel};
 
 use crate::args::EmitArgs;
 use crate::config::types;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
+use crate::report::{Findings, judge};
 use crate::session::{CheckedTarget, Output, Session, Wanted, outputs};
 
 /// Runs the command.
@@ -120,7 +120,7 @@ impl Emission<'_> {
                 self.diagnostics.push(*problem);
             }
         }
-        let findings = Findings::new(self.diagnostics);
+        let findings = Findings::new(judge(self.diagnostics, &self.context.settings));
         self.context.show(&findings);
         if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }
@@ -141,13 +141,17 @@ impl Emission<'_> {
             self.diagnostics.push(cannot_write(&stem, reason).in_file(file).in_path(&program.path));
             return None;
         }
+        let options = self.write_options();
+        if let Some(problem) = self.too_many_pieces(program, options.correction) {
+            self.diagnostics.push(problem.in_file(file).in_path(&program.path));
+            return None;
+        }
+        let outside = options.correction.outside(program).map(|outside| outside_probes(&outside));
+        self.diagnostics.extend(outside.map(|warning| warning.in_file(file).in_path(&program.path)));
         let directory = general.out_dir.value.as_deref().or(file.parent()).unwrap_or(Utf8Path::new(""));
         let header = Header { provenance: self.provenance() };
         let feed = general.probe_feed.value.or(general.feed.value).unwrap_or_default();
-        Some(Ready {
-            made,
-            outputs: outputs(program, directory, &stem, &header, feed, &self.write_options()),
-        })
+        Some(Ready { made, outputs: outputs(program, directory, &stem, &header, feed, &options) })
     }
 
     fn provenance(&self) -> String {
@@ -160,7 +164,29 @@ impl Emission<'_> {
             types::Charset::Ascii => Charset::Ascii,
             types::Charset::Utf8 => Charset::Utf8,
         };
-        WriteOptions { lang: self.context.lang(), charset, rapid: general.rapid.value.unwrap_or_default() }
+        let model = match general.z_model.value {
+            types::ZModel::Idw4 => ZModel::Idw4,
+            types::ZModel::Plane => ZModel::Plane,
+            types::ZModel::Tin => ZModel::Tin,
+        };
+        WriteOptions {
+            lang: self.context.lang(),
+            charset,
+            rapid: general.rapid.value.unwrap_or_default(),
+            correction: Correction { model, longest: self.context.settings.z_split() },
+        }
+    }
+
+    /// PB005: what comes of cutting moves is limited like the moves themselves.
+    fn too_many_pieces(&self, program: &Program, correction: Correction) -> Option<Diagnostic> {
+        let limit = self.context.settings.limits.embedding_moves.value;
+        let count = correction.count(program);
+        (count > limit).then(|| {
+            Diagnostic::new(&files::LIMIT)
+                .with("what", format!("the number of moves, cut by z-split ({count}),"))
+                .with("limit", limit)
+                .with("key", "embedding-moves")
+        })
     }
 
     /// Two outputs of one name: neither is written. Case does not count, since on some systems it does not.
@@ -257,6 +283,12 @@ impl Emission<'_> {
 
 fn cannot_write(name: &str, reason: &str) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason)
+}
+
+fn outside_probes(outside: &Outside) -> Diagnostic {
+    Diagnostic::new(&probes::OUTSIDE)
+        .with("distance", outside.distance)
+        .with("at", Point::new(outside.at.x, outside.at.y))
 }
 
 fn several_paths(file: &Utf8Path, names: &[PathName]) -> Diagnostic {
