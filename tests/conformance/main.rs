@@ -23,14 +23,7 @@ use rayon::prelude::*;
 use recorded::Run;
 
 /// Runs that are known to differ, with the reason. A run that is equal must not stand here.
-const DIFFERENT: [(&str, &str); 6] = [
-    ("adjust_00_plain/0", "adjust is not built yet"),
-    ("adjust_01_comma/0", "adjust is not built yet"),
-    ("adjust_02_spaces/0", "adjust is not built yet"),
-    ("adjust_06_plain/0", "adjust is not built yet"),
-    ("adjust_07_comma/0", "adjust is not built yet"),
-    ("adjust_08_spaces/0", "adjust is not built yet"),
-];
+const DIFFERENT: [(&str, &str); 0] = [];
 
 #[test]
 fn recorded_runs_are_equal() {

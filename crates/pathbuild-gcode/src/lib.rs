@@ -1,6 +1,7 @@
 //! G-code text: writing, reading, checking and post-processing programs. (spec/60-gcode.md, spec/85-post-processors.md,
 //! spec/90-gcode-import.md)
 
+pub mod adjust;
 pub mod dialect;
 pub mod interpret;
 pub mod native;

@@ -5,14 +5,18 @@
 
 mod bars;
 mod chain;
+mod correction;
 mod cost;
 mod fold;
 mod helix;
 mod mill;
+mod pieces;
 mod probes;
 mod program;
 mod statistics;
+mod z_model;
 
+pub use correction::{Correction, Outside};
 pub use cost::own_moves;
 pub use fold::{FoldOptions, Parts, SupportBars, fold};
 pub use pathbuild_path::Xy;
@@ -20,3 +24,4 @@ pub use program::{
     Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,
 };
 pub use statistics::{Statistics, Total};
+pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

@@ -144,6 +144,7 @@ macro_rules! expectations {
 expectations! {
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
+    PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
     SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
     DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";

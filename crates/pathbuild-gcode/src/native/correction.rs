@@ -1,41 +1,54 @@
 //! The formula by which measured probes correct a height. (spec/70-z-probes.md, "The formula")
 
-use pathbuild_toolpath::{ProbePoint, Xy};
+use pathbuild_toolpath::{Correction, Height, ProbePoint, Program, Surface};
 
-use super::number::push_f3;
+use super::number::{push_exact, push_f3};
 
 /// Numbers of the parameters: the first probe is #51.
 pub(crate) const FIRST_PARAMETER: usize = 51;
 
-/// How many probes count at a point.
-const HEAVIEST: usize = 4;
-
-/// Appends `(=z+w*[#51-th]...)` for a height at a point; nothing without probes.
-pub(super) fn push_formula(text: &mut String, probes: &[ProbePoint], z: f64, at: Xy) {
-    if probes.is_empty() {
-        return;
-    }
-    text.push_str("(=");
-    push_f3(text, z);
-    for (index, weight) in weights(probes, at) {
-        text.push('+');
-        push_f3(text, weight);
-        text.push_str("*[#");
-        text.push_str(&(FIRST_PARAMETER + index).to_string());
-        text.push('-');
-        push_f3(text, probes[index].height);
-        text.push(']');
-    }
-    text.push(')');
+/// Writes formulas for the heights of a program with probes.
+pub(super) struct Formulas<'a> {
+    probes: &'a [ProbePoint],
+    surface: Surface,
+    /// Whether numbers have three decimals, as the original tool writes them; that bends a plane.
+    is_rounded: bool,
 }
 
-/// The heaviest probes at a point in falling order (in order of number where equal), with weights that sum to 1.
-fn weights(probes: &[ProbePoint], at: Xy) -> Vec<(usize, f64)> {
-    let weight = |probe: &ProbePoint| 1.0 / ((probe.at - at).norm() + 0.001);
-    let mut weights: Vec<(usize, f64)> = probes.iter().map(weight).enumerate().collect();
-    weights.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-    weights.truncate(HEAVIEST);
-    let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
-    weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
-    weights
+/// A weight that is written as nothing.
+const NOTHING: f64 = 0.000_000_5;
+
+impl<'a> Formulas<'a> {
+    /// `None` for a program without probes.
+    pub(super) fn new(program: &'a Program, correction: Correction) -> Option<Self> {
+        let places = program.probes.iter().map(|probe| probe.at).collect();
+        (!program.probes.is_empty()).then(|| Self {
+            probes: &program.probes,
+            surface: Surface::new(correction.model, places),
+            is_rounded: correction.is_compatible(),
+        })
+    }
+
+    /// Appends `(=z+w*[#51-th]...)`.
+    pub(super) fn push(&self, text: &mut String, height: Height) {
+        text.push_str("(=");
+        self.push_number(text, height.z);
+        for (probe, weight) in self.surface.weights(height.at) {
+            if !self.is_rounded && weight.abs() < NOTHING {
+                continue;
+            }
+            text.push(if weight < 0.0 { '-' } else { '+' });
+            self.push_number(text, weight.abs());
+            text.push_str("*[#");
+            text.push_str(&(FIRST_PARAMETER + probe).to_string());
+            text.push('-');
+            push_f3(text, self.probes[probe].height);
+            text.push(']');
+        }
+        text.push(')');
+    }
+
+    fn push_number(&self, text: &mut String, number: f64) {
+        if self.is_rounded { push_f3(text, number) } else { push_exact(text, number) }
+    }
 }

@@ -1,4 +1,4 @@
-//! Numbers with exactly three decimals.
+//! Numbers with three decimals, and with up to six.
 
 use std::fmt::Write;
 
@@ -12,6 +12,17 @@ pub fn f3(number: f64) -> String {
 pub(super) fn push_f3(text: &mut String, number: f64) {
     let start = text.len();
     _ = write!(text, "{number:.3}");
+    if &text[start..] == "-0.000" {
+        text.remove(start);
+    }
+}
+
+/// Six decimals, of which zeros behind the third are left out.
+pub(super) fn push_exact(text: &mut String, number: f64) {
+    let start = text.len();
+    _ = write!(text, "{number:.6}");
+    let zeros = text.bytes().rev().take(3).take_while(|byte| *byte == b'0').count();
+    text.truncate(text.len() - zeros);
     if &text[start..] == "-0.000" {
         text.remove(start);
     }

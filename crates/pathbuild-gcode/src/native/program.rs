@@ -1,10 +1,10 @@
 //! The program itself. (spec/60-gcode.md)
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_toolpath::{Comment, ElementKind, Height, Move, Program, Statistics, Step, Xy};
+use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
 
 use super::comment::{Charset, comment};
-use super::correction::push_formula;
+use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, push_f3};
 use super::statistics;
 
@@ -17,6 +17,8 @@ pub struct WriteOptions {
     pub charset: Charset,
     /// --rapid in mm/min, for times.
     pub rapid: f64,
+    /// How heights are corrected where there are probes.
+    pub correction: Correction,
 }
 
 /// What the first comments say.
@@ -26,16 +28,19 @@ pub struct Header {
     pub provenance: String,
 }
 
-/// Writes a program. Lines end with LF.
+/// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
+/// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
-    let text = String::with_capacity(64 * program.steps.len() + 512);
-    let mut writer = Writer { program, options, text, at: Xy::origin() };
+    let steps = options.correction.steps(program);
+    let text = String::with_capacity(64 * steps.len() + 512);
+    let formulas = Formulas::new(program, options.correction);
+    let mut writer = Writer { program, options, formulas, text, at: Xy::origin() };
     writer.line("%");
     writer.header(header);
     writer.line("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1");
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
-    for step in &program.steps {
+    for step in steps.as_ref() {
         match step {
             Step::Move { to, count } => writer.step(to, count.length),
             Step::Comment(said) => writer.said(said),
@@ -52,6 +57,7 @@ pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> St
 struct Writer<'a> {
     program: &'a Program,
     options: &'a WriteOptions,
+    formulas: Option<Formulas<'a>>,
     text: String,
     /// Where the tool is.
     at: Xy,
@@ -74,9 +80,10 @@ impl Writer<'_> {
         }
         self.comment(&format!("{}: {}", self.program.drawing, self.program.path));
         for (index, probe) in self.program.probes.iter().enumerate() {
-            let number = super::correction::FIRST_PARAMETER + index;
-            let place = format!("{} {}", f3(probe.drawn_at.x), f3(probe.drawn_at.y));
-            self.comment(&format!("#{number}: [{place}] T={}", f3(probe.height)));
+            let number = FIRST_PARAMETER + index;
+            let (drawn, at) = (probe.drawn_at, probe.at);
+            let place = format!("[{} {}] T={}", f3(drawn.x), f3(drawn.y), f3(probe.height));
+            self.comment(&format!("#{number}: {place} X{} Y{}", f3(at.x), f3(at.y)));
         }
     }
 
@@ -130,7 +137,9 @@ impl Writer<'_> {
 
     fn z(&mut self, height: Height) {
         self.word('Z', height.z);
-        push_formula(&mut self.text, &self.program.probes, height.z, height.at);
+        if let Some(formulas) = &self.formulas {
+            formulas.push(&mut self.text, height);
+        }
     }
 
     fn said(&mut self, said: &Comment) {

@@ -56,6 +56,9 @@ pub struct AdjustArgs {
     #[arg(long, value_name = "MM", required = true, allow_hyphen_values = true)]
     pub max_correction: String,
     /// Print the lines of _Clean.gcode that match
-    #[arg(long, value_name = "REGEX")]
+    #[arg(long, value_name = "REGEX", allow_hyphen_values = true)]
     pub show: Option<String>,
+    /// Take values that `DRAWING_Z.txt` lacks from a sender's log, `[PRB:X,Y,Z:1]` for each probe in order
+    #[arg(long, value_name = "FILE")]
+    pub log: Option<Utf8PathBuf>,
 }

@@ -51,7 +51,6 @@ pub enum Command {
     /// Write the files of one or more paths; without arguments those of `[emit] targets`
     Emit(EmitArgs),
     /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
-    #[command(hide = true)]
     Adjust(AdjustArgs),
     /// Keep checking as drawings change
     #[command(hide = true)]

@@ -1,5 +1,6 @@
 //! One module for each command: `run(&Context, &Args) -> ExitStatus`.
 
+pub mod adjust;
 pub mod check;
 pub(crate) mod compat;
 pub mod completions;
@@ -28,6 +29,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     match command {
         Command::Check(args) => check::run(context, args),
         Command::Emit(args) => emit::run(context, args),
+        Command::Adjust(args) => adjust::run(context, args),
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
         Command::Man => man::run(context),

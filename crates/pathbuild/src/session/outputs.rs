@@ -23,6 +23,8 @@ pub struct Writing {
     pub options: WriteOptions,
     /// The feed in mm/min for probing where the drawing gives no Z.
     pub probe_feed: f64,
+    /// Most moves of a program, after cutting.
+    pub most_moves: u64,
 }
 
 impl OutputKind {

@@ -3,9 +3,9 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Database, Db, program};
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_toolpath::{Program, Statistics};
+use pathbuild_diagnostic::{Diagnostic, Point};
+use pathbuild_toolpath::{Outside, Program, Statistics};
 
 use super::compare;
 use super::job::Job;
@@ -74,6 +74,14 @@ pub(super) fn deliver(db: &Database, job: &Job, task: Task, writing: &Writing) -
     let Some(program) = program(db, job.target).clone() else { return Delivered::default() };
     let sum = Statistics::of(&program, writing.options.rapid).sum();
     let mut delivered = Delivered { length: sum.length, minutes: sum.minutes(), ..Delivered::default() };
+    let correction = writing.options.correction;
+    let at = |diagnostic: Diagnostic| diagnostic.in_file(job.target.file(db).path(db)).in_path(&program.path);
+    let count = correction.count(&program);
+    if count > writing.most_moves {
+        delivered.problems.push(at(too_many_pieces(count, writing.most_moves)));
+        return delivered;
+    }
+    delivered.problems.extend(correction.outside(&program).map(|outside| at(outside_probes(&outside))));
     let outputs = outputs(job, &program, writing);
     match task {
         Task::Write { force } => {
@@ -94,6 +102,20 @@ pub(super) fn deliver(db: &Database, job: &Job, task: Task, writing: &Writing) -
         }
     }
     delivered
+}
+
+/// PB005: what comes of cutting moves is limited like the moves themselves.
+fn too_many_pieces(count: u64, limit: u64) -> Diagnostic {
+    Diagnostic::new(&files::LIMIT)
+        .with("what", format!("the number of moves, cut by z-split ({count}),"))
+        .with("limit", limit)
+        .with("key", "embedding-moves")
+}
+
+fn outside_probes(outside: &Outside) -> Diagnostic {
+    Diagnostic::new(&probes::OUTSIDE)
+        .with("distance", outside.distance)
+        .with("at", Point::new(outside.at.x, outside.at.y))
 }
 
 /// A file to be written.

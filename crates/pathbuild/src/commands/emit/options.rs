@@ -3,6 +3,7 @@
 use pathbuild_db::MissingOption;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{Charset, WriteOptions};
+use pathbuild_toolpath::{Correction, ZModel};
 
 use super::deliver::Task;
 use crate::config::types;
@@ -35,7 +36,18 @@ pub(super) fn writing(context: &Context) -> Writing {
     };
     let rapid = general.rapid.value.unwrap_or_default();
     Writing {
-        options: WriteOptions { lang: context.lang(), charset, rapid },
+        options: WriteOptions { lang: context.lang(), charset, rapid, correction: correction(context) },
+        most_moves: context.settings.limits.embedding_moves.value,
         probe_feed: general.probe_feed.value.or(general.feed.value).unwrap_or_default(),
     }
+}
+
+/// How heights are corrected between probes.
+fn correction(context: &Context) -> Correction {
+    let model = match context.settings.general.z_model.value {
+        types::ZModel::Idw4 => ZModel::Idw4,
+        types::ZModel::Plane => ZModel::Plane,
+        types::ZModel::Tin => ZModel::Tin,
+    };
+    Correction { model, longest: context.settings.z_split() }
 }

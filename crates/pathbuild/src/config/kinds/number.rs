@@ -42,12 +42,19 @@ pub(in crate::config) const NOT_NEGATIVE: Kind<f64> = Kind {
     schema: || json!({ "type": "number", "minimum": 0 }),
 };
 
-/// The same, where there is one.
-pub(in crate::config) const OPTIONAL_NOT_NEGATIVE: Kind<Option<f64>> = Kind {
-    read: |value, reader| (NOT_NEGATIVE.read)(value, reader).map(Some),
+/// How long pieces of moves may be, where somebody says it: 0 for any length. Shorter ones than a machine can tell apart would only
+/// fill the disk.
+pub(in crate::config) const PIECE: Kind<Option<f64>> = Kind {
+    read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
+        Some(number) => Some(Some(number)),
+        None => reader.expected(Value::Word(&messages::PIECE), value),
+    },
     show: |number| number.map(|number| number.to_string()),
-    schema: NOT_NEGATIVE.schema,
+    schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
 };
+
+/// In mm.
+const SHORTEST_PIECE: f64 = 0.1;
 
 /// A whole number from 1 up.
 pub(in crate::config) const COUNT: Kind<u64> = Kind {

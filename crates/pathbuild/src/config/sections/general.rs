@@ -4,7 +4,7 @@ use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Lang;
 
 use crate::config::kind::Key;
-use crate::config::kinds::number::{NOT_NEGATIVE, OPTIONAL_NOT_NEGATIVE, POSITIVE, SWITCH};
+use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
 use crate::config::kinds::pattern::{REGEX, RESTRICTIONS};
 use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, TEXT, choice};
 use crate::config::origin::Sourced;
@@ -52,7 +52,7 @@ section! {
     /// idw4 | plane | tin: how heights between probes are found
     z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#;
     /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
-    z_split: Option<f64> = "z-split", OPTIONAL_NOT_NEGATIVE, None, "0";
+    z_split: Option<f64> = "z-split", PIECE, None, "0";
     /// a built-in post-processor or a file
     post: Box<str> = "post", TEXT, "native".into(), r#""native""#;
     /// whether holes become canned cycles where the post has them

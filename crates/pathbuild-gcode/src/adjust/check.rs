@@ -1,0 +1,129 @@
+//! Whether the values may be put into the program.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_path::approx::above;
+use pathbuild_toolpath::odd_probes;
+
+use super::Inputs;
+use super::survey::{Survey, Used};
+use super::table::{Made, Place, ProbeTable};
+use super::values::{Entered, ProbeLine};
+use crate::native::f3;
+
+/// Measured heights by the number of the probe.
+pub(super) type Values = BTreeMap<u32, f64>;
+
+/// What the values are held against.
+pub(super) struct Check<'c, 'a> {
+    pub(super) inputs: &'c Inputs<'a>,
+    pub(super) table: &'c ProbeTable,
+    pub(super) survey: &'c Survey<'a>,
+}
+
+/// Places and heights with three decimals that are as far apart as this are not the same.
+const DIFFERENT: f64 = 0.000_5;
+
+impl Check<'_, '_> {
+    /// The values, each of which was checked.
+    pub(super) fn values(&self, lines: &[ProbeLine<'_>], problems: &mut Vec<Diagnostic>) -> Values {
+        let mut values = Values::new();
+        for line in lines {
+            match self.value(line) {
+                Ok(value) => values.extend(value.map(|value| (line.probe, value))),
+                Err(problem) => problems.push(*problem),
+            }
+        }
+        problems.extend(self.unknown(lines));
+        values
+    }
+
+    fn value(&self, line: &ProbeLine<'_>) -> Result<Option<f64>, Box<Diagnostic>> {
+        self.check_made(line)?;
+        let value = match line.value {
+            Entered::Nothing => return Err(Box::new(line.value_fault(&messages::NO_VALUE))),
+            Entered::Wrong => return Ok(None),
+            Entered::Value(value) => value,
+        };
+        for expected in self.expected(line)? {
+            let off = (value - expected).abs();
+            if above(off, self.inputs.max_correction) {
+                let problem = line.value_fault(&messages::TOO_FAR).with("value", value).with("off", off);
+                let problem = problem.with("expected", expected);
+                return Err(Box::new(problem.with("limit", self.inputs.max_correction)));
+            }
+        }
+        Ok(Some(value))
+    }
+
+    /// Whether the program was made with this probe, where it says what it was made with.
+    fn check_made(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
+        if self.table.probes.is_empty() {
+            return Ok(());
+        }
+        let fault = |message| {
+            let all = 0..line.line.content().len();
+            let file = self.inputs.program.file.file_name().unwrap_or_default();
+            line.line.fault(message, all).with("probe", u64::from(line.probe)).with("file", file)
+        };
+        let Some(made) = self.table.probes.get(&line.probe) else {
+            return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));
+        };
+        let is_other = |(a, b): (f64, f64)| (a - b).abs() > DIFFERENT;
+        let height = line.height.unwrap_or(made.height);
+        let pairs = [(line.place[0], made.place[0]), (line.place[1], made.place[1]), (height, made.height)];
+        if pairs.into_iter().any(is_other) {
+            let (here, there) = (described(line.place, height), described(made.place, made.height));
+            return Err(Box::new(fault(&messages::OTHER_PROBE).with("here", here).with("there", there)));
+        }
+        Ok(())
+    }
+
+    /// The heights that the probe was drawn at; the older form leaves that to the formulas.
+    fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
+        let made = self.table.probes.get(&line.probe).map(|made| made.height);
+        if let Some(height) = line.height.or(made) {
+            return Ok(vec![height]);
+        }
+        match self.survey.probes.get(&line.probe) {
+            None => Ok(Vec::new()),
+            Some(Used { drawn: Some((least, greatest)), .. }) => Ok(vec![*least, *greatest]),
+            Some(Used { drawn: None, .. }) => Err(Box::new(line.value_fault(&messages::NO_EXPECTED_HEIGHT))),
+        }
+    }
+
+    /// Probes that formulas use and that have no line, each where it is used first; of a line of the program only one is told.
+    fn unknown(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
+        let file = self.inputs.values.file.file_name().unwrap_or_default();
+        let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
+        let mut told = BTreeSet::new();
+        let unknown = self.survey.probes.iter().filter(|(probe, _)| !known.contains(probe));
+        let unknown = unknown.filter(|(_, used)| told.insert(used.line.number)).map(|(probe, used)| {
+            let problem = used.line.fault(&messages::UNKNOWN_PROBE, used.at.clone());
+            problem.with("probe", u64::from(*probe)).with("file", file)
+        });
+        unknown.collect()
+    }
+
+    /// Probes that do not fit their neighbours. Only programs that say where in them the probes are can be asked.
+    pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
+        let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
+            (Entered::Value(value), Some(Made { at: Some(at), height, .. })) => Some((*at, value - height)),
+            _ => None,
+        });
+        let measured: Option<Vec<_>> = measured.collect();
+        let odd = odd_probes(&measured.unwrap_or_default());
+        let told = odd.into_iter().map(|odd| {
+            let direction = if odd.off > 0.0 { &messages::HIGHER } else { &messages::LOWER };
+            let told = lines[odd.probe].value_fault(&messages::ODD).with("off", odd.off.abs());
+            told.with("direction", direction)
+        });
+        told.collect()
+    }
+}
+
+fn described(place: Place, height: f64) -> String {
+    format!("[{} {}] T={}", f3(place[0]), f3(place[1]), f3(height))
+}

@@ -1,0 +1,107 @@
+//! The adjusted program.
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::probes as messages;
+
+use super::check::Values;
+use super::formula::{self, Fault, Probes};
+use super::lines::{Line, lines, mark};
+use super::scan::{Spot, spots};
+use super::survey::{in_line, located, number};
+use super::{Adjusted, Inputs};
+use crate::native::f3;
+
+/// What a height may exceed the largest correction by, though no probe does: weights of three decimals need not sum to 1.
+const SLACK: (f64, f64) = (1.002, 0.002);
+
+/// Works out every formula. Everything else stays to the byte.
+///
+/// # Errors
+/// Formulas that come to nothing, or to too much.
+pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<Adjusted, Vec<Diagnostic>> {
+    let bytes = inputs.program.bytes;
+    let mut writer = Writer { inputs, values, adjusted: Adjusted::default(), problems: Vec::new() };
+    writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
+    writer.adjusted.program.extend_from_slice(mark(bytes));
+    for line in lines(inputs.program) {
+        writer.line(line);
+    }
+    if writer.problems.is_empty() { Ok(writer.adjusted) } else { Err(writer.problems) }
+}
+
+struct Writer<'w> {
+    inputs: &'w Inputs<'w>,
+    values: &'w Values,
+    adjusted: Adjusted,
+    problems: Vec<Diagnostic>,
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: Line<'_>) {
+        let mut done = 0;
+        for spot in spots(line.content()) {
+            match self.height(line, &spot) {
+                Ok(height) => {
+                    let program = &mut self.adjusted.program;
+                    program.extend_from_slice(&line.bytes[done..spot.number.start]);
+                    program.extend_from_slice(f3(height).as_bytes());
+                    program.extend_from_slice(b"(==");
+                    done = spot.formula.start;
+                }
+                Err(problem) => {
+                    self.problems.push(*problem);
+                    return;
+                }
+            }
+        }
+        self.adjusted.program.extend_from_slice(&line.bytes[done..]);
+    }
+
+    fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
+        let formula = &line.content()[spot.formula.clone()];
+        let told = |fault: Fault| Box::new(located(line, &fault));
+        let height =
+            formula::value(formula, &mut Measured(self.values)).map_err(|it| told(in_line(&it, spot)))?;
+        if !height.is_finite() {
+            return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
+        }
+        self.adjusted.heights += 1;
+        if is_height(line.content(), spot) {
+            self.check(line, spot, height - number(line.content(), spot).unwrap_or(height))?;
+        }
+        Ok(height)
+    }
+
+    /// Far outside the probes a plane can go farther than any of them.
+    fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
+        let limit = self.inputs.max_correction;
+        if correction.abs() > SLACK.0 * limit + SLACK.1 {
+            let whole = spot.number.start..spot.formula.end;
+            let problem = line.fault(&messages::HEIGHT_TOO_FAR, whole).with("off", correction.abs());
+            return Err(Box::new(problem.with("limit", limit)));
+        }
+        let (lowest, highest) = &mut self.adjusted.corrections;
+        if self.adjusted.heights == 1 {
+            (*lowest, *highest) = (correction, correction);
+        }
+        *lowest = lowest.min(correction);
+        *highest = highest.max(correction);
+        Ok(())
+    }
+}
+
+/// Whether the number is a Z word's.
+fn is_height(line: &[u8], spot: &Spot) -> bool {
+    line[..spot.number.start].trim_ascii_end().last().is_some_and(|letter| letter.eq_ignore_ascii_case(&b'Z'))
+}
+
+/// Every probe that the formulas use has a value: that was checked.
+struct Measured<'v>(&'v Values);
+
+impl Probes for Measured<'_> {
+    fn value(&mut self, probe: u32, _at: Range<usize>) -> f64 {
+        self.0.get(&probe).copied().unwrap_or(f64::NAN)
+    }
+}

@@ -1,0 +1,181 @@
+//! `pathbuild adjust`: measured heights put into programs. (spec/70-z-probes.md, "Adjusting")
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::{OsSystem, ReadError, Written};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files;
+use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
+use regex::Regex;
+
+use crate::args::AdjustArgs;
+use crate::config::{positive, regex};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::report::Findings;
+
+/// Runs the command. Of several programs each is written unless something is wrong with it.
+pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
+    let mut adjustment = match Adjustment::new(context, args) {
+        Ok(adjustment) => adjustment,
+        Err(fault) => return context.refuse(vec![*fault]),
+    };
+    let mut jobs: Vec<Job> = Vec::new();
+    for job in args.files.iter().map(|file| Job::new(file, context.settings.general.out_dir.value.as_deref()))
+    {
+        if !jobs.contains(&job) {
+            jobs.push(job);
+        }
+    }
+    if args.log.is_some() && jobs.len() > 1 {
+        return context.usage("--log is of one probing run: name one program with it");
+    }
+    for job in &jobs {
+        if let Err(problems) = adjustment.run(job) {
+            adjustment.has_failed = true;
+            adjustment.errors.extend(problems);
+        }
+    }
+    adjustment.conclude()
+}
+
+struct Adjustment<'a> {
+    context: &'a Context,
+    max_correction: f64,
+    shown: Option<Regex>,
+    log: Option<&'a Utf8Path>,
+    errors: Vec<Diagnostic>,
+    warnings: Vec<Diagnostic>,
+    has_failed: bool,
+}
+
+/// The files of one program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Job {
+    clean: Utf8PathBuf,
+    values: Utf8PathBuf,
+    milling: Utf8PathBuf,
+}
+
+const CLEAN: &str = "_Clean.gcode";
+const VALUES: &str = "_Z.txt";
+
+impl Job {
+    /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them.
+    fn new(argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Self {
+        let name = argument.file_name().unwrap_or_default();
+        let beside = argument.parent().unwrap_or(Utf8Path::new(""));
+        let written = out_dir.unwrap_or(beside);
+        let (stem, from) = match [CLEAN, VALUES].iter().find_map(|suffix| without(name, suffix)) {
+            Some(stem) => (stem, beside),
+            None => (without(name, ".dxf").unwrap_or(name), written),
+        };
+        Self {
+            clean: from.join(format!("{stem}{CLEAN}")),
+            values: from.join(format!("{stem}{VALUES}")),
+            milling: written.join(format!("{stem}_Milling.gcode")),
+        }
+    }
+}
+
+/// A name without its suffix, which may be in any case.
+fn without<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
+    let (stem, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
+    end.eq_ignore_ascii_case(suffix).then_some(stem)
+}
+
+impl<'a> Adjustment<'a> {
+    fn new(context: &'a Context, args: &'a AdjustArgs) -> Result<Self, Box<Diagnostic>> {
+        let max_correction = positive("max-correction", &args.max_correction)?;
+        let shown = args.show.as_deref().map(|pattern| regex("show", pattern)).transpose()?;
+        Ok(Self {
+            context,
+            max_correction,
+            // It was checked above.
+            shown: shown.and_then(|pattern| Regex::new(pattern).ok()),
+            log: args.log.as_deref(),
+            errors: Vec::new(),
+            warnings: Vec::new(),
+            has_failed: false,
+        })
+    }
+
+    fn run(&mut self, job: &Job) -> Result<(), Vec<Diagnostic>> {
+        let (clean, values, log) = self.read(job)?;
+        self.show(&clean);
+        let source = |file, bytes| Source { file, bytes };
+        let adjusted = adjust(&Inputs {
+            program: source(&job.clean, &clean),
+            values: source(&job.values, &values),
+            log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
+            max_correction: self.max_correction,
+        })?;
+        let written = OsSystem.write(&job.milling, &adjusted.program);
+        let written = written.map_err(|reason| vec![cannot_write(&job.milling, &reason)])?;
+        self.say_written(&job.milling, written, &adjusted);
+        self.warnings.extend(adjusted.warnings);
+        Ok(())
+    }
+
+    /// The program, the values and the log; all that cannot be read is told.
+    fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
+        let limit = self.context.settings.limits.file_size.value;
+        let read =
+            |file: &Utf8Path| OsSystem.read(file, limit).map_err(|error| unreadable(file, &error, limit));
+        match (read(&job.clean), read(&job.values), self.log.map(read).transpose()) {
+            (Ok(clean), Ok(values), Ok(log)) => Ok((clean, values, log)),
+            (clean, values, log) => {
+                Err([clean.err(), values.err(), log.err()].into_iter().flatten().collect())
+            }
+        }
+    }
+
+    fn show(&self, program: &[u8]) {
+        let Some(pattern) = &self.shown else { return };
+        let text = String::from_utf8_lossy(program);
+        for line in text.lines().filter(|line| pattern.is_match(line)) {
+            self.context.printer.result(format_args!("{line}\n"));
+        }
+    }
+
+    fn say_written(&self, file: &Utf8Path, written: Written, adjusted: &Adjusted) {
+        let state = match written {
+            Written::Changed => self.context.choose("written", "geschrieben"),
+            Written::Unchanged => self.context.choose("unchanged", "unverändert"),
+        };
+        let heights = self.context.choose("heights corrected by", "Höhen korrigiert um");
+        let to = self.context.choose("to", "bis");
+        let (lowest, highest) = adjusted.corrections;
+        let count = adjusted.heights;
+        self.context
+            .printer
+            .status(format_args!("{file}: {state}, {count} {heights} {lowest:+.3} {to} {highest:+.3} mm"));
+    }
+
+    /// Errors stay what they are, whatever the configuration says: nothing is written of what has one.
+    fn conclude(self) -> ExitStatus {
+        let mut diagnostics = self.context.findings(self.warnings).diagnostics;
+        diagnostics.extend(self.errors);
+        let findings = Findings::new(diagnostics);
+        self.context.show(&findings);
+        if self.has_failed || findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    }
+}
+
+fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
+    let diagnostic = match error {
+        ReadError::Missing => Diagnostic::new(&files::MISSING),
+        ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
+        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", &**reason),
+        ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
+            .with("what", format!("the file's size of {size} bytes"))
+            .with("limit", format!("{limit} bytes"))
+            .with("key", "file-size"),
+    };
+    diagnostic.in_file(file)
+}
+
+fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
+    let name = file.file_name().unwrap_or_default();
+    Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
+}
