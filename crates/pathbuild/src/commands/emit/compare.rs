@@ -31,8 +31,13 @@ pub(super) fn compare(db: &Database, output: &Output, moves_only: bool) -> (Stat
     (if problems.is_empty() { State::Current } else { State::Outdated }, problems)
 }
 
-/// What keeps a program on disk from being read, else where its moves differ first.
+/// What keeps a program on disk from being read, else where its moves differ first. Numbers that are equal to one unit of their last digit
+/// are equal, whatever an interpreter makes of them: an arc so short that it ends, rounded, where it begins is a circle to it. What is
+/// written in other lines is compared by what it does.
 fn difference(present: &[u8], expected: &str) -> Vec<Diagnostic> {
+    if verify::same_move_lines(&String::from_utf8_lossy(present), expected) {
+        return Vec::new();
+    }
     let found = read(present);
     let errors: Vec<Diagnostic> = found.problems.iter().filter(|it| it.is_error()).cloned().collect();
     if !errors.is_empty() {
