@@ -1,11 +1,7 @@
 //! Links the program at a fixed address on Linux: relocating a position-independent one at every start takes longer than compiling
 //! most drawings does (benches/README.md, "Start").
 
-#![expect(
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "this is how a build script and cargo talk"
-)]
+#![expect(clippy::disallowed_methods, reason = "this is how cargo talks to a build script")]
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -36,13 +36,15 @@ impl Database {
     ///
     /// # Errors
     /// PB005 when it was given up, PB006 when it panicked; without a place.
-    pub fn guarded<R>(&self, limit: Duration, work: impl FnOnce() -> R) -> Result<R, Diagnostic> {
-        catch_unwind(AssertUnwindSafe(work)).map_err(|payload| match payload.downcast_ref::<Cancelled>() {
-            Some(_) => Diagnostic::new(&messages::LIMIT)
-                .with("what", "the time that this path takes")
-                .with("limit", format!("{} s", limit.as_secs_f64()))
-                .with("key", "seconds-per-path"),
-            None => internal_error(&*payload),
-        })
+    pub fn guarded<R>(&self, limit: Duration, work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
+        catch_unwind(AssertUnwindSafe(work))
+            .map_err(|payload| match payload.downcast_ref::<Cancelled>() {
+                Some(_) => Diagnostic::new(&messages::LIMIT)
+                    .with("what", "the time that this path takes")
+                    .with("limit", format!("{} s", limit.as_secs_f64()))
+                    .with("key", "seconds-per-path"),
+                None => internal_error(&*payload),
+            })
+            .map_err(Box::new)
     }
 }

@@ -93,7 +93,12 @@ fn program(sketches: &[Sketch]) -> Program {
 }
 
 fn text_of(program: &Program) -> String {
-    let options = WriteOptions { lang: Lang::En, charset: Charset::Ascii, rapid: 1000.0 };
+    let options = WriteOptions {
+        lang: Lang::En,
+        charset: Charset::Ascii,
+        rapid: 1000.0,
+        correction: pathbuild_toolpath::Correction::default(),
+    };
     native::program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options)
 }
 

@@ -34,7 +34,8 @@ fn words(line: &str) -> Option<Vec<Word>> {
     let mut words = Vec::new();
     while let Some(letter) = rest.chars().next() {
         let digits = &rest[letter.len_utf8()..];
-        let end = digits.find(|digit: char| !matches!(digit, '0'..='9' | '.' | '+' | '-')).unwrap_or(digits.len());
+        let end =
+            digits.find(|digit: char| !matches!(digit, '0'..='9' | '.' | '+' | '-')).unwrap_or(digits.len());
         words.push((letter.to_ascii_uppercase(), digits[..end].parse().ok()?));
         rest = &digits[end..];
     }

@@ -272,7 +272,12 @@ fn built_in_posts_with_cycles_move_as_the_native_program() {
 #[test]
 fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
     let program = program();
-    let options = WriteOptions { lang: Lang::En, charset: Charset::Ascii, rapid: 1000.0 };
+    let options = WriteOptions {
+        lang: Lang::En,
+        charset: Charset::Ascii,
+        rapid: 1000.0,
+        correction: pathbuild_toolpath::Correction::default(),
+    };
     let text = native::program(&program, &Header::default(), &options);
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
     let job = Job::from_steps("8001.1P", &read.steps, &native_remark).unwrap();

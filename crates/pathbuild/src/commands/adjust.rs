@@ -118,6 +118,7 @@ impl<'a> Adjustment<'a> {
     }
 
     /// The program, the values and the log; all that cannot be read is told.
+    #[expect(clippy::type_complexity, clippy::result_large_err, reason = "taken apart at its one caller")]
     fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
         let limit = self.context.settings.limits.file_size.value;
         let read =

@@ -77,7 +77,7 @@ impl Session<'_> {
         let watchdog = Watchdog::new(limit);
         let work = |db: &Database, item: &T| {
             let _watched = watchdog.begin(db);
-            db.guarded(limit, || work(db, item)).map_err(Box::new)
+            db.guarded(limit, || work(db, item))
         };
         watchdog.during(|| self.spread(items, work))
     }

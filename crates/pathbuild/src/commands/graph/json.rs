@@ -12,6 +12,7 @@ struct Object<'a> {
     embeddings: Vec<Embedding<'a>>,
 }
 
+#[expect(clippy::struct_field_names, reason = "the keys of the JSON")]
 #[derive(Serialize)]
 struct Path<'a> {
     path: &'a str,
