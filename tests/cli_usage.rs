@@ -67,7 +67,6 @@ fn what_is_not_built_is_refused() {
         "check a.dxf --timings",
         "check a.dxf --pictures p",
         "emit a.dxf --join b",
-        "emit a.dxf -o -",
         "watch a.dxf",
         "cache dir",
     ] {
