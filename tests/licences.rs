@@ -57,5 +57,5 @@ fn is_allowed(expression: &str) -> bool {
             .flat_map(|part| part.split('/'))
             .any(|name| ALLOWED.contains(&name.trim().trim_matches(['(', ')'])))
     };
-    all.map(one).all(|allowed| allowed)
+    all.fold(true, |so_far, part| so_far && one(part))
 }
