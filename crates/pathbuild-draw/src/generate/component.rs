@@ -52,7 +52,7 @@ fn layer(name: &str, random: &mut Random) -> String {
 
 /// What people copy into projects: a line from start to end on a layer that is no path's.
 fn proxy_line(draft: &mut Draft, path: &PathPlan, start: Point) {
-    let layer = format!("{}.**", path.name.split('.').next().unwrap_or_default());
+    let layer = format!("{} PROXY", path.name.split('.').next().unwrap_or_default());
     draft.layer(&layer);
     let text = embedding_text(path, &comma(0.2));
     draft.add(Entity::line(start, start + path.signature.chord).typed("DASHDOT").note(&text));

@@ -5,6 +5,7 @@ mod layer;
 mod options;
 mod point;
 mod shape;
+mod text;
 
 pub use entity::{Change, Entity, Note, NoteKind, Orientation};
 pub use layer::{Layer, LayerState};
@@ -12,6 +13,6 @@ pub use options::{LineEnds, Options, Part, TextEncoding, Version};
 pub use point::Point;
 pub(crate) use point::sin_cos;
 pub use shape::{
-    Arc, Attachment, Circle, Dimension, Direction, Ellipse, Horizontal, Insert, Line, MText, Pair, Polyline,
-    PolylineKind, Shape, Spline, Text, Vertex, Vertical,
+    Arc, Circle, Dimension, Ellipse, Insert, Line, Pair, Polyline, PolylineKind, Shape, Spline, Vertex,
 };
+pub use text::{Attachment, Direction, Horizontal, MText, Text, Vertical};

@@ -1,7 +1,10 @@
 //! The text form of drawings. README.md of this crate describes it for those who write it.
 
+mod arcs;
 mod cursor;
+mod curves;
 mod header;
+mod inserts;
 mod lexer;
 mod line_type;
 mod modifiers;

@@ -54,7 +54,7 @@ fn paths(name: &str, sheet: &Sheet) -> Vec<Path> {
 #[test]
 fn every_path_walks_to_its_end_and_lies_in_a_file_of_its_name() {
     let mut count = 0;
-    for (name, sheet) in library(100, 11) {
+    for (name, sheet) in library(50, 11) {
         let stem = name.rsplit('/').next().unwrap().strip_suffix(".dxf").unwrap();
         let ranges = FilePattern::default().ranges(stem);
         for path in paths(&name, &sheet) {
@@ -68,12 +68,12 @@ fn every_path_walks_to_its_end_and_lies_in_a_file_of_its_name() {
             count += 1;
         }
     }
-    assert!(count > 120, "{count}");
+    assert!(count > 60, "{count}");
 }
 
 #[test]
 fn what_is_embedded_is_there_and_agrees() {
-    let all: Vec<Path> = library(100, 12).flat_map(|(name, sheet)| paths(&name, &sheet)).collect();
+    let all: Vec<Path> = library(50, 12).flat_map(|(name, sheet)| paths(&name, &sheet)).collect();
     let mut count = 0;
     for (path, segment) in
         all.iter().flat_map(|path| path.segments.iter().map(move |segment| (path, segment)))
@@ -89,13 +89,13 @@ fn what_is_embedded_is_there_and_agrees() {
         assert!((drawn - own).abs() < 1e-6, "{drawn} {own}");
         count += 1;
     }
-    assert_eq!(count, 10 * 10 + 2 * 3 + 2);
+    assert_eq!(count, 5 * 10 + 3 + 1);
 }
 
 #[test]
 fn drawings_are_of_the_size_that_cads_make_them() {
     let mut sizes: Vec<(usize, String)> =
-        library(100, 5).map(|(name, sheet)| (sheet.to_dxf().len(), name)).collect();
+        library(50, 5).map(|(name, sheet)| (sheet.to_dxf().len(), name)).collect();
     sizes.sort();
     assert!(sizes[0].0 >= 36_000, "{:?}", sizes[0]);
     assert!(sizes[sizes.len() - 1].0 <= 52_000, "{:?}", sizes[sizes.len() - 1]);
@@ -107,7 +107,7 @@ fn drawings_are_of_the_size_that_cads_make_them() {
 fn furniture_is_on_no_path_layer_and_changes_nothing_on_one() {
     let part = crate::placement::PART;
     for version in Version::ALL {
-        for seed in 0..8 {
+        for seed in 0..2 {
             let version = version.name();
             let plain = Sheet::parse(&format!("version {version}\nunits mm\n{part}")).unwrap();
             let furnished = Sheet::parse(&format!("version {version}\nfurniture {seed}\n{part}")).unwrap();

@@ -1,8 +1,10 @@
 //! Tests of the crate from outside.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
 mod elements;
 mod errors;
+mod ezdxf;
 mod files;
 mod fixtures;
 mod library;
