@@ -487,6 +487,13 @@ messages! {
         help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
         help_de: "den Fräser vorher anheben, oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
+    /// Kilometres of milling.
+    TOO_LARGE_TO_FOLLOW: RapidInMaterial {
+        en: "the program is too large to follow its material: rapid moves are not checked against it",
+        de: "das Programm ist zu groß, um sein Material zu verfolgen: Eilgangbewegungen werden nicht dagegen geprüft",
+        help_en: "check its parts",
+        help_de: "seine Teile prüfen",
+    }
     /// Rapid down.
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",

@@ -38,6 +38,27 @@ impl Move {
         extent
     }
 
+    /// The most that each axis gets of the move's speed, from 0 to 1.
+    pub fn axis_shares(&self) -> [f64; 3] {
+        let length = self.length();
+        if length == 0.0 {
+            return [0.0; 3];
+        }
+        let known = self.from.known.and(self.to.known);
+        let mut shares = [0, 1, 2].map(|axis| {
+            let way = if known.has(Axes::of(axis)) { self.to.at[axis] - self.from.at[axis] } else { 0.0 };
+            libm::fabs(way) / length
+        });
+        if let Path::Arc(arc) = self.path {
+            // Somewhere on its way an arc points along each axis of its plane, or nearly so.
+            let across = shares[arc.plane.third()];
+            for axis in arc.plane.axes() {
+                shares[axis] = libm::sqrt((1.0 - across * across).max(0.0));
+            }
+        }
+        shares
+    }
+
     /// Whether it goes nowhere.
     pub fn is_nothing(&self) -> bool {
         matches!(self.path, Path::Line) && self.from == self.to

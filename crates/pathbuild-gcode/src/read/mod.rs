@@ -18,3 +18,4 @@ pub use block::{Block, Comment, CommentStyle, Formula, Number, Setting, Span, Ta
 pub use expression::{Binary, Code, Function, Op};
 pub use problems::{At, Problems};
 pub use reader::Reader;
+pub use text::quote;

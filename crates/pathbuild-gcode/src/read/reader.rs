@@ -8,6 +8,7 @@ use super::block::{Block, Comment, CommentStyle, Span};
 use super::line::{Line, Parts, plain_words};
 use super::problems::{At, Problems};
 use super::real_time;
+use super::text::end_of_line;
 use crate::dialect::{LineLength, Percent, Rules};
 
 /// The longest line that is read at all, in bytes. Nothing that a machine takes comes near it.
@@ -49,11 +50,10 @@ impl<'t> Reader<'t> {
     /// A reader at the beginning of a file's bytes.
     pub fn new(text: &'t [u8], rules: &'static Rules) -> Self {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-        let end_of_line = if memchr(b'\n', text).is_none() { b'\r' } else { b'\n' };
         Self {
             text,
             rules,
-            end_of_line,
+            end_of_line: end_of_line(text),
             at: 0,
             line: 0,
             state: State::Leader,

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use pathbuild_diagnostic::TextFault;
+use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use super::block::Span;
 
@@ -47,4 +47,26 @@ fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
     }
     let cut = (0..SHOWN).rev().find(|&at| bytes[at] & 0xC0 != 0x80).unwrap_or(0);
     format!("{}...", decode(&bytes[..cut])).into()
+}
+
+/// Shows the lines of a file under diagnostics that know only their number.
+pub fn quote(diagnostics: &mut [Diagnostic], file: &[u8]) {
+    let mut bare: Vec<&mut Diagnostic> =
+        diagnostics.iter_mut().filter(|one| one.text.is_none() && one.place.line.is_some()).collect();
+    bare.sort_by_key(|one| one.place.line);
+    let end_of_line = end_of_line(file);
+    let mut lines = (1_u32..).zip(file.split(|byte| *byte == end_of_line)).peekable();
+    for diagnostic in bare {
+        let wanted = diagnostic.place.line.unwrap_or(0);
+        while lines.next_if(|(number, _)| *number < wanted).is_some() {}
+        if let Some((_, line)) = lines.peek().filter(|(number, _)| *number == wanted) {
+            let line = line.trim_ascii_end();
+            diagnostic.text = Some(fault(line, Span::new(0, line.len())));
+        }
+    }
+}
+
+/// What ends the lines of a file: LF, but for files of CR alone.
+pub(super) fn end_of_line(file: &[u8]) -> u8 {
+    if memchr::memchr(b'\n', file).is_none() { b'\r' } else { b'\n' }
 }

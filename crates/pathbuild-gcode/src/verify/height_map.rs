@@ -1,0 +1,173 @@
+//! Heights of material over the plane, known in places.
+
+use std::collections::BTreeMap;
+
+/// Cells along a tile's side.
+const SIDE: i32 = 64;
+const CELLS: usize = (SIDE * SIDE) as usize;
+
+/// A sparse grid of heights. A cell's height is that of the whole cell.
+#[derive(Debug)]
+pub(super) struct HeightMap {
+    /// Side of a cell in mm.
+    resolution: f64,
+    /// By row and column of the tile. `NaN` where nothing is known.
+    tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
+}
+
+/// A convex shape in the plane, asked row by row.
+pub(super) trait Shape {
+    /// Lowest and highest y.
+    fn rows(&self) -> (f64, f64);
+    /// Lowest and highest x at this y, if it is there.
+    fn row(&self, y: f64) -> Option<(f64, f64)>;
+}
+
+impl HeightMap {
+    pub(super) fn new(resolution: f64) -> Self {
+        Self { resolution, tiles: BTreeMap::new() }
+    }
+
+    /// Material stands up to `surface` in the shape; where some is known already, only up to the lower of both.
+    pub(super) fn add(&mut self, shape: &impl Shape, surface: f64) {
+        let surface = rounded(surface);
+        let (first, last) = self.centres_within(shape.rows());
+        for row in first..=last {
+            let Some((column, last)) = self.columns(shape, row) else { continue };
+            for tile_column in column.div_euclid(SIDE)..=last.div_euclid(SIDE) {
+                let key = (row.div_euclid(SIDE), tile_column);
+                let tile = self.tiles.entry(key).or_insert_with(|| Box::new([f32::NAN; CELLS]));
+                for height in &mut tile[cells(row, column, last, tile_column)] {
+                    *height = if height.is_nan() { surface } else { height.min(surface) };
+                }
+            }
+        }
+    }
+
+    /// Material in the shape is cut down to `z`.
+    pub(super) fn cut(&mut self, shape: &impl Shape, z: f64) {
+        let z = rounded(z);
+        for (key, row, (column, last)) in self.stretches(shape) {
+            let Some(tile) = self.tiles.get_mut(&key) else { continue };
+            for height in &mut tile[cells(row, column, last, key.1)] {
+                if *height > z {
+                    *height = z;
+                }
+            }
+        }
+    }
+
+    /// The highest material in the shape that is above `z`, with its place.
+    pub(super) fn highest_above(&self, shape: &impl Shape, z: f64) -> Option<(f64, [f64; 2])> {
+        let mut highest = rounded(z);
+        let mut place = None;
+        for (key, row, (column, last)) in self.stretches(shape) {
+            let Some(tile) = self.tiles.get(&key) else { continue };
+            for column in column.max(key.1 * SIDE)..=last.min(key.1 * SIDE + SIDE - 1) {
+                let height = tile[cell(row, column)];
+                if height > highest {
+                    highest = height;
+                    place = Some([column, row].map(|index| (f64::from(index) + 0.5) * self.resolution));
+                }
+            }
+        }
+        place.map(|place| (f64::from(highest), place))
+    }
+
+    /// The rows of the shape, cut into the tiles that there are: the key of each tile, the row, and the row's columns.
+    ///
+    /// It goes by tiles, not by the shape: however far a move goes, what it costs depends on what is known of the material.
+    fn stretches(&self, shape: &impl Shape) -> Vec<((i32, i32), i32, (i32, i32))> {
+        let (first, last) = self.centres_within(shape.rows());
+        let tiles = (first.div_euclid(SIDE), i32::MIN)..=(last.div_euclid(SIDE), i32::MAX);
+        if first > last {
+            return Vec::new();
+        }
+        let rows = self.tiles.range(tiles).flat_map(|(key, _)| {
+            let top = key.0 * SIDE;
+            (first.max(top)..=last.min(top + SIDE - 1)).map(|row| (*key, row))
+        });
+        let with_columns = rows.filter_map(|(key, row)| Some((key, row, self.columns(shape, row)?)));
+        let is_in_tile = |(key, _, (column, last)): &((i32, i32), i32, (i32, i32))| {
+            *last >= key.1 * SIDE && *column < (key.1 + 1) * SIDE && column <= last
+        };
+        with_columns.filter(is_in_tile).collect()
+    }
+
+    /// The first and last column of cells in a row whose centres are in the shape.
+    fn columns(&self, shape: &impl Shape, row: i32) -> Option<(i32, i32)> {
+        shape.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
+    }
+
+    /// The first and last index of cells whose centres lie between two coordinates; none if the last is less than the first.
+    fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
+        let index = |coordinate: f64| coordinate / self.resolution - 0.5;
+        (whole(index(low).ceil()), whole(index(high).floor()))
+    }
+}
+
+/// The indices in a tile of a row's cells from one column to another, as far as they lie in the tile.
+fn cells(row: i32, column: i32, last: i32, tile_column: i32) -> std::ops::Range<usize> {
+    let first = column.max(tile_column * SIDE);
+    let last = last.min(tile_column * SIDE + SIDE - 1);
+    if last < first { 0..0 } else { cell(row, first)..cell(row, last) + 1 }
+}
+
+fn cell(row: i32, column: i32) -> usize {
+    let within = row.rem_euclid(SIDE) * SIDE + column.rem_euclid(SIDE);
+    usize::try_from(within).unwrap_or(0)
+}
+
+/// Heights are kept in single precision: at 1000 mm that is 0.06 micrometres.
+fn rounded(height: f64) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "less exact, as said")]
+    let rounded = height as f32;
+    rounded
+}
+
+/// Indices stay away from the ends of their type.
+const MOST_INDEX: f64 = 1e9;
+
+/// An index as an integer; far out ones are cut to what there is.
+fn whole(index: f64) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "cut to the range")]
+    let whole = index.clamp(-MOST_INDEX, MOST_INDEX) as i32;
+    whole
+}
+
+/// All places within a distance of a segment: what a cutter covers on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Capsule {
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+    pub(super) radius: f64,
+}
+
+impl Shape for Capsule {
+    fn rows(&self) -> (f64, f64) {
+        if self.radius < 0.0 {
+            return (0.0, -1.0);
+        }
+        (self.from[1].min(self.to[1]) - self.radius, self.from[1].max(self.to[1]) + self.radius)
+    }
+
+    fn row(&self, y: f64) -> Option<(f64, f64)> {
+        let ends = [self.from, self.to].into_iter().filter_map(|centre| disc_row(centre, self.radius, y));
+        let [along_x, along_y] = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
+        let length = libm::hypot(along_x, along_y);
+        let sides = [1.0, -1.0].into_iter().filter_map(|side| {
+            // The straight side, a radius beside the segment.
+            let [beside_x, beside_y] =
+                [-side * along_y / length * self.radius, side * along_x / length * self.radius];
+            let share = (y - self.from[1] - beside_y) / along_y;
+            (0.0..=1.0).contains(&share).then(|| self.from[0] + beside_x + share * along_x).map(|x| (x, x))
+        });
+        ends.chain(sides).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+}
+
+fn disc_row(centre: [f64; 2], radius: f64, y: f64) -> Option<(f64, f64)> {
+    let above = y - centre[1];
+    let half = radius * radius - above * above;
+    (half >= 0.0).then(|| libm::sqrt(half)).map(|half| (centre[0] - half, centre[0] + half))
+}

@@ -1,0 +1,121 @@
+//! What a machine can do. (spec/06-configuration.md, `[machine]`)
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use crate::interpret::{Action, Move, Step};
+use crate::read::Problems;
+
+/// A machine's limits. What is not known is not checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Machine {
+    /// How far its axes go.
+    pub travel: Option<Travel>,
+    /// The fastest that each axis cuts, in mm/min.
+    pub rates: [Option<f64>; 3],
+    /// The spindle's slowest and fastest speed, in turns a minute.
+    pub spindle: Option<(f64, f64)>,
+}
+
+/// How far the axes of a machine go, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Travel {
+    /// From the lowest to the highest coordinate of X, Y, Z in the program's coordinates: the part is clamped where they say.
+    Placed([(f64, f64); 3]),
+    /// So far in X, Y, Z, wherever the part is clamped.
+    Size([f64; 3]),
+}
+
+const AXES: [char; 3] = ['X', 'Y', 'Z'];
+
+/// Reports what a machine cannot do.
+pub(super) fn check(steps: &[Step], machine: &Machine, problems: &mut Problems) {
+    let mut reach = Reach::default();
+    let mut last_feed = None;
+    for step in steps {
+        match &step.action {
+            Action::Move(it) => {
+                if let Some(travel) = &machine.travel {
+                    reach.check(step.line, it, travel, problems);
+                }
+                check_feed(step.line, it, machine, &mut last_feed, problems);
+            }
+            Action::Spindle(spindle) => check_speed(step.line, spindle.speed, machine, problems),
+            _ => {}
+        }
+    }
+}
+
+/// How far the program has come, and of which ends of axes it has been said that they are too far.
+#[derive(Default)]
+struct Reach {
+    extent: [Option<(f64, f64)>; 3],
+    said: [[bool; 2]; 3],
+}
+
+impl Reach {
+    fn check(&mut self, line: u32, it: &Move, travel: &Travel, problems: &mut Problems) {
+        for (axis, extent) in it.extent().into_iter().enumerate() {
+            let Some((low, high)) = extent else { continue };
+            let known = self.extent[axis].get_or_insert((low, high));
+            *known = (known.0.min(low), known.1.max(high));
+            match travel {
+                Travel::Placed(limits) => self.check_placed(line, axis, (low, high), limits[axis], problems),
+                Travel::Size(sizes) => self.check_size(line, axis, sizes[axis], problems),
+            }
+        }
+    }
+
+    fn check_placed(
+        &mut self,
+        line: u32,
+        axis: usize,
+        extent: (f64, f64),
+        limits: (f64, f64),
+        problems: &mut Problems,
+    ) {
+        for (end, value, is_outside) in
+            [(0, extent.0, extent.0 < limits.0), (1, extent.1, extent.1 > limits.1)]
+        {
+            if is_outside && !std::mem::replace(&mut self.said[axis][end], true) {
+                problems.add_at_line(&say::OUTSIDE_MACHINE, line, |d| {
+                    d.with("axis", AXES[axis])
+                        .with("value", value)
+                        .with("least", limits.0)
+                        .with("most", limits.1)
+                });
+            }
+        }
+    }
+
+    fn check_size(&mut self, line: u32, axis: usize, most: f64, problems: &mut Problems) {
+        let size = self.extent[axis].map_or(0.0, |(low, high)| high - low);
+        if size > most && !std::mem::replace(&mut self.said[axis][0], true) {
+            problems.add_at_line(&say::LARGER_THAN_MACHINE, line, |d| {
+                d.with("axis", AXES[axis]).with("size", size).with("most", most)
+            });
+        }
+    }
+}
+
+/// A feed is too high where the part of it along an axis is; it is said once until the feed changes.
+fn check_feed(line: u32, it: &Move, machine: &Machine, last: &mut Option<f64>, problems: &mut Problems) {
+    let Some(feed) = it.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
+    let shares = it.axis_shares();
+    for (axis, share) in shares.into_iter().enumerate() {
+        if let Some(most) = machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {
+            *last = Some(feed);
+            return problems.add_at_line(&say::FEED_TOO_HIGH, line, |d| {
+                d.with("feed", feed).with("axis", AXES[axis]).with("most", most)
+            });
+        }
+    }
+}
+
+fn check_speed(line: u32, speed: f64, machine: &Machine, problems: &mut Problems) {
+    let Some((least, most)) = machine.spindle else { return };
+    if speed != 0.0 && !(least..=most).contains(&speed) {
+        problems.add_at_line(&say::SPINDLE_SPEED, line, |d| {
+            d.with("speed", speed).with("least", least).with("most", most)
+        });
+    }
+}

@@ -1,0 +1,136 @@
+//! What is known of the material. (spec/90-gcode-import.md, "verify")
+//!
+//! Its extent is in no drawing. Material is known only within O of where a program cuts, up to the surface T that holds there;
+//! elsewhere nothing is known, and nothing is said.
+
+use pathbuild_toolpath::{Comment, Program, Step as Emitted};
+
+use crate::interpret::{Action, Move, Pace, Step};
+
+/// The finest resolution that is any use, in mm: programs have three decimals.
+const FINEST: f64 = 0.01;
+
+/// Cells across the narrowest cutter, where nobody says otherwise.
+const CELLS_ACROSS: f64 = 12.0;
+
+/// The material's upper face and the cutter, from line to line of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stock {
+    /// In the order of lines. Before the first, nothing is known.
+    pieces: Vec<Piece>,
+    /// Side of a cell of the height map, in mm.
+    resolution: f64,
+}
+
+/// What holds from a line on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// From 1; of a program that was never text, the number of the step.
+    pub line: u32,
+    /// Height of the material's upper face T, in mm.
+    pub surface: f64,
+    /// Diameter of the cutter O, in mm.
+    pub cutter: f64,
+}
+
+impl Stock {
+    /// Material with one surface and one cutter, both in mm, for a whole program.
+    pub fn uniform(surface: f64, cutter: f64) -> Self {
+        Self::of_pieces(vec![Piece { line: 0, surface, cutter }])
+    }
+
+    /// Material whose surface or cutter changes; pieces are in the order of their lines.
+    pub fn of_pieces(pieces: Vec<Piece>) -> Self {
+        let stock = Self { pieces, resolution: FINEST };
+        let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
+        stock.with_resolution(resolution)
+    }
+
+    /// The material of a program, for the moves that [`moves_of`](crate::interpret::moves_of) gives.
+    pub fn of(program: &Program) -> Self {
+        let piece = |line, surface| Piece { line, surface, cutter: program.tool };
+        let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
+            Emitted::Comment(Comment::Element { surface, .. }) => Some(piece(number, *surface)),
+            _ => None,
+        });
+        Self::of_pieces(std::iter::once(piece(0, program.thickness)).chain(elements).collect())
+    }
+
+    /// The material of a program in the native dialect that comes without its drawing: where a rapid move down hands over to a cutting one
+    /// is T (spec/60-gcode.md, "plunge"), one for each embedded path. `None` if there is no such place.
+    pub fn of_native_text(steps: &[Step], cutter: f64) -> Option<Self> {
+        let mut pieces = Vec::new();
+        let mut section = Section { line: 0, surface: None };
+        let mut before: Option<Move> = None;
+        for step in steps {
+            match &step.action {
+                Action::Comment(text) if is_subpath_border(text) => {
+                    pieces.extend(section.piece(cutter));
+                    section = Section { line: step.line, surface: None };
+                }
+                Action::Move(it) => {
+                    if let Some(last) = before.replace(*it) {
+                        section.hand_over(&last, it);
+                    }
+                }
+                _ => {}
+            }
+        }
+        pieces.extend(section.piece(cutter));
+        (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
+    }
+
+    /// The side of a cell of the height map, in mm.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// The same with another side of cells, in mm; one that is too fine to be of use is made coarser.
+    pub fn with_resolution(self, resolution: f64) -> Self {
+        Self { resolution: resolution.max(FINEST), ..self }
+    }
+
+    /// The diameter of the narrowest cutter, in mm.
+    pub(super) fn narrowest(&self) -> Option<f64> {
+        self.pieces.iter().map(|piece| piece.cutter).reduce(f64::min)
+    }
+
+    /// The highest surface of all.
+    pub(super) fn highest(&self) -> Option<f64> {
+        self.pieces.iter().map(|piece| piece.surface).reduce(f64::max)
+    }
+
+    /// What holds in a line.
+    pub(super) fn at(&self, line: u32) -> Option<&Piece> {
+        let later = self.pieces.partition_point(|piece| piece.line <= line);
+        later.checked_sub(1).map(|index| &self.pieces[index])
+    }
+}
+
+/// A part of a native program that belongs to one path.
+struct Section {
+    line: u32,
+    surface: Option<f64>,
+}
+
+impl Section {
+    /// Two moves one after the other: down by rapid, then down by feed?
+    fn hand_over(&mut self, first: &Move, second: &Move) {
+        let is_vertical = |it: &Move| it.from.at[..2] == it.to.at[..2] && it.to.z() < it.from.z();
+        if is_vertical(first)
+            && is_vertical(second)
+            && first.pace == Pace::Rapid
+            && second.pace != Pace::Rapid
+        {
+            self.surface = Some(self.surface.map_or(first.to.z(), |known| known.max(first.to.z())));
+        }
+    }
+
+    fn piece(&self, cutter: f64) -> Option<Piece> {
+        self.surface.map(|surface| Piece { line: self.line, surface, cutter })
+    }
+}
+
+fn is_subpath_border(comment: &str) -> bool {
+    comment.starts_with("START Subpath ") || comment.starts_with("END Subpath ")
+}

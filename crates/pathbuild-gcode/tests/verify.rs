@@ -1,0 +1,377 @@
+//! The rules of verify: each with a program that breaks it and one that just does not.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use common::{fault_text, spelled_out};
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
+use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
+use pathbuild_gcode::read::quote;
+use pathbuild_gcode::verify::{Checks, Machine, Piece, Stock, Travel, verify};
+
+const FINE: [&str; 0] = [];
+
+fn run(program: &str) -> Interpretation {
+    let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
+    interpret(text.as_bytes(), Native, &Options::default())
+}
+
+fn wrong(program: &str, checks: &Checks<'_>) -> Vec<String> {
+    verify(&run(program).steps, checks).iter().map(fault_text).collect()
+}
+
+/// What is wrong on material up to Z 5 with a cutter of 2 mm.
+fn on_stock(program: &str) -> Vec<String> {
+    wrong(program, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None })
+}
+
+/// A slot from (0, 0) to (20, 0), down to Z 1, with the cutter at its end.
+const SLOT: &str = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG1 X20";
+
+fn behind_slot(program: &str) -> Vec<String> {
+    on_stock(&format!("{SLOT}\n{program}"))
+}
+
+#[test]
+fn a_rapid_move_through_material_is_an_error() {
+    assert_eq!(
+        behind_slot("G0 Y10\nG0 Z10\nG0 Y0\nG0 X10\nG0 Z5\nG1 Z1 Y10\nG0 Z10"),
+        ["6 rapid-in-material", "11 end-not-raised"][..1]
+    );
+}
+
+#[test]
+fn a_rapid_move_where_all_is_cut_is_none() {
+    assert_eq!(behind_slot("G0 X0\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 X10\nG0 X5\nG0 Z10"), FINE);
+    // A tenth of a millimetre beside the slot there is material; how wide the slot is, the grid knows to twice its resolution.
+    assert_eq!(behind_slot("G0 X10 Y0.15\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 X10 Y0.5\nG0 Z10"), ["6 rapid-in-material"]);
+}
+
+#[test]
+fn a_rapid_move_above_the_bottom_of_what_is_cut_is_none() {
+    assert_eq!(behind_slot("G0 Z1.5\nG0 X0\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 Z10\nG0 X10\nG0 Z1\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 Z10\nG0 X10\nG0 Z0.9\nG0 Z10"), ["8 rapid-plunge"]);
+}
+
+#[test]
+fn a_rapid_move_just_above_the_material_is_none() {
+    let beside = |z: &str| behind_slot(&format!("G0 Z{z}\nG0 X10 Y2\nX0 Y-2\nG0 Z10"));
+    assert_eq!(beside("5"), FINE);
+    assert_eq!(beside("4.999"), FINE);
+    assert_eq!(beside("4.99"), ["7 rapid-in-material", "8 rapid-in-material"]);
+}
+
+#[test]
+fn elsewhere_nothing_is_known_and_nothing_said() {
+    // O beside the slot's middle begins what nobody knows.
+    assert_eq!(behind_slot("G0 Z10\nG0 Y3.1\nG0 Z0\nG0 X0\nG0 Z10"), FINE);
+    assert_eq!(behind_slot("G0 Z10\nG0 Y2.5\nG0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
+}
+
+#[test]
+fn what_is_milled_later_is_material_now() {
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 Z1\nG1 X20\nG0 Z10"), ["3 rapid-plunge"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 X20\nG1 X0\nG0 Z10"), ["5 rapid-in-material"]);
+}
+
+#[test]
+fn slopes_are_cut_as_deep_as_they_are() {
+    let slope = "G0 X0 Y0 Z10\nG0 Z5\nG1 X20 Z1\nG0 Z10\n";
+    assert_eq!(on_stock(&format!("{slope}G0 X15\nG0 Z2.4\nG0 Z10")), FINE);
+    assert_eq!(on_stock(&format!("{slope}G0 X15\nG0 Z1.8\nG0 Z10")), ["7 rapid-plunge"]);
+    assert_eq!(on_stock(&format!("{slope}G0 X5\nG0 Z2.4\nG0 Z10")), ["7 rapid-plunge"]);
+}
+
+#[test]
+fn circles_are_cut_all_round() {
+    let circle = "G0 X10 Y0 Z10\nG0 Z5\nG1 Z1\nG2 X10 Y0 I-10\nG0 Z10\n";
+    assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10\nG0 Z1\nG0 Z10")), FINE);
+    assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10.5\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
+    // From inside to the middle of a circle that the cutter has not emptied.
+    assert_eq!(on_stock(&format!("{circle}G0 X8.5 Y0\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
+}
+
+#[test]
+fn the_centre_of_a_small_helix_may_be_reached_by_rapid() {
+    // The native helical circle of diameter 3.8 with a cutter of 2 mm ends with G00 to its centre, at depth.
+    let helix = |radius: &str| {
+        format!(
+            "G0 X0 Y0 Z7\nG0 Y-{radius}\nG2 Y{radius} J{radius} Z3\nG2 Y-{radius} J-{radius} Z1\nG2 Y{radius} J{radius} Z1\nG2 Y-{radius} J-{radius} Z1\nG0 Y0\nG0 Z10"
+        )
+    };
+    assert_eq!(on_stock(&helix("0.900")), FINE);
+    // With a larger one a core is left standing in the middle.
+    assert_eq!(on_stock(&helix("1.500")), ["8 rapid-in-material"]);
+}
+
+#[test]
+fn the_surface_is_that_of_the_line() {
+    let piece = |line, surface| Piece { line, surface, cutter: 2.0 };
+    let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\nG0 X50\nG0 Z5\nG1 Z1\nG0 Z10";
+    let verified = |pieces: Vec<Piece>| {
+        wrong(program, &Checks { stock: Some(&Stock::of_pieces(pieces)), machine: None })
+    };
+    assert_eq!(verified(vec![piece(1, 5.0)]), FINE);
+    assert_eq!(verified(vec![piece(1, 5.0), piece(6, 8.0)]), ["7 rapid-plunge"]);
+    assert_eq!(verified(vec![piece(7, 5.0)]), FINE);
+}
+
+#[test]
+fn the_surface_of_native_text_is_where_plunges_hand_over() {
+    let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\n(START Subpath 1)\nG0 X50\nG0 Z2\nG1 Z1\nG0 Z10\n(END Subpath 1)\nG0 X0";
+    let stock = Stock::of_native_text(&run(program).steps, 2.0).expect("plunges");
+    let piece = |line, surface| Piece { line, surface, cutter: 2.0 };
+    assert_eq!(stock, Stock::of_pieces(vec![piece(0, 5.0), piece(6, 2.0)]));
+    assert_eq!(Stock::of_native_text(&run("G0 Z5\nG0 X1 Y1").steps, 2.0), None);
+}
+
+#[test]
+fn a_large_program_is_checked_more_coarsely_not_never() {
+    let row = |row: i32| format!("G0 Y{row}0\nG0 Z5\nG1 Z1\nX1000\nG0 Z10\nX0\n");
+    let rows: String = (0..5).map(row).collect();
+    let steps = run(&format!("G0 X0 Y0 Z10\n{rows}G0 X500 Y20.5\nG0 Z0")).steps;
+    let stock = Stock::uniform(5.0, 2.0).with_resolution(0.02);
+    let problems = verify(&steps, &Checks { stock: Some(&stock), machine: None });
+    let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
+    // 20240 mm² in 16 million cells.
+    let help = plunge.help(Lang::En).expect("help");
+    assert!(help.contains("stock known at 0.036"), "{help}");
+}
+
+#[test]
+fn rapid_moves_of_any_length_are_checked_in_no_time() {
+    let far = "G0 Z1\nG0 X999999999 Y999999999\nG0 X-999999999\nG0 Y-999999999\nG0 X0 Y0\n".repeat(20);
+    assert!(behind_slot(&format!("G0 Z10\n{far}G0 Z10")).contains(&"8 rapid-in-material".to_owned()));
+}
+
+#[test]
+fn a_program_that_cannot_be_followed_says_so() {
+    let rows = |length: u32| {
+        (0..100).map(|row| format!("G0 Y{row}\nG1 Z1\nX{length}\nG0 Z10\nX0\n")).collect::<String>()
+    };
+    let said = |length| {
+        let steps = run(&format!("G0 X0 Y0 Z10\n{}", rows(length))).steps;
+        let problems = verify(&steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+        problems.iter().map(|problem| (fault_text(problem), problem.severity)).collect::<Vec<_>>()
+    };
+    assert_eq!(said(1_000), []);
+    assert_eq!(
+        said(1_000_000),
+        [("502 rapid-in-material".to_owned(), pathbuild_diagnostic::Severity::Warning)]
+    );
+}
+
+#[test]
+fn the_cutter_is_raised_before_it_moves_in_the_plane() {
+    let wrong = |program| wrong(program, &Checks::default());
+    assert_eq!(wrong("G0 X1 Y1\nG0 Z5"), ["2 start-not-raised"]);
+    assert_eq!(wrong("G0 Z5\nG0 X1 Y1"), FINE);
+    assert_eq!(wrong("G0 X1 Y1 Z5\nG1 X2"), FINE);
+}
+
+#[test]
+fn the_program_ends_above_the_material() {
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99"), ["3 end-not-raised"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5"), FINE);
+    assert_eq!(
+        wrong("G0 X0 Y0 Z5\nG1 Z4.99", &Checks::default()),
+        FINE,
+        "where the surface is, is not known"
+    );
+}
+
+#[test]
+fn rapid_moves_down_are_not_diagonal() {
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50 Z4\nG0 Z10"), ["3 diagonal-rapid"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50 Z5\nG0 Z10"), FINE);
+    assert_eq!(on_stock("G0 X0 Y0 Z10\nG0 X50\nG0 Z4\nG0 X60 Z5\nG0 Z10"), FINE);
+}
+
+#[test]
+fn the_spindle_turns_while_cutting() {
+    let wrong = |program| wrong(program, &Checks::default());
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG1 Z1\nM3 S1000\nG1 Z0"), ["3 spindle-off"]);
+    assert_eq!(
+        wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nM5\nG1 Z2\nZ3\nM4\nG1 Z1\nG0 Z5\nM5\nG0 X1"),
+        ["6 spindle-off"]
+    );
+    assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nT2 M6\nG1 Z1"), ["7 spindle-off"]);
+    assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nM5"), FINE);
+}
+
+#[test]
+fn a_program_without_spindle_words_is_not_asked_for_them() {
+    assert_eq!(wrong("S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5", &Checks::default()), FINE);
+}
+
+#[test]
+fn tools_are_changed_above_the_material() {
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2 M6\nG0 Z5"), ["4 tool-change-at-depth"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5\nT2 M6"), FINE);
+    assert_eq!(on_stock("T2 M6\nG0 X0 Y0 Z5"), FINE);
+}
+
+#[test]
+fn probes_go_down() {
+    let wrong = |program| wrong(program, &Checks::default());
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z6"), ["3 useless-probe"]);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.2 Z5"), ["3 useless-probe"]);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z4.999"), FINE);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 X9"), FINE, "sideways to an edge");
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.5 Z6"), FINE, "away from it");
+}
+
+#[test]
+fn moves_stay_within_the_machines_travel() {
+    let travel = Travel::Placed([(-10.0, 100.0), (0.0, 50.0), (-5.0, 30.0)]);
+    let machine = Machine { travel: Some(travel), ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(wrong("G0 X-10 Y50 Z30\nG0 X100 Y0 Z-5"), FINE);
+    assert_eq!(
+        wrong("G0 X0 Y0 Z0\nX-10.1\nX-10.2\nX100.1\nY-0.1\nZ30.1"),
+        ["3 outside-machine", "5 outside-machine", "6 outside-machine", "7 outside-machine"]
+    );
+    // An arc leaves the box between its ends.
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X2 Y0 I1"), FINE);
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG3 X2 Y0 I1"), ["3 outside-machine"]);
+}
+
+#[test]
+fn a_program_is_not_larger_than_the_machine() {
+    let machine = Machine { travel: Some(Travel::Size([100.0, 50.0, 30.0])), ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-900 Y50 Z-30"), FINE);
+    assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-899.9 Y50 Z-30\nX-1001"), ["3 outside-machine"]);
+}
+
+#[test]
+fn feeds_are_those_that_the_axes_can_do() {
+    let machine = Machine { rates: [Some(1000.0), Some(1000.0), Some(200.0)], ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(
+        wrong("G0 X0 Y0 Z0\nG1 X10 F1000\nX20 F1001\nX30\nZ1 F201\nZ2 F200"),
+        ["4 feed-too-high", "6 feed-too-high"]
+    );
+    // At 45 degrees each axis has its share.
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1414\nX20 Y20 F1415"), ["4 feed-too-high"]);
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X10 Y0 I5 F1000\nX20 I5 F1001"), ["4 feed-too-high"]);
+}
+
+#[test]
+fn speeds_are_the_spindles() {
+    let machine = Machine { spindle: Some((1000.0, 24000.0)), ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(wrong("M3 S1000\nS24000\nM5 S0"), FINE);
+    assert_eq!(wrong("M3 S999\nS24001"), ["2 spindle-speed", "3 spindle-speed"]);
+}
+
+#[test]
+fn the_vendors_xpertmill_example_breaks_no_rule() {
+    let example = "% //Programmstart\nG71\nG0 X-1.8 Y-1.8 Z0\nG1 Z-2.851 F500 S30000\nM6 5\nS20000\nG0X2 Z-5.25\nG1X8.5 Y2.5 Z-6 F1200\nM30\n";
+    let steps = interpret(example.as_bytes(), Xpertmill, &Options::default()).steps;
+    assert!(verify(&steps, &Checks::default()).is_empty());
+}
+
+#[test]
+fn a_report_says_where_and_how_high() {
+    let text = format!("G17 G21 G90 G94 F100\n{SLOT}\nG0 X10 Y1\nG0 Z10\nM30\n");
+    let result = interpret(text.as_bytes(), Native, &Options::default());
+    let mut problems =
+        verify(&result.steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+    quote(&mut problems, text.as_bytes());
+    let [problem] = &problems[..] else { panic!("{}", spelled_out(&problems)) };
+    assert!(
+        problem
+            .text(Lang::En)
+            .starts_with("a rapid move at Z 1 through material that still stands up to Z 5, near (")
+    );
+    assert_eq!(problem.text.as_ref().map(|fault| &*fault.text), Some("G0 X10 Y1"));
+    assert!(problem.is_error());
+}
+
+#[expect(clippy::disallowed_methods, clippy::print_stderr, reason = "recordings lie beside the project")]
+fn recordings() -> Vec<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/conformance");
+    if !shared.is_dir() {
+        let required = std::env::var("PATHBUILD_REQUIRE")
+            .is_ok_and(|names| names.split(',').any(|name| name == "shared"));
+        assert!(!required, "PATHBUILD_REQUIRE has shared, and {} is missing", shared.display());
+        eprintln!("skipped: {} is missing", shared.display());
+        return Vec::new();
+    }
+    let entries = |dir: &Path| {
+        let mut entries: Vec<PathBuf> = dir
+            .read_dir()
+            .map_or(Vec::new(), |entries| entries.flatten().map(|entry| entry.path()).collect());
+        entries.sort();
+        entries
+    };
+    let cases = ["cases", "turns"].into_iter().flat_map(|kind| entries(&shared.join(kind)));
+    let runs = cases.flat_map(|case| entries(&case.join("expected")));
+    runs.flat_map(|run| entries(&run))
+        .filter(|file| file.extension().is_some_and(|extension| extension == "gcode"))
+        .collect()
+}
+
+/// What reading and verify find wrong with a native program whose cutter is this wide.
+fn all_wrong(text: &[u8], cutter: f64) -> Vec<Diagnostic> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let result = interpret(text, Native, &options);
+    let stock = Stock::of_native_text(&result.steps, cutter);
+    let mut problems = result.problems;
+    problems.extend(verify(&result.steps, &Checks { stock: stock.as_ref(), machine: None }));
+    problems
+}
+
+/// O as the drawings beside a recording give it: all of a case have the same.
+#[expect(clippy::disallowed_methods, reason = "recordings lie beside the project")]
+fn cutter_of(recording: &Path) -> f64 {
+    let case = recording.ancestors().nth(3).expect("CASE/expected/RUN/FILE");
+    let drawings = case.read_dir().expect("a case").flatten().map(|entry| entry.path());
+    let drawings = drawings
+        .filter(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")));
+    let widest = drawings.flat_map(|path| {
+        let text = String::from_utf8_lossy(&std::fs::read(path).expect("a drawing")).replace("\\P", " ");
+        let values = text
+            .split_whitespace()
+            .filter_map(|word| word.strip_prefix('O')?.replace(',', ".").parse::<f64>().ok());
+        values.collect::<Vec<_>>()
+    });
+    widest.fold(0.0, f64::max)
+}
+
+#[test]
+fn no_recorded_program_has_an_error() {
+    let mut checked_on_stock = 0;
+    for file in recordings() {
+        #[expect(clippy::disallowed_methods, reason = "recordings lie beside the project")]
+        let text = std::fs::read(&file).expect("a recording");
+        let cutter = cutter_of(&file);
+        assert!(cutter > 0.0, "{} has no O", file.display());
+        let problems = all_wrong(&text, cutter);
+        assert!(!problems.iter().any(Diagnostic::is_error), "{}: {}", file.display(), spelled_out(&problems));
+        checked_on_stock += u32::from(text.windows(3).any(|word| word == b"G01"));
+    }
+    assert!(checked_on_stock == 0 || checked_on_stock > 150, "{checked_on_stock}");
+}
+
+#[test]
+fn no_fixture_has_anything_wrong() {
+    for (name, text) in [
+        ("adjusted", include_str!("programs/native/adjusted.gcode")),
+        ("bars", include_str!("programs/native/bars.gcode")),
+        ("clean", include_str!("programs/native/clean.gcode")),
+        ("drill", include_str!("programs/native/drill.gcode")),
+        ("helix", include_str!("programs/native/helix.gcode")),
+        ("probing", include_str!("programs/native/probing.gcode")),
+        ("sweepless", include_str!("programs/native/sweepless.gcode")),
+    ] {
+        let problems = all_wrong(text.as_bytes(), 2.0);
+        assert!(problems.is_empty(), "{name}: {}", spelled_out(&problems));
+    }
+}
