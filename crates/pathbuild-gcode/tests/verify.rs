@@ -152,7 +152,7 @@ fn rapid_moves_of_any_length_are_checked_in_no_time() {
 #[test]
 fn a_program_that_cannot_be_followed_says_so() {
     let rows = |length: u32| {
-        (0..100).map(|row| format!("G0 Y{row}\nG1 Z1\nX{length}\nG0 Z10\nX0\n")).collect::<String>()
+        (0..100).map(|row| format!("G0 Y{row}\nG1 Z1\nX{length}\nG0 Z10\nX0\n")).collect::<Vec<_>>().concat()
     };
     let said = |length| {
         let steps = run(&format!("G0 X0 Y0 Z10\n{}", rows(length))).steps;

@@ -15,6 +15,9 @@ pub(super) struct HeightMap {
     tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
 }
 
+/// The key of a tile, a row, and the row's first and last column.
+type Stretch = ((i32, i32), i32, (i32, i32));
+
 /// A convex shape in the plane, asked row by row.
 pub(super) trait Shape {
     /// Lowest and highest y.
@@ -77,7 +80,7 @@ impl HeightMap {
     /// The rows of the shape, cut into the tiles that there are: the key of each tile, the row, and the row's columns.
     ///
     /// It goes by tiles, not by the shape: however far a move goes, what it costs depends on what is known of the material.
-    fn stretches(&self, shape: &impl Shape) -> Vec<((i32, i32), i32, (i32, i32))> {
+    fn stretches(&self, shape: &impl Shape) -> Vec<Stretch> {
         let (first, last) = self.centres_within(shape.rows());
         let tiles = (first.div_euclid(SIDE), i32::MIN)..=(last.div_euclid(SIDE), i32::MAX);
         if first > last {
@@ -88,7 +91,7 @@ impl HeightMap {
             (first.max(top)..=last.min(top + SIDE - 1)).map(|row| (*key, row))
         });
         let with_columns = rows.filter_map(|(key, row)| Some((key, row, self.columns(shape, row)?)));
-        let is_in_tile = |(key, _, (column, last)): &((i32, i32), i32, (i32, i32))| {
+        let is_in_tile = |(key, _, (column, last)): &Stretch| {
             *last >= key.1 * SIDE && *column < (key.1 + 1) * SIDE && column <= last
         };
         with_columns.filter(is_in_tile).collect()

@@ -41,15 +41,13 @@ impl Watch<'_> {
                 self.line = step.line;
                 self.first_move(step.line, it, problems);
                 self.diagonal(step.line, it, problems);
-                self.probe(step.line, it, problems);
+                probe(step.line, it, problems);
                 self.spindle(step.line, it, problems);
                 self.at = it.to;
             }
-            Action::Spindle(spindle) => {
-                if spindle.turning != Turning::Unstated {
-                    self.spindle = spindle.turning;
-                    self.spindle_said = false;
-                }
+            Action::Spindle(spindle) if spindle.turning != Turning::Unstated => {
+                self.spindle = spindle.turning;
+                self.spindle_said = false;
             }
             Action::ChangeTool(_) => self.tool_change(step.line, problems),
             _ => {}
@@ -83,19 +81,6 @@ impl Watch<'_> {
         }
     }
 
-    fn probe(&self, line: u32, it: &Move, problems: &mut Problems) {
-        let Pace::Probe { toward: true, .. } = it.pace else { return };
-        let stays_in_plane = it.from.at[..2] == it.to.at[..2];
-        if it.from.known.and(it.to.known) != Axes::ALL || !stays_in_plane {
-            return;
-        }
-        if it.to.z() == it.from.z() {
-            problems.add_at_line(&say::PROBE_WITHOUT_WAY, line, |d| d);
-        } else if it.to.z() > it.from.z() {
-            problems.add_at_line(&say::USELESS_PROBE, line, |d| d);
-        }
-    }
-
     /// Only a program that switches the spindle is asked for it: on many machines that is done by hand.
     fn spindle(&mut self, line: u32, it: &Move, problems: &mut Problems) {
         let is_off = self.spindle == Turning::Off;
@@ -125,5 +110,19 @@ impl Watch<'_> {
             problems
                 .add_at_line(&say::END_NOT_RAISED, self.line, |d| d.with("z", z).with("surface", surface));
         }
+    }
+}
+
+/// A probe goes towards the material, which is below.
+fn probe(line: u32, it: &Move, problems: &mut Problems) {
+    let Pace::Probe { toward: true, .. } = it.pace else { return };
+    let stays_in_plane = it.from.at[..2] == it.to.at[..2];
+    if it.from.known.and(it.to.known) != Axes::ALL || !stays_in_plane {
+        return;
+    }
+    if it.to.z() == it.from.z() {
+        problems.add_at_line(&say::PROBE_WITHOUT_WAY, line, |d| d);
+    } else if it.to.z() > it.from.z() {
+        problems.add_at_line(&say::USELESS_PROBE, line, |d| d);
     }
 }
