@@ -3,92 +3,82 @@
 use std::cmp::Ordering;
 
 use crate::PathPattern;
-use crate::pattern::{LazyRegex, Pattern, PatternError};
+use crate::default_pattern::DefaultPattern;
+use crate::group::Groups;
+use crate::pattern::{Pattern, PatternError};
 
 /// What describes path names in a file's stem.
 #[derive(Clone, Debug)]
-pub struct FilePattern {
-    part: Pattern,
-    range: LazyRegex,
-}
+pub struct FilePattern(Pattern);
 
 /// A path name, or a range of them, in a file's name. A single name is a range from itself to itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameRange {
     from: FilePart,
-    to: FilePart,
+    /// `None` for a single name.
+    to: Option<FilePart>,
 }
 
 /// One end of a range: the groups of the file pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct FilePart(Vec<Box<str>>);
+struct FilePart(Groups);
 
 /// The groups of a path name, by which it is looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PathKey(Vec<Box<str>>);
+pub struct PathKey(Groups);
 
 impl Default for FilePattern {
     fn default() -> Self {
-        Self::known(Self::DEFAULT)
+        Self(Pattern::Default(DefaultPattern::File))
     }
 }
 
 impl FilePattern {
     /// The default: `1234` or `1234.5`.
-    pub const DEFAULT: &str = "([0-9]{4})(?:[.]([0-9]+))?";
+    pub const DEFAULT: &str = DefaultPattern::File.source();
 
     /// A pattern from the configuration or the command line.
     ///
     /// # Errors
     /// When it is no regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        if pattern == Self::DEFAULT {
-            return Ok(Self::default());
-        }
-        let known = Self { part: Pattern::new(pattern)?, ..Self::known(pattern) };
-        known.range.check()?;
-        Ok(known)
-    }
-
-    fn known(pattern: &str) -> Self {
-        let range = LazyRegex::new(format!("(?P<from>{pattern})-(?P<to>{pattern})"));
-        Self { part: Pattern::known(pattern), range }
+        let pattern = Pattern::new(pattern, DefaultPattern::File)?;
+        pattern.check_ranges()?;
+        Ok(Self(pattern))
     }
 
     /// The names and ranges in a file's stem, in the order of the specification: ranges, then single names.
     pub fn ranges(&self, stem: &str) -> Vec<NameRange> {
         let mut found = Vec::new();
-        // A range has a hyphen in it; most names have none, and the search for ranges is the dearest part of listing a directory.
-        if stem.contains('-') {
-            found.extend(self.range.captures_all(stem).filter_map(|ends| {
-                Some(NameRange { from: self.file_part(&ends["from"])?, to: self.file_part(&ends["to"])? })
-            }));
-        }
-        found.extend(self.part.find_all(stem).filter_map(|name| {
-            let part = self.file_part(name)?;
-            Some(NameRange { from: part.clone(), to: part })
-        }));
+        self.each_range(stem, |range| found.push(range));
         found
+    }
+
+    /// Takes each of these.
+    pub fn each_range(&self, stem: &str, mut take: impl FnMut(NameRange)) {
+        // A range has a hyphen in it, and most names have none.
+        if stem.contains('-') {
+            self.0.each_range(stem, |from, to| {
+                take(NameRange { from: FilePart(from), to: Some(FilePart(to)) });
+            });
+        }
+        self.0.each(stem, |groups| take(NameRange { from: FilePart(groups), to: None }));
     }
 
     /// The regular expression as it was given.
     pub fn as_str(&self) -> &str {
-        self.part.as_str()
-    }
-
-    fn file_part(&self, name: &str) -> Option<FilePart> {
-        Some(FilePart(self.part.groups(name)?.into_iter().map(Into::into).collect()))
+        self.0.as_str()
     }
 }
 
 impl PathKey {
     /// The key of a name; `None` when the path pattern does not match it.
     pub fn new(name: &str, pattern: &PathPattern) -> Option<Self> {
-        Some(Self(pattern.groups(name)?.into_iter().map(Into::into).collect()))
+        pattern.groups(name).map(Self)
     }
 
-    /// The groups as text.
-    pub(crate) fn groups(&self) -> &[Box<str>] {
+    /// The groups.
+    pub(crate) fn groups(&self) -> &Groups {
         &self.0
     }
 }
@@ -104,34 +94,34 @@ impl NameRange {
     }
 
     pub(crate) fn ends_by(&self, path: &PathKey) -> bool {
-        self.to.compare(path) != Ordering::Less
+        self.end().compare(path) != Ordering::Less
     }
 
-    pub(crate) fn start_groups(&self) -> &[Box<str>] {
+    pub(crate) fn start_groups(&self) -> &Groups {
         &self.from.0
     }
 
-    pub(crate) fn end_groups(&self) -> &[Box<str>] {
-        &self.to.0
+    pub(crate) fn end_groups(&self) -> &Groups {
+        &self.end().0
+    }
+
+    fn end(&self) -> &FilePart {
+        self.to.as_ref().unwrap_or(&self.from)
     }
 }
 
 impl FilePart {
     /// How this part of a file's name lies to a path's name.
     fn compare(&self, path: &PathKey) -> Ordering {
-        let longest = self.0.len().max(path.0.len());
-        for index in 0..longest {
-            let file_group = self.0.get(index).map_or("", |group| &**group);
-            let path_group = path.0.get(index).map_or("", |group| &**group);
-            if file_group.is_empty() || path_group.is_empty() {
+        let (file, path) = (&self.0, &path.0);
+        for index in 0..file.len().max(path.len()) {
+            let (file_group, path_group) = match (file.get(index), path.get(index)) {
+                (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => (file, path),
                 // What has no more groups covers what has some: 1234 is equal to 1234.3A, but 1234.3 is greater than 1234.
-                return if groups_left(&self.0, index) > groups_left(&path.0, index) {
-                    Ordering::Greater
-                } else {
-                    Ordering::Equal
-                };
-            }
-            match compare_groups(file_group, path_group) {
+                _ if groups_left(file, index) > groups_left(path, index) => return Ordering::Greater,
+                _ => return Ordering::Equal,
+            };
+            match file_group.compare(path_group) {
                 Ordering::Equal => {}
                 different => return different,
             }
@@ -140,19 +130,6 @@ impl FilePart {
     }
 }
 
-fn groups_left(groups: &[Box<str>], index: usize) -> usize {
+fn groups_left(groups: &Groups, index: usize) -> usize {
     groups.iter().skip(index).filter(|group| !group.is_empty()).count()
-}
-
-/// Two integers by value, however long, else two texts without regard to case.
-pub(crate) fn compare_groups(a: &str, b: &str) -> Ordering {
-    if is_integer(a) && is_integer(b) {
-        let (a, b) = (a.trim_start_matches('0'), b.trim_start_matches('0'));
-        return a.len().cmp(&b.len()).then_with(|| a.cmp(b));
-    }
-    a.chars().flat_map(char::to_uppercase).cmp(b.chars().flat_map(char::to_uppercase))
-}
-
-pub(crate) fn is_integer(group: &str) -> bool {
-    !group.is_empty() && group.bytes().all(|byte| byte.is_ascii_digit())
 }

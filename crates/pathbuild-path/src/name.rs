@@ -5,6 +5,8 @@ use std::hash::{Hash, Hasher};
 
 use regex::Regex;
 
+use crate::default_pattern::DefaultPattern;
+use crate::group::Groups;
 use crate::pattern::{Pattern, PatternError};
 
 /// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt.
@@ -26,20 +28,20 @@ pub struct PathLayer {
 
 impl Default for PathPattern {
     fn default() -> Self {
-        Self(Pattern::known(Self::DEFAULT))
+        Self(Pattern::Default(DefaultPattern::Path))
     }
 }
 
 impl PathPattern {
     /// The default: `2913.2P`.
-    pub const DEFAULT: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
+    pub const DEFAULT: &str = DefaultPattern::Path.source();
 
     /// A pattern from the configuration or the command line.
     ///
     /// # Errors
     /// When it is no regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        if pattern == Self::DEFAULT { Ok(Self::default()) } else { Pattern::new(pattern).map(Self) }
+        Pattern::new(pattern, DefaultPattern::Path).map(Self)
     }
 
     /// The path that a layer belongs to; `None` for a layer that is no path layer.
@@ -61,7 +63,7 @@ impl PathPattern {
     }
 
     /// The groups of a name, by which it is compared with file names. `None` when it does not match.
-    pub(crate) fn groups<'t>(&self, name: &'t str) -> Option<Vec<&'t str>> {
+    pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         self.0.groups(name)
     }
 

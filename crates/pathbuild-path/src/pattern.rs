@@ -1,17 +1,30 @@
-//! Regular expressions with groups, as path and file patterns are: matched as a whole, without regard to case.
+//! Patterns with groups, as those of paths and files are: matched as a whole, without regard to case.
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use regex::{Captures, Regex, RegexBuilder};
+use regex::{Regex, RegexBuilder};
 
-/// A pattern of the configuration, for matching a whole name and for searching in a text.
+use crate::default_pattern::DefaultPattern;
+
+/// A pattern for matching a whole name and for searching in a text.
 #[derive(Clone)]
-pub(crate) struct Pattern {
+pub(crate) enum Pattern {
+    /// One that is read by hand.
+    Default(DefaultPattern),
+    /// One of the configuration.
+    Regex(Box<RegexPattern>),
+}
+
+/// A pattern as a regular expression.
+#[derive(Clone)]
+pub(crate) struct RegexPattern {
     source: Box<str>,
     whole: LazyRegex,
     anywhere: LazyRegex,
+    /// Two of them with a hyphen between.
+    range: LazyRegex,
 }
 
 /// A regular expression that is compiled when it is first used: compiling takes longer than reading most drawings, and a run that
@@ -30,9 +43,91 @@ pub struct PatternError {
 }
 
 impl Pattern {
-    /// A pattern that somebody gave: compiled at once, to see whether it can be.
-    pub(crate) fn new(source: &str) -> Result<Self, PatternError> {
-        let pattern = Self::known(source);
+    /// A pattern that somebody gave, or the default where it is that.
+    pub(crate) fn new(source: &str, default: DefaultPattern) -> Result<Self, PatternError> {
+        if source == default.source() {
+            return Ok(Self::Default(default));
+        }
+        RegexPattern::new(source).map(|pattern| Self::Regex(Box::new(pattern)))
+    }
+
+    /// Whether ranges can be looked for, which is asked of the patterns of file names alone.
+    pub(crate) fn check_ranges(&self) -> Result<(), PatternError> {
+        match self {
+            Self::Default(_) => Ok(()),
+            Self::Regex(pattern) => pattern.range.check(),
+        }
+    }
+
+    pub(crate) fn as_str(&self) -> &str {
+        match self {
+            Self::Default(pattern) => pattern.source(),
+            Self::Regex(pattern) => &pattern.source,
+        }
+    }
+
+    pub(crate) fn matches(&self, name: &str) -> bool {
+        match self {
+            Self::Default(pattern) => pattern.whole(name).is_some(),
+            Self::Regex(pattern) => pattern.whole.get().is_match(name),
+        }
+    }
+
+    pub(crate) fn find(&self, text: &str) -> Option<Range<usize>> {
+        match self {
+            Self::Default(pattern) => pattern.find(text, 0).map(|found| found.range),
+            Self::Regex(pattern) => pattern.anywhere.get().find(text).map(|found| found.range()),
+        }
+    }
+
+    /// The groups of a name that matches as a whole; a group that takes no part is empty.
+    pub(crate) fn groups<'t, G: FromIterator<&'t str>>(&self, name: &'t str) -> Option<G> {
+        match self {
+            Self::Default(pattern) => pattern.whole(name).map(|found| found.groups(name).collect()),
+            Self::Regex(pattern) => pattern.groups(name),
+        }
+    }
+
+    /// The groups of each name in a text.
+    pub(crate) fn each<'t, G: FromIterator<&'t str>>(&self, text: &'t str, mut take: impl FnMut(G)) {
+        match self {
+            Self::Default(pattern) => {
+                pattern.find_all(text).for_each(|found| take(found.groups(text).collect()));
+            }
+            Self::Regex(pattern) => {
+                let names = pattern.anywhere.get().find_iter(text);
+                names.filter_map(|found| pattern.groups(found.as_str())).for_each(take);
+            }
+        }
+    }
+
+    /// The groups of both ends of each range in a text: two names with nothing but a hyphen between.
+    pub(crate) fn each_range<'t, G: FromIterator<&'t str>>(&self, text: &'t str, mut take: impl FnMut(G, G)) {
+        match self {
+            Self::Default(pattern) => pattern
+                .find_ranges(text)
+                .for_each(|(from, to)| take(from.groups(text).collect(), to.groups(text).collect())),
+            Self::Regex(pattern) => {
+                for found in pattern.range.get().captures_iter(text) {
+                    let end = |name| pattern.groups(found.name(name)?.as_str());
+                    if let (Some(from), Some(to)) = (end("from"), end("to")) {
+                        take(from, to);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl RegexPattern {
+    /// Compiles at once, to see whether it can be.
+    fn new(source: &str) -> Result<Self, PatternError> {
+        let pattern = Self {
+            source: source.into(),
+            whole: LazyRegex::new(format!("^(?:{source})$")),
+            anywhere: LazyRegex::new(source),
+            range: LazyRegex::new(format!("(?P<from>{source})-(?P<to>{source})")),
+        };
         pattern.anywhere.check()?;
         pattern.whole.check()?;
         if pattern.whole.get().is_match("") {
@@ -41,30 +136,7 @@ impl Pattern {
         Ok(pattern)
     }
 
-    /// A pattern that is known to compile.
-    pub(crate) fn known(source: &str) -> Self {
-        let whole = LazyRegex::new(format!("^(?:{source})$"));
-        Self { source: source.into(), whole, anywhere: LazyRegex::new(source) }
-    }
-
-    pub(crate) fn as_str(&self) -> &str {
-        &self.source
-    }
-
-    pub(crate) fn matches(&self, name: &str) -> bool {
-        self.whole.get().is_match(name)
-    }
-
-    pub(crate) fn find(&self, text: &str) -> Option<Range<usize>> {
-        self.anywhere.get().find(text).map(|found| found.range())
-    }
-
-    pub(crate) fn find_all<'t>(&self, text: &'t str) -> impl Iterator<Item = &'t str> {
-        self.anywhere.get().find_iter(text).map(|found| found.as_str())
-    }
-
-    /// The groups of a name that matches as a whole; a group that takes no part is empty.
-    pub(crate) fn groups<'t>(&self, name: &'t str) -> Option<Vec<&'t str>> {
+    fn groups<'t, G: FromIterator<&'t str>>(&self, name: &'t str) -> Option<G> {
         let captures = self.whole.get().captures(name)?;
         Some(captures.iter().skip(1).map(|group| group.map_or("", |found| found.as_str())).collect())
     }
@@ -82,19 +154,14 @@ impl LazyRegex {
         Ok(())
     }
 
-    pub(crate) fn captures_all<'t>(&self, text: &'t str) -> impl Iterator<Item = Captures<'t>> {
-        self.get().captures_iter(text)
-    }
-
     fn get(&self) -> &Regex {
-        self.compiled
-            .get_or_init(|| compile(&self.source).expect("the pattern was checked, or is the default"))
+        self.compiled.get_or_init(|| compile(&self.source).expect("the pattern was checked"))
     }
 }
 
 impl fmt::Debug for Pattern {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "/{}/", self.source)
+        write!(f, "/{}/", self.as_str())
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use crate::files::{NameRange, PathKey, compare_groups, is_integer};
+use crate::files::{NameRange, PathKey};
+use crate::group::Group;
 
 /// The name ranges of many files, for looking up path names.
 ///
@@ -120,8 +121,8 @@ impl RangeTable {
 }
 
 impl Class {
-    fn of(group: &str) -> Self {
-        if is_integer(group) { Self::Integer } else { Self::Text }
+    fn of(group: &Group) -> Self {
+        if group.is_integer() { Self::Integer } else { Self::Text }
     }
 }
 
@@ -144,16 +145,16 @@ fn classes(entries: &[(NameRange, u32)]) -> Option<Vec<Class>> {
     Some(classes)
 }
 
-fn has_no_gap(groups: &[Box<str>]) -> bool {
-    groups.iter().skip_while(|group| !group.is_empty()).all(|group| group.is_empty())
+fn has_no_gap(groups: &[Group]) -> bool {
+    groups.iter().skip_while(|group| !group.is_empty()).all(Group::is_empty)
 }
 
 /// Orders ends of ranges; an end that is the beginning of another is `shorter` than it: a range begins with the first and ends with
 /// the last path that its end covers.
-fn compare_ends(a: &[Box<str>], b: &[Box<str>], shorter: Ordering) -> Ordering {
-    let full = |groups: &[Box<str>]| groups.iter().take_while(|group| !group.is_empty()).count();
+fn compare_ends(a: &[Group], b: &[Group], shorter: Ordering) -> Ordering {
+    let full = |groups: &[Group]| groups.iter().take_while(|group| !group.is_empty()).count();
     let (a, b) = (&a[..full(a)], &b[..full(b)]);
-    let difference = a.iter().zip(b).map(|(x, y)| compare_groups(x, y)).find(|order| order.is_ne());
+    let difference = a.iter().zip(b).map(|(x, y)| x.compare(y)).find(|order| order.is_ne());
     difference.unwrap_or_else(|| match a.len().cmp(&b.len()) {
         Ordering::Less => shorter,
         Ordering::Equal => Ordering::Equal,

@@ -44,7 +44,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     let mut ranges = Vec::new();
     for (number, name) in (0_u32..).zip(&names) {
         let stem = &name[..name.len() - EXTENSION.len()];
-        ranges.extend(pattern.ranges(stem).into_iter().map(|range| (range, number)));
+        pattern.each_range(stem, |range| ranges.push((range, number)));
     }
     NameTable { names, ranges: RangeTable::new(ranges) }
 }

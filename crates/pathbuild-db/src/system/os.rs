@@ -47,10 +47,10 @@ impl System for OsSystem {
             // A link is what it leads to; one that leads nowhere is a file that cannot be read.
             let is_directory = kind.is_dir()
                 || (kind.is_symlink() && fs::metadata(entry.path()).is_ok_and(|data| data.is_dir()));
-            let name = entry.file_name().to_string_lossy().into();
-            entries.push(Entry { name, is_directory });
+            let name = entry.file_name().into_string().unwrap_or_else(|name| name.to_string_lossy().into());
+            entries.push(Entry { name: name.into(), is_directory });
         }
-        entries.sort();
+        entries.sort_unstable();
         Ok(entries)
     }
 

@@ -5,6 +5,7 @@
 mod assignment;
 mod chains;
 mod circles;
+mod default_patterns;
 mod files;
 mod letters;
 mod limits;

@@ -1,0 +1,114 @@
+//! The default patterns of path names and file names, read by hand: they say what the regular expressions say, and take a tenth of
+//! the time, which is most of the time of listing a directory of ten thousand drawings. (spec/20-paths-and-files.md)
+
+use std::ops::Range;
+
+/// A pattern that needs no regular expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DefaultPattern {
+    /// `2913.2P`
+    Path,
+    /// `1234` or `1234.5`
+    File,
+}
+
+/// Where a pattern matches, and where its groups do. A group that takes no part is empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Match {
+    pub(crate) range: Range<usize>,
+    first: Range<usize>,
+    second: Range<usize>,
+    /// The path's letter; the file pattern has no third group.
+    third: Option<Range<usize>>,
+}
+
+impl DefaultPattern {
+    /// As a regular expression.
+    pub(crate) const fn source(self) -> &'static str {
+        match self {
+            Self::Path => "([0-9]{4})[.]([0-9]+)([A-Z])",
+            Self::File => "([0-9]{4})(?:[.]([0-9]+))?",
+        }
+    }
+
+    /// The match that is the whole text.
+    pub(crate) fn whole(self, text: &str) -> Option<Match> {
+        self.at(text, 0).filter(|found| found.range.end == text.len())
+    }
+
+    /// The first match from a byte on.
+    pub(crate) fn find(self, text: &str, from: usize) -> Option<Match> {
+        (from..text.len()).find_map(|start| self.at(text, start))
+    }
+
+    /// The matches from left to right that do not overlap.
+    pub(crate) fn find_all(self, text: &str) -> impl Iterator<Item = Match> {
+        let mut from = 0;
+        std::iter::from_fn(move || {
+            let found = self.find(text, from)?;
+            from = found.range.end;
+            Some(found)
+        })
+    }
+
+    /// The pairs of matches with a hyphen between them, from left to right, that do not overlap.
+    pub(crate) fn find_ranges(self, text: &str) -> impl Iterator<Item = (Match, Match)> {
+        let mut from = 0;
+        let pair = move |start| {
+            let first = self.at(text, start)?;
+            let hyphen = (text.as_bytes().get(first.range.end) == Some(&b'-')).then_some(first.range.end)?;
+            Some((first, self.at(text, hyphen + 1)?))
+        };
+        std::iter::from_fn(move || {
+            let found = (from..text.len()).find_map(pair)?;
+            from = found.1.range.end;
+            Some(found)
+        })
+    }
+
+    /// The match that begins at a byte. There is one at most that a regular expression would prefer: digits are taken as far as they go.
+    fn at(self, text: &str, start: usize) -> Option<Match> {
+        let bytes = text.as_bytes();
+        let point = start + 4;
+        if digits(bytes, start, point) != point {
+            return None;
+        }
+        let second = match bytes.get(point) {
+            Some(b'.') => point + 1..digits(bytes, point + 1, bytes.len()),
+            _ => point..point,
+        };
+        match self {
+            Self::File if second.is_empty() => {
+                Some(Match { range: start..point, first: start..point, second: point..point, third: None })
+            }
+            Self::File => Some(Match { range: start..second.end, first: start..point, second, third: None }),
+            Self::Path => {
+                let letter = (!second.is_empty()).then(|| letter(&bytes[second.end..]))??;
+                let third = second.end..second.end + letter;
+                Some(Match { range: start..third.end, first: start..point, second, third: Some(third) })
+            }
+        }
+    }
+}
+
+impl Match {
+    /// The groups in a text that matched.
+    pub(crate) fn groups<'t>(&self, text: &'t str) -> impl Iterator<Item = &'t str> {
+        let groups = [Some(self.first.clone()), Some(self.second.clone()), self.third.clone()];
+        groups.into_iter().flatten().map(|group| &text[group])
+    }
+}
+
+/// How far digits go from a byte on, at most to another.
+fn digits(bytes: &[u8], from: usize, to: usize) -> usize {
+    (from..to).find(|at| !bytes.get(*at).is_some_and(u8::is_ascii_digit)).unwrap_or(to)
+}
+
+/// How long the letter is that a text begins with. Two letters beyond ASCII are an S and a K to whoever disregards case: ſ and K.
+fn letter(bytes: &[u8]) -> Option<usize> {
+    let others = ["\u{17f}", "\u{212a}"].map(str::as_bytes);
+    match bytes.first()? {
+        letter if letter.is_ascii_alphabetic() => Some(1),
+        _ => others.iter().find(|other| bytes.starts_with(other)).map(|other| other.len()),
+    }
+}

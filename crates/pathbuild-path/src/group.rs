@@ -1,0 +1,83 @@
+//! The groups of names, by which paths and files are compared. (spec/20-paths-and-files.md)
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+
+/// What the groups of a pattern took of a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Groups(Box<[Group]>);
+
+/// One of them. What a directory of ten thousand drawings has in its names are short integers: they need no memory of their own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Group {
+    /// Digits that make a number below 2^64.
+    Short {
+        /// The number.
+        value: u64,
+        /// How many digits there are.
+        digits: usize,
+    },
+    /// Anything else: longer integers, texts, nothing.
+    Other(Box<str>),
+}
+
+impl<'t> FromIterator<&'t str> for Groups {
+    fn from_iter<I: IntoIterator<Item = &'t str>>(groups: I) -> Self {
+        Self(groups.into_iter().map(Group::new).collect())
+    }
+}
+
+impl std::ops::Deref for Groups {
+    type Target = [Group];
+
+    fn deref(&self) -> &[Group] {
+        &self.0
+    }
+}
+
+impl Group {
+    fn new(text: &str) -> Self {
+        let value = if is_integer(text) { text.parse().ok() } else { None };
+        match value {
+            Some(value) => Self::Short { value, digits: text.len() },
+            None => Self::Other(text.into()),
+        }
+    }
+
+    /// Whether the group took no part.
+    pub(crate) fn is_empty(&self) -> bool {
+        matches!(self, Self::Other(text) if text.is_empty())
+    }
+
+    /// Whether it is digits alone.
+    pub(crate) fn is_integer(&self) -> bool {
+        match self {
+            Self::Short { .. } => true,
+            Self::Other(text) => is_integer(text),
+        }
+    }
+
+    /// Two integers by value, however long, else two texts without regard to case.
+    pub(crate) fn compare(&self, other: &Self) -> Ordering {
+        if let (Self::Short { value: a, .. }, Self::Short { value: b, .. }) = (self, other) {
+            return a.cmp(b);
+        }
+        let (a, b) = (self.text(), other.text());
+        if self.is_integer() && other.is_integer() {
+            let (a, b) = (a.trim_start_matches('0'), b.trim_start_matches('0'));
+            return a.len().cmp(&b.len()).then_with(|| a.cmp(b));
+        }
+        a.chars().flat_map(char::to_uppercase).cmp(b.chars().flat_map(char::to_uppercase))
+    }
+
+    fn text(&self) -> Cow<'_, str> {
+        match self {
+            Self::Short { value, digits } => Cow::Owned(format!("{value:0digits$}")),
+            Self::Other(text) => Cow::Borrowed(text),
+        }
+    }
+}
+
+fn is_integer(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
