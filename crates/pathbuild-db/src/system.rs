@@ -28,7 +28,8 @@ pub trait System: Debug + Send + Sync {
     /// When a file was last changed, where that is known.
     fn modified(&self, path: &Utf8Path) -> Option<SystemTime>;
 
-    /// The names in a directory, sorted; of those that are no UTF-8 there is a lossy spelling, which no file has.
+    /// The names in a directory, in no particular order: sorting ten thousand takes longer than reading the few drawings among them that
+    /// are wanted. Of names that are no UTF-8 there is a lossy spelling, which no file has.
     ///
     /// # Errors
     /// As [`read`](Self::read).

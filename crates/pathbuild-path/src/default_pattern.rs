@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use crate::group::Groups;
+
 /// A pattern that needs no regular expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DefaultPattern {
@@ -93,9 +95,12 @@ impl DefaultPattern {
 
 impl Match {
     /// The groups in a text that matched.
-    pub(crate) fn groups<'t>(&self, text: &'t str) -> impl Iterator<Item = &'t str> {
-        let groups = [Some(self.first.clone()), Some(self.second.clone()), self.third.clone()];
-        groups.into_iter().flatten().map(|group| &text[group])
+    pub(crate) fn groups(&self, text: &str) -> Groups {
+        let (first, second) = (&text[self.first.clone()], &text[self.second.clone()]);
+        match &self.third {
+            None => [first, second].into(),
+            Some(third) => [first, second, &text[third.clone()]].into(),
+        }
     }
 }
 

@@ -27,6 +27,12 @@ impl<'t> FromIterator<&'t str> for Groups {
     }
 }
 
+impl<const N: usize> From<[&str; N]> for Groups {
+    fn from(groups: [&str; N]) -> Self {
+        Self(Box::new(groups.map(Group::new)))
+    }
+}
+
 impl std::ops::Deref for Groups {
     type Target = [Group];
 

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use regex::{Regex, RegexBuilder};
 
 use crate::default_pattern::DefaultPattern;
+use crate::group::Groups;
 
 /// A pattern for matching a whole name and for searching in a text.
 #[derive(Clone)]
@@ -81,18 +82,18 @@ impl Pattern {
     }
 
     /// The groups of a name that matches as a whole; a group that takes no part is empty.
-    pub(crate) fn groups<'t, G: FromIterator<&'t str>>(&self, name: &'t str) -> Option<G> {
+    pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         match self {
-            Self::Default(pattern) => pattern.whole(name).map(|found| found.groups(name).collect()),
+            Self::Default(pattern) => pattern.whole(name).map(|found| found.groups(name)),
             Self::Regex(pattern) => pattern.groups(name),
         }
     }
 
     /// The groups of each name in a text.
-    pub(crate) fn each<'t, G: FromIterator<&'t str>>(&self, text: &'t str, mut take: impl FnMut(G)) {
+    pub(crate) fn each(&self, text: &str, mut take: impl FnMut(Groups)) {
         match self {
             Self::Default(pattern) => {
-                pattern.find_all(text).for_each(|found| take(found.groups(text).collect()));
+                pattern.find_all(text).for_each(|found| take(found.groups(text)));
             }
             Self::Regex(pattern) => {
                 let names = pattern.anywhere.get().find_iter(text);
@@ -102,11 +103,11 @@ impl Pattern {
     }
 
     /// The groups of both ends of each range in a text: two names with nothing but a hyphen between.
-    pub(crate) fn each_range<'t, G: FromIterator<&'t str>>(&self, text: &'t str, mut take: impl FnMut(G, G)) {
+    pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Groups, Groups)) {
         match self {
-            Self::Default(pattern) => pattern
-                .find_ranges(text)
-                .for_each(|(from, to)| take(from.groups(text).collect(), to.groups(text).collect())),
+            Self::Default(pattern) => {
+                pattern.find_ranges(text).for_each(|(from, to)| take(from.groups(text), to.groups(text)));
+            }
             Self::Regex(pattern) => {
                 for found in pattern.range.get().captures_iter(text) {
                     let end = |name| pattern.groups(found.name(name)?.as_str());
@@ -136,7 +137,7 @@ impl RegexPattern {
         Ok(pattern)
     }
 
-    fn groups<'t, G: FromIterator<&'t str>>(&self, name: &'t str) -> Option<G> {
+    fn groups(&self, name: &str) -> Option<Groups> {
         let captures = self.whole.get().captures(name)?;
         Some(captures.iter().skip(1).map(|group| group.map_or("", |found| found.as_str())).collect())
     }

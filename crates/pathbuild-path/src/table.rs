@@ -30,9 +30,7 @@ impl RangeTable {
     pub fn new(mut entries: Vec<(NameRange, u32)>) -> Self {
         let classes = classes(&entries);
         if classes.is_some() {
-            entries.sort_by(|(a, file_a), (b, file_b)| {
-                compare_ends(a.start_groups(), b.start_groups(), Ordering::Less).then(file_a.cmp(file_b))
-            });
+            sort(&mut entries);
         }
         let mut table = Self { entries, classes, furthest: Vec::new() };
         if table.is_sorted() {
@@ -147,6 +145,29 @@ fn classes(entries: &[(NameRange, u32)]) -> Option<Vec<Class>> {
 
 fn has_no_gap(groups: &[Group]) -> bool {
     groups.iter().skip_while(|group| !group.is_empty()).all(Group::is_empty)
+}
+
+/// Puts ranges in order of their beginnings.
+fn sort(entries: &mut [(NameRange, u32)]) {
+    if entries.iter().all(|(range, _)| short_key(range.start_groups()).is_some()) {
+        // Of ten thousand drawings, most of the time would go into comparing groups.
+        entries.sort_by_cached_key(|(range, file)| (short_key(range.start_groups()), *file));
+    } else {
+        entries.sort_by(|(a, file_a), (b, file_b)| {
+            compare_ends(a.start_groups(), b.start_groups(), Ordering::Less).then(file_a.cmp(file_b))
+        });
+    }
+}
+
+/// What orders a beginning as [`compare_ends`] does, where it is at most two short integers.
+fn short_key(groups: &[Group]) -> Option<[u64; 2]> {
+    let mut key = [0; 2];
+    for (index, group) in groups.iter().take_while(|group| !group.is_empty()).enumerate() {
+        let Group::Short { value, .. } = group else { return None };
+        // 0 is for a group that is not there.
+        *key.get_mut(index)? = value.checked_add(1)?;
+    }
+    Some(key)
 }
 
 /// Orders ends of ranges; an end that is the beginning of another is `shorter` than it: a range begins with the first and ends with

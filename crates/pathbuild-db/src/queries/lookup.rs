@@ -31,6 +31,14 @@ impl NameTable {
     pub fn is_sorted(&self) -> bool {
         self.ranges.is_sorted()
     }
+
+    /// The files that may hold a path, in order of name.
+    fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
+        let files = self.ranges.files(key).into_iter();
+        let mut names: Vec<&str> = files.map(|file| &*self.names[file as usize]).collect();
+        names.sort_unstable();
+        names.into_iter().map(|name| db.file(&joined(directory.path(db), name))).collect()
+    }
 }
 
 /// The name ranges in a directory's file names. A directory that cannot be listed has none.
@@ -41,7 +49,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     let listed = db.system().list(directory.path(db)).unwrap_or_default();
     let drawings = listed.into_iter().filter(|entry| !entry.is_directory && is_drawing(&entry.name));
     let names: Vec<Box<str>> = drawings.map(|entry| entry.name).collect();
-    let mut ranges = Vec::new();
+    let mut ranges = Vec::with_capacity(names.len());
     for (number, name) in (0_u32..).zip(&names) {
         let stem = &name[..name.len() - EXTENSION.len()];
         pattern.each_range(stem, |range| ranges.push((range, number)));
@@ -54,9 +62,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
 pub fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
-    let table = name_table(db, directory);
-    let files = table.ranges.files(&key);
-    files.into_iter().map(|file| db.file(&joined(directory.path(db), &table.names[file as usize]))).collect()
+    name_table(db, directory).files(db, directory, &key)
 }
 
 /// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
@@ -80,9 +86,7 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
 pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let Some(key) = PathKey::new(name.as_str(), pattern) else { return Vec::new() };
-    let table = name_table(db, directory);
-    let files = table.ranges.files(&key).into_iter();
-    let files = files.map(|file| db.file(&joined(directory.path(db), &table.names[file as usize])));
+    let files = name_table(db, directory).files(db, directory, &key).into_iter();
     files.filter(|file| super::raw::path_names(db, *file).contains(name)).collect()
 }
 

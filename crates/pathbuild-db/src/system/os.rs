@@ -50,7 +50,6 @@ impl System for OsSystem {
             let name = entry.file_name().into_string().unwrap_or_else(|name| name.to_string_lossy().into());
             entries.push(Entry { name: name.into(), is_directory });
         }
-        entries.sort_unstable();
         Ok(entries)
     }
 

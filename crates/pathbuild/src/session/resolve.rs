@@ -165,7 +165,7 @@ impl Session<'_> {
                     && library::is_drawing(Utf8Path::new(&*entry.name))
             };
             let listed = self.db.system().list(directory).ok()?;
-            let entry = listed.into_iter().find(in_any_case)?;
+            let entry = listed.into_iter().filter(in_any_case).min()?;
             Some(self.file(&directory.join(&*entry.name)))
         })
     }

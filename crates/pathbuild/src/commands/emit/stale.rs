@@ -57,13 +57,14 @@ fn stale(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) 
     let system = session.db().system();
     let mut stale = Vec::new();
     for directory in directories {
-        let names: Vec<String> = system
+        let mut names: Vec<String> = system
             .list(&directory)
             .unwrap_or_default()
             .into_iter()
             .filter(|entry| !entry.is_directory)
             .map(|entry| entry.name.into())
             .collect();
+        names.sort_unstable();
         for name in names.iter().filter(|name| is_gcode(name)) {
             let path = directory.join(name);
             let head = system.head(&path, HEAD).unwrap_or_default();
