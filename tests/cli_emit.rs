@@ -83,7 +83,7 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
 
 /// The names of the files that are no drawings and no configuration.
 fn written(place: &Place) -> Vec<String> {
-    let is_source = |name: &String| name.ends_with(".dxf") || name.ends_with(".toml");
+    let is_source = |name: &String| name.to_lowercase().ends_with(".dxf") || name.ends_with(".toml");
     files(place).into_iter().map(|(name, _)| name).filter(|name| !is_source(name)).collect()
 }
 
@@ -101,6 +101,30 @@ fn files_are_written_once() {
     let expected = ["components/1234_Milling.gcode", "components/1300.2P_Milling.gcode"];
     assert_eq!(written(&place), expected);
     assert_snapshot!(place.read(expected[0]));
+}
+
+/// A sheet at the machine says out of what it was made: the same, wherever it was made.
+#[test]
+fn provenance_is_that_of_drawings_and_options() {
+    const PROGRAM: &str = "projects/8001 a b_Milling.gcode";
+    let of = |place: &Place, options: &str| {
+        let run = place.run(&format!("emit 8001.1P {options}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        provenance(place, PROGRAM)
+    };
+    let place = Place::of(LIBRARY);
+    let first = of(&place, "");
+    assert!(first.starts_with(concat!("(pathbuild ", env!("CARGO_PKG_VERSION"), " ")), "{first}");
+    let moved = Place::of(&LIBRARY.replace("components", "parts").replace("projects/", "x/../projects/"));
+    assert_eq!(of(&moved, "-j 1"), first);
+    // What it does not embed does not change it.
+    assert_eq!(of(&library("probe 20,20", "probe 20,30"), ""), first);
+    let [program, options] = [0, 1].map(|part| first.split('-').nth(part).unwrap().to_owned());
+    // What it embeds does, even where the moves stay the same; so does an option that matters.
+    let changed = of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), "");
+    assert!(!changed.starts_with(&program) && changed.ends_with(&options), "{first} {changed}");
+    let faster = of(&place, "--feed 200");
+    assert!(faster.starts_with(&program) && !faster.ends_with(&options), "{first} {faster}");
 }
 
 #[test]
@@ -292,6 +316,30 @@ fn deps_are_rules_for_make() {
 #[test]
 fn deps_that_cannot_be_written_are_an_error() {
     assert_snapshot!(Place::of(LIBRARY).run("emit 1234.1P -q --deps components"));
+}
+
+#[test]
+fn two_outputs_of_one_name_are_both_refused() {
+    let both = Place::of(LIBRARY).run("emit 1300.1P 1300.2P --out-dir all");
+    assert_eq!(both.status, Some(0), "outputs of a drawing of several paths have the paths' names: {both}");
+    let same = Place::of(
+        &LIBRARY
+            .replace(
+                "T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nprobe 20,20 \"LA\"",
+                "T5 O2 MPlate R_x\"\nsubpath 0,0 40,0 \">1234.1P\"",
+            )
+            .replace("8001 a b", "8002_x")
+            .replace("8001.1P", "8003.1P"),
+    );
+    assert_snapshot!(same.run("emit --out-dir all"));
+    let same = Place::of(
+        &LIBRARY
+            .replace("8001 a b.dxf", "8002.DXF")
+            .replace("8001.1P", "8002.2P")
+            .replace("\nprobe 20,20 \"LA\"", ""),
+    );
+    assert_snapshot!("of drawings whose names differ in case", same.run("emit"));
+    assert_eq!(written(&same), Vec::<String>::new());
 }
 
 #[test]

@@ -25,6 +25,14 @@ fn milled(statement: &str, end: &str) -> Vec<String> {
 }
 
 #[test]
+fn an_arc_is_run_in_its_own_direction() {
+    // Counterclockwise as drawn, from the left of its centre to the right, below.
+    assert_eq!(milled("mill arc centre 10,0 r 10 from 180 to 0", "20,0"), ["G03 10 0 20 0"]);
+    // Counterclockwise as drawn, from the right to the left, above: run from its end.
+    assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180", "20,0"), ["G02 10 0 20 0"]);
+}
+
+#[test]
 fn an_arc_that_is_run_from_its_end_turns_the_other_way() {
     assert_eq!(milled("mill arc centre 10,0 r 10 from 0 to 180", "20,0"), ["G02 10 0 20 0"]);
 }

@@ -12,6 +12,22 @@ fn a_line_is_milled_to_and_fro_pass_by_pass() {
     assert_eq!(moves(&path("T5 O3 I1 B3", LINE)), expected);
 }
 
+#[test]
+fn the_first_depth_is_one_infeed_below_the_surface_and_the_last_is_the_bottom() {
+    let depths = |infeed: &str, bottom: &str| {
+        let moves = moves(&path(&format!("T5 O3 I{infeed} B{bottom}"), LINE));
+        let milled = moves.iter().filter_map(|step| step.strip_prefix("M ")?.split(' ').nth(1));
+        milled.collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(depths("2.5", "0"), "2.5 0");
+    assert_eq!(depths("2", "0"), "3 1 0");
+    assert_eq!(depths("9", "0"), "0");
+    assert_eq!(depths("5", "0"), "0");
+    // Nearly the bottom is the bottom.
+    assert_eq!(depths("2.4999999999", "0"), "2.5 0");
+    assert_eq!(depths("2.499", "0"), "2.501 0.002 0");
+}
+
 /// In binary 0.1 times 50 is not 5: the last of fifty subtractions is the bottom all the same.
 #[test]
 fn depths_arise_by_subtracting_again_and_again() {
@@ -53,6 +69,17 @@ fn distances_are_in_space() {
     // After the first edge of the second line (at 4, 0): its own next edge, or the first line's next, from (2, 0).
     assert_eq!(order("4")[..5], ["L 9", "D 5", "M 2,0 5", "M 4,0 5", "D 1"]);
     assert_eq!(order("4")[5], "M 2,0 1");
+}
+
+/// On a tie the first in segment order, and its end rather than its start.
+#[test]
+fn ties_go_to_the_first_segment_and_to_its_end() {
+    // A full circle begins and ends at one point: the walk takes it from its end, its edge is run from the other.
+    let circle = "arc CONTINUOUS centre 10,0 r 10 from 180 to 180\nend 0,0";
+    assert_eq!(moves(&path("T5 O3 I5 B0", circle)), ["L 5", "D 0", "A 0,0 0", "L 10"]);
+    // From the middle of a line that is milled to and fro, both ends of the next are as near.
+    let both = "mill 0,0 0,20\nmill 0,20 0,0\nend 0,0";
+    assert_eq!(moves(&path("T5 O3 I5 B0", both))[..4], ["L 5", "D 0", "M 0,20 0", "M 0,0 0"]);
 }
 
 #[test]

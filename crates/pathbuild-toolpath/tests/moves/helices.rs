@@ -146,3 +146,57 @@ fn below_d_full_circles_leave_bars() {
     assert!(circle.iter().all(|step| step.starts_with('C')));
     assert_eq!(milled[19..], ["L 10", "S 40,0"]);
 }
+
+/// From D down in steps of I, the last at B.
+#[test]
+fn circles_with_bars_go_down_by_infeeds() {
+    let lowest = |parameters: &str| {
+        let moves = moves(&path(parameters, &helix(BARS)));
+        let below = moves
+            .iter()
+            .filter_map(|step| step.strip_prefix("C ")?.split(' ').nth(1))
+            .filter(|z| z.parse::<f64>().unwrap() < 2.0);
+        let mut heights: Vec<&str> = below.collect();
+        heights.dedup();
+        heights.join(" ")
+    };
+    assert_eq!(lowest("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
+    // The spiral's infeeds, 4.3 to 1.5, are counted on although it does not go below D.
+    assert_eq!(lowest("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");
+    assert_eq!(lowest("T5 O3 I0.7 B1 D2 P2 U21"), "1");
+    // They are beyond B: compatible, although the ring between D and B stays.
+    assert_eq!(lowest("T5 O3 I5 B1 D2 P2 U21"), "");
+}
+
+#[test]
+fn without_room_for_a_bar_nothing_below_d_is_milled() {
+    let milled = moves(&path("T5 O3 I5 B0 D2 P2 U25", &helix(BARS)));
+    assert_eq!(milled[4..], ["C 20,4 2.5", "C 20,-4 2", "C 20,4 2", "C 20,-4 2", "L 10", "S 40,0"]);
+}
+
+/// However the embedding turns the path, circles begin below their centre, where the half circles end.
+#[test]
+fn circles_begin_below_the_centre_however_the_path_is_turned() {
+    let drawing = |circle: &str| {
+        format!(
+            "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 0,40 \">1234.1P T5\"\nend 0,40\n{}",
+            path("T5 O3 I2 B0 D2 P2 U21", &helix(circle))
+        )
+    };
+    let milled = moves(&drawing(BARS));
+    assert_eq!(milled[..4], ["L 8", "S 0,16", "C 0,24 4", "C 0,16 3"]);
+    let last = milled.iter().rposition(|step| step.starts_with('C')).unwrap();
+    assert_eq!(milled[last], "C 0,16 2");
+}
+
+#[test]
+fn a_helical_circle_is_raised_by_h() {
+    let drawing = format!(
+        "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 40,0 \">1234.1P T5 H1\"\nend 40,0\n{}",
+        path("T5 O3 I2 B0 D2 P2 U21", &helix(BARS))
+    );
+    let milled = moves(&drawing);
+    assert_eq!(milled[..6], ["L 9", "S 20,-4", "C 20,4 5", "C 20,-4 4", "C 20,4 3", "C 20,-4 3"]);
+    assert!(milled.iter().any(|step| step.ends_with(" 1")), "{milled:?}");
+    assert!(!milled.iter().any(|step| step.ends_with(" 0") && step.starts_with('C')), "{milled:?}");
+}

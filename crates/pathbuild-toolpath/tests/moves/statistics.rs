@@ -4,6 +4,20 @@ use pathbuild_toolpath::{Class, Count, Height, Move, Program, Statistics, Step, 
 
 use crate::support::{counts, path, program};
 
+/// Feeds: the segment's for milling, the path's for coming down to an edge.
+#[test]
+fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
+    let line = "mill 0,0 40,0 \"F300\"\nend 40,0";
+    assert_eq!(
+        counts(&path("T5 O3 I5 B0 F200", line)),
+        ["Sweep 5", "Drilling 5 200", "Milling 40 300", "Sweep 10"]
+    );
+    // --feed where the path has none.
+    assert_eq!(counts(&path("T5 O3 I5 B0", line))[1], "Drilling 5 100");
+    // Without a sweep likewise, down to W first.
+    assert_eq!(counts(&path("T5 O3 I5 B0 F200 W1", line))[1..3], ["Drilling 4 200", "Milling 40 300"]);
+}
+
 #[test]
 fn slopes_count_with_their_length_in_the_plane() {
     let found = counts(&path("T5 O3 D2 B0 P2 U38 I5", "bars 0,0 40,0\nend 40,0"));

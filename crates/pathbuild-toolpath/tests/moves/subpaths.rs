@@ -68,3 +68,15 @@ fn a_sweeps_own_height_is_raised_too() {
     let moves = moves(&project("subpath 0,0 40,0 \">1234.1P H2\"", "40,0", &component));
     assert_eq!(moves, ["L 9", "S 40,0"]);
 }
+
+/// A path whose start and end coincide has no direction: it lies as it is drawn.
+#[test]
+fn a_path_without_direction_is_not_turned() {
+    let component = path("T5 O3 I5 B0", "mill 0,0 10,0 0,0\nend 0,0");
+    let drawing = project(
+        "sweep 0,0 0,40\nsubpath arc centre 10,40 r 10 from 180 to 180 \">1234.1P\"",
+        "0,40",
+        &component,
+    );
+    assert_eq!(moves(&drawing)[4], "M 10,40 0");
+}
