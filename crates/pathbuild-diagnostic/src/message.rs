@@ -95,6 +95,7 @@ impl Value {
             Self::Number(number) => number.to_string(),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
+            Self::List(items) if items.is_empty() => Self::Word(&crate::words::NONE).render(lang),
             Self::List(items) => items.join(", "),
             Self::Word(word) => match lang {
                 Lang::En => word.en.to_owned(),

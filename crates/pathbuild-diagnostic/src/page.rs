@@ -104,12 +104,12 @@ pages! {
     QProjectLacksPath "PB515" example;
     QProjectDiffers "PB516" example;
     ProxyDiffers "PB517" example;
-    StaleOutput "PB520";
+    StaleOutput "PB520" example;
     InvalidProbeLine "PB601" example;
     CorrectionTooLarge "PB602" example;
     UnknownProbe "PB603" example;
     InvalidFormula "PB604" example;
     ProbeValuesPresent "PB605" example;
     OutsideProbes "PB606" example;
-    OddProbe "PB607";
+    OddProbe "PB607" example;
 }

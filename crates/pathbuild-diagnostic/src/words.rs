@@ -9,6 +9,8 @@ macro_rules! words {
 }
 
 words! {
+    /// An empty list.
+    NONE: "none", "keine";
     /// The start marker's text, which holds the path's own parameters.
     PATH_START: "a path start", "ein Pfadanfang";
     /// CONTINUOUS line or arc.

@@ -149,10 +149,7 @@ impl<'db> Embedder<'db> {
     fn nowhere(&self, name: &PathName, found: &Found) -> Diagnostic {
         let directories: Value =
             found.directories.iter().map(|path| shown_directory(path.as_str())).collect();
-        let files: Value = match found.searched.as_slice() {
-            [] => ["-"].iter().collect(),
-            files => files.iter().map(|file| file.path(self.db).as_str()).collect(),
-        };
+        let files: Value = found.searched.iter().map(|file| file.path(self.db).as_str()).collect();
         let problem = Diagnostic::new(&messages::NOT_FOUND)
             .with("name", name.as_str())
             .with("directories", directories)

@@ -144,7 +144,10 @@ impl<'a> Adjustment<'a> {
             Written::Changed => self.context.choose("written", "geschrieben"),
             Written::Unchanged => self.context.choose("unchanged", "unverändert"),
         };
-        let heights = self.context.choose("heights corrected by", "Höhen korrigiert um");
+        let heights = match adjusted.heights {
+            1 => self.context.choose("height corrected by", "Höhe korrigiert um"),
+            _ => self.context.choose("heights corrected by", "Höhen korrigiert um"),
+        };
         let to = self.context.choose("to", "bis");
         let (lowest, highest) = adjusted.corrections;
         let count = adjusted.heights;

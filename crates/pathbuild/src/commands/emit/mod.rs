@@ -69,7 +69,7 @@ fn found(session: &Session<'_>, checked: &[CheckedTarget]) -> Vec<Diagnostic> {
 /// Says what became of the files of a path; whether all of them are as they should be.
 fn show(context: &Context, delivered: &Delivered) -> bool {
     let mut is_current = true;
-    for (path, state) in &delivered.files {
+    for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
         match state {
             State::Written | State::Unchanged => {
@@ -77,8 +77,13 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
                     State::Written => phrase("written", "geschrieben"),
                     _ => phrase("unchanged", "unverändert"),
                 };
-                let (length, minutes) = (delivered.length, delivered.minutes);
-                context.printer.status(format_args!("{path}: {state}, {length:.0} mm, {minutes:.0} min"));
+                // The program comes first; what belongs to its probes has no length of its own.
+                if index == 0 {
+                    let (length, minutes) = (delivered.length, delivered.minutes);
+                    context.printer.status(format_args!("{path}: {state}, {length:.0} mm, {minutes:.0} min"));
+                } else {
+                    context.printer.status(format_args!("{path}: {state}"));
+                }
             }
             State::Printed(text) => context.printer.result(text),
             State::Current => {
