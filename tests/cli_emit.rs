@@ -12,6 +12,7 @@ mod support;
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use insta::assert_snapshot;
 use rayon::prelude::*;
@@ -83,8 +84,12 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
 
 /// The names of the files that are no drawings and no configuration.
 fn written(place: &Place) -> Vec<String> {
-    let is_source = |name: &String| name.to_lowercase().ends_with(".dxf") || name.ends_with(".toml");
+    let is_source = |name: &String| has_extension(name, "dxf") || has_extension(name, "toml");
     files(place).into_iter().map(|(name, _)| name).filter(|name| !is_source(name)).collect()
+}
+
+fn has_extension(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
 fn provenance(place: &Place, name: &str) -> String {
@@ -213,11 +218,12 @@ fn moves_are_compared_with_a_program_whoever_wrote_it() {
     let place = Place::of(LIBRARY);
     place.run("emit 1234.1P");
     let ours = place.read("components/1234_Milling.gcode");
-    let foreign: String = ours
+    let foreign = ours
         .lines()
         .filter(|line| !line.starts_with("(pathbuild") && !line.starts_with("T1"))
         .map(|line| format!("{}  (as drawn)\r\n", line.replace("X40.000", "X40.001")))
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let place = place.file("components/1234_Milling.gcode", &foreign);
     assert_eq!(place.run("emit --check 1234.1P").status, Some(1));
     let lines = ["emit --check --moves 1234.1P", "emit --check --moves 1234.1P --feed 151"];
@@ -256,7 +262,7 @@ fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let named =
         files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(&path).unwrap()));
-    named.filter(|(name, _)| name.ends_with(".gcode")).collect()
+    named.filter(|(name, _)| has_extension(name, "gcode")).collect()
 }
 
 /// What is wrong about comparing a run's outputs with what the original tool wrote.

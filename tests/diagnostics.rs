@@ -11,7 +11,7 @@ use support::Place;
 /// A mistake of the program itself: no drawing is meant to show it.
 const WITHOUT_EXAMPLE: &[&str] = &["PB006"];
 
-/// The commands that say these are not built yet (tests/explain_examples.rs has the same list, and fails when they are).
+/// The commands that say these are not built yet (`explain_examples` has the same list, and fails when they are).
 const NOT_YET: &[&str] = &["PB515", "PB516", "PB517"];
 
 /// The codes of drawings and projects with their examples. Those of G-code have programs in pathbuild-gcode's tests.

@@ -51,11 +51,11 @@ fn a_choice_needs_one_and_a_sum_needs_all() {
 }
 
 fn is_allowed(expression: &str) -> bool {
-    let all = expression.split(" AND ").map(|part| part.trim().trim_matches(['(', ')']));
+    let mut all = expression.split(" AND ").map(|part| part.trim().trim_matches(['(', ')']));
     let one = |part: &str| {
         part.split(" OR ")
             .flat_map(|part| part.split('/'))
             .any(|name| ALLOWED.contains(&name.trim().trim_matches(['(', ')'])))
     };
-    all.fold(true, |so_far, part| so_far && one(part))
+    all.all(one)
 }

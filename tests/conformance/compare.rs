@@ -91,7 +91,7 @@ fn recorded_files(expected: &Path) -> BTreeSet<String> {
 
 fn odd_end(output: &Output) -> Option<String> {
     let is_panic = String::from_utf8_lossy(&output.stderr).contains("panicked at");
-    let is_odd = !output.status.code().is_some_and(|status| status <= 2);
+    let is_odd = output.status.code().is_none_or(|status| status > 2);
     (is_panic || is_odd).then(|| format!("a panic, or an odd end: {}", output.status))
 }
 

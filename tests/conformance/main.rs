@@ -1,4 +1,4 @@
-//! Recorded runs of PathDxf2GCode and PathGCodeAdjustZ, compared move for move: what pathbuild must do with the same drawings.
+//! Recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, compared move for move: what pathbuild must do with the same drawings.
 //! fixtures/conformance/README.md says what is recorded and what counts as equal.
 #![allow(
     clippy::unwrap_used,
@@ -57,6 +57,7 @@ fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
 }
 
 /// Says how many runs are equal. Not with println!, which the test harness keeps to itself where all is well.
+#[allow(clippy::explicit_write, reason = "likewise eprintln!")]
 fn say(what: &str, differences: &[&Vec<String>]) {
     let equal = differences.iter().filter(|differences| differences.is_empty()).count();
     writeln!(std::io::stderr(), "{what}: {equal} of {} runs equal", differences.len()).unwrap();

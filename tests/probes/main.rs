@@ -1,5 +1,9 @@
 //! Z-probes from the drawing to the adjusted program. (spec/70-z-probes.md)
-#![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
 
 mod machine;
 
@@ -76,7 +80,6 @@ fn measure(place: &Place, off: impl Fn(f64, f64) -> f64) {
     write(place, "a_Z.txt", &values);
 }
 
-#[allow(clippy::disallowed_methods, reason = "a person does that")]
 fn write(place: &Place, name: &str, text: &str) {
     std::fs::write(place.path().join(name), text).unwrap();
 }
@@ -114,6 +117,7 @@ fn largest_error(place: &Place, off: impl Fn(f64, f64) -> f64) -> (f64, f64) {
         let total: f64 = pieces.iter().map(Motion::length).sum();
         let mut before = 0.0;
         for piece in pieces {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
             let samples = (piece.length() / 0.5).ceil().max(1.0) as u32;
             // Up and down moves, and those that follow them, are corrected at their end only.
             let first = if whole.is_milling() { 0 } else { samples };
@@ -280,7 +284,6 @@ fn every_name_of_a_program_is_understood() {
     assert!(place.run("adjust a --max-correction 0.2").stderr.contains("unchanged"));
 }
 
-#[allow(clippy::disallowed_methods, reason = "a test removes its own file")]
 fn remove(place: &Place, name: &str) {
     std::fs::remove_file(place.path().join(name)).unwrap();
 }
@@ -347,9 +350,10 @@ fn the_largest_correction_must_be_said() {
 fn a_senders_log_replaces_typing() {
     let place = plate("z-model = \"tin\"\n");
     succeed(&emit(&place, "a.dxf"));
-    let results: String = (0..9)
+    let results = (0..9)
         .map(|probe| format!("ok\n[PRB:0.000,0.000,{:.3}:1]\n", 5.1 + 0.01 * f64::from(probe)))
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let place = place.file("sender.log", &results).file("failed.log", results.replacen(":1]", ":0]", 1));
     let typed = (0..9).fold(place.read("a_Z.txt"), |text, probe| {
         text.replace(

@@ -1,5 +1,6 @@
 //! Runs the program as a shell would: in a directory of its own, with an environment that holds nothing.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses a part of it")]
+#![allow(clippy::explicit_write, reason = "the test harness would keep eprintln! to itself")]
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,

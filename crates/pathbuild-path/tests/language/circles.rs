@@ -26,7 +26,7 @@ fn special_circles_are_told_apart_by_their_diameters() {
     }
 }
 
-/// near() on the radius: 1e-6 of the radius and 0.001 mm.
+/// `near()` on the radius: 1e-6 of the radius and 0.001 mm.
 #[test]
 fn diameters_compare_approximately() {
     let edges = [

@@ -24,11 +24,10 @@ const PATH: [(char, &str); 13] = [
 fn other(letter: char) -> &'static str {
     match letter {
         'T' => "4.5",
-        'O' => "2.5",
+        'O' | 'D' => "2.5",
         'M' => "y",
         'F' => "100",
         'B' | 'I' => "0.5",
-        'D' => "2.5",
         'C' => "2",
         'W' => "4.2",
         'P' => "0.9",
