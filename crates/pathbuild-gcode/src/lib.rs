@@ -3,8 +3,10 @@
 
 pub mod adjust;
 pub mod dialect;
+pub mod estimate;
 pub mod interpret;
 pub mod native;
 pub mod post;
 pub mod read;
+pub mod summary;
 pub mod verify;

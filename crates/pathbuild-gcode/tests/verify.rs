@@ -263,6 +263,22 @@ fn feeds_are_those_that_the_axes_can_do() {
 }
 
 #[test]
+fn a_feed_is_at_most_the_machines() {
+    let machine = Machine { feed: Some(1000.0), ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1000\nX20 F1001\nX30\nX40 F999"), ["4 feed-too-high"]);
+}
+
+#[test]
+fn an_axis_without_ends_goes_anywhere() {
+    let free = (f64::NEG_INFINITY, f64::INFINITY);
+    let machine = Machine { travel: Some(Travel::Placed([free, (0.0, 10.0), free])), ..Machine::default() };
+    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    assert_eq!(wrong("G0 Z1\nG0 X999999 Y10"), FINE);
+    assert_eq!(wrong("G0 Z1\nG0 X999999 Y10.001"), ["3 outside-machine"]);
+}
+
+#[test]
 fn speeds_are_the_spindles() {
     let machine = Machine { spindle: Some((1000.0, 24000.0)), ..Machine::default() };
     let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });

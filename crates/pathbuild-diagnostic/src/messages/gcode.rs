@@ -543,6 +543,13 @@ messages! {
         help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder die Geschwindigkeit unter [machine]",
     }
+    /// F as such.
+    FEED_ABOVE_MOST: FeedTooHigh {
+        en: "a feed of {feed} mm/min; the machine's largest is {most}",
+        de: "ein Vorschub von {feed} mm/min; der größte der Maschine ist {most}",
+        help_en: "the control slows down, and times are longer; change F, or `max-feed` under [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder `max-feed` unter [machine]",
+    }
     /// Placed box.
     OUTSIDE_MACHINE: OutsideMachine {
         en: "{axis} {value} is outside the machine's {least} to {most}",

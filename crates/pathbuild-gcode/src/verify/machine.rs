@@ -10,6 +10,8 @@ use crate::read::Problems;
 pub struct Machine {
     /// How far its axes go.
     pub travel: Option<Travel>,
+    /// The fastest that it cuts, in mm/min.
+    pub feed: Option<f64>,
     /// The fastest that each axis cuts, in mm/min.
     pub rates: [Option<f64>; 3],
     /// The spindle's slowest and fastest speed, in turns a minute.
@@ -19,7 +21,8 @@ pub struct Machine {
 /// How far the axes of a machine go, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Travel {
-    /// From the lowest to the highest coordinate of X, Y, Z in the program's coordinates: the part is clamped where they say.
+    /// From the lowest to the highest coordinate of X, Y, Z in the program's coordinates: the part is clamped where they say. An axis that
+    /// goes as far as it likes ends at infinity.
     Placed([(f64, f64); 3]),
     /// So far in X, Y, Z, wherever the part is clamped.
     Size([f64; 3]),
@@ -100,6 +103,11 @@ impl Reach {
 /// A feed is too high where the part of it along an axis is; it is said once until the feed changes.
 fn check_feed(line: u32, it: &Move, machine: &Machine, last: &mut Option<f64>, problems: &mut Problems) {
     let Some(feed) = it.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
+    if let Some(most) = machine.feed.filter(|most| feed > *most) {
+        *last = Some(feed);
+        return problems
+            .add_at_line(&say::FEED_ABOVE_MOST, line, |d| d.with("feed", feed).with("most", most));
+    }
     let shares = it.axis_shares();
     for (axis, share) in shares.into_iter().enumerate() {
         if let Some(most) = machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {

@@ -1,0 +1,77 @@
+//! A move as a planner sees it.
+
+use super::Kinematics;
+use crate::interpret::{Move, Pace, Path};
+
+/// A way that is gone without a stop, in mm and seconds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    pub(super) length: f64,
+    /// The speed that is wanted, in mm/s.
+    pub(super) speed: f64,
+    /// The most speed that is gained, in mm/s².
+    pub(super) acceleration: f64,
+    /// The direction at its beginning and at its end, of length 1.
+    pub(super) begin: [f64; 3],
+    pub(super) end: [f64; 3],
+    /// The tool stands still behind it: nobody knows where a probe stops.
+    pub(super) stops: bool,
+}
+
+impl Way {
+    /// The way of a move; `None` if it leads nowhere.
+    pub(super) fn of(it: &Move, kinematics: &Kinematics) -> Option<Self> {
+        let length = it.length();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let shares = it.axis_shares();
+        let limit = |limits: &[f64; 3]| {
+            let along = limits.iter().zip(shares).filter(|(_, share)| *share > 0.0);
+            along.map(|(limit, share)| limit / share).fold(f64::INFINITY, f64::min)
+        };
+        let acceleration = limit(&kinematics.accelerations);
+        let fastest = limit(&kinematics.rates) / 60.0;
+        let wanted = it.pace.feed().filter(|feed| *feed > 0.0).map_or(fastest, |feed| feed / 60.0);
+        let (begin, end) = directions(it, length);
+        Some(Self {
+            length,
+            speed: wanted.min(fastest).min(turning_speed(it, kinematics)),
+            acceleration,
+            begin,
+            end,
+            stops: matches!(it.pace, Pace::Probe { .. }),
+        })
+    }
+}
+
+/// The speed in mm/s at which the axes of an arc's plane hold the tool on it.
+fn turning_speed(it: &Move, kinematics: &Kinematics) -> f64 {
+    let Path::Arc(arc) = it.path else { return f64::INFINITY };
+    let weakest =
+        arc.plane.axes().map(|axis| kinematics.accelerations[axis]).into_iter().fold(f64::INFINITY, f64::min);
+    libm::sqrt(weakest * arc.radius(&it.from).max(arc.radius(&it.to)))
+}
+
+fn directions(it: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
+    let known = it.from.known.and(it.to.known);
+    let way: [f64; 3] = std::array::from_fn(|axis| {
+        let is_known = known.has(crate::interpret::Axes::of(axis));
+        if is_known { it.to.at[axis] - it.from.at[axis] } else { 0.0 }
+    });
+    let Path::Arc(arc) = it.path else {
+        let direction = way.map(|axis| axis / length);
+        return (direction, direction);
+    };
+    let across = way[arc.plane.third()] / length;
+    let along = libm::sqrt((1.0 - across * across).max(0.0));
+    let tangent = |at: &[f64; 3]| {
+        let mut direction = [0.0; 3];
+        for (axis, part) in arc.plane.axes().into_iter().zip(arc.tangent(at)) {
+            direction[axis] = part * along;
+        }
+        direction[arc.plane.third()] = across;
+        direction
+    };
+    (tangent(&it.from.at), tangent(&it.to.at))
+}

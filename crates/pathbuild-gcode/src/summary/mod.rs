@@ -1,0 +1,144 @@
+//! What a program is, in numbers: moves, lengths, times, the box it needs, tools, feeds. (spec/90-gcode-import.md, `import`)
+
+mod tally;
+
+use pathbuild_diagnostic::{Code, Diagnostic};
+
+use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning};
+
+pub use tally::{Kind, Tally};
+
+/// A program in numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// All of it.
+    pub total: Tally,
+    /// The same for each tool, in order of first use; of XpertMILL, for each layer.
+    pub tools: Vec<Used>,
+    /// Lowest and highest X, Y, Z of all moves, in mm; `None` for an axis that never moves to a known place.
+    pub extent: Extent,
+    /// The same of those that cut.
+    pub cut: Extent,
+    /// Seconds of G4.
+    pub dwell: f64,
+    /// How often it waits for a person.
+    pub stops: u64,
+    /// How often the tool is changed.
+    pub tool_changes: u64,
+}
+
+/// Lowest and highest coordinate of each axis, in mm.
+pub type Extent = [Option<(f64, f64)>; 3];
+
+/// What a tool does.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Used {
+    /// Its number; `None` before the program names one.
+    pub tool: Option<u32>,
+    /// Its moves.
+    pub tally: Tally,
+    /// The spindle's speeds while it cuts, in turns a minute, in order of first use.
+    pub speeds: Vec<f64>,
+    /// Its feeds in mm/min, in order of first use.
+    pub feeds: Vec<f64>,
+}
+
+impl Summary {
+    /// Adds up steps. `layers`: tools are XpertMILL's layers, of which the first is there from the beginning, and S belongs to each.
+    pub fn of(steps: &[Step], layers: bool) -> Self {
+        let mut collector = Collector {
+            summary: Self::default(),
+            has_changes: steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_))),
+            layers,
+            tool: layers.then_some(1),
+            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+        };
+        for step in steps {
+            collector.step(step);
+        }
+        collector.summary
+    }
+}
+
+struct Collector {
+    summary: Summary,
+    /// M6 changes tools; in programs without it, T does.
+    has_changes: bool,
+    layers: bool,
+    tool: Option<u32>,
+    spindle: Spindle,
+}
+
+impl Collector {
+    fn step(&mut self, step: &Step) {
+        match &step.action {
+            Action::Move(it) if !it.is_nothing() => self.go(it),
+            Action::Dwell(seconds) => self.summary.dwell += seconds,
+            Action::SelectTool(tool) if !self.has_changes => self.tool = Some(*tool),
+            Action::ChangeTool(tool) => {
+                self.tool = Some(*tool);
+                self.summary.tool_changes += 1;
+                if self.layers {
+                    self.spindle.speed = 0.0;
+                }
+            }
+            Action::Spindle(spindle) => self.spindle = *spindle,
+            Action::Stop { .. } => self.summary.stops += 1,
+            _ => {}
+        }
+    }
+
+    fn go(&mut self, it: &Move) {
+        self.summary.total.add(it);
+        if it.named.is_none() {
+            widen(&mut self.summary.extent, it);
+        }
+        if matches!(it.pace, Pace::Feed(_)) {
+            widen(&mut self.summary.cut, it);
+        }
+        let speed = self.spindle.speed;
+        let used = self.used();
+        used.tally.add(it);
+        if let Pace::Feed(feed) = it.pace {
+            note(&mut used.feeds, feed);
+            note(&mut used.speeds, speed);
+        }
+    }
+
+    fn used(&mut self) -> &mut Used {
+        let tools = &mut self.summary.tools;
+        let index = tools.iter().position(|used| used.tool == self.tool).unwrap_or_else(|| {
+            tools.push(Used { tool: self.tool, ..Used::default() });
+            tools.len() - 1
+        });
+        &mut tools[index]
+    }
+}
+
+/// Adds a value that is new and says something.
+fn note(values: &mut Vec<f64>, value: f64) {
+    if value > 0.0 && !values.contains(&value) {
+        values.push(value);
+    }
+}
+
+fn widen(extent: &mut Extent, it: &Move) {
+    for (known, more) in extent.iter_mut().zip(it.extent()) {
+        *known = match (*known, more) {
+            (Some((low, high)), Some((least, most))) => Some((low.min(least), high.max(most))),
+            (known, more) => known.or(more),
+        };
+    }
+}
+
+/// Whether a diagnostic says that something was taken for granted that the program does not say.
+pub fn is_guess(diagnostic: &Diagnostic) -> bool {
+    matches!(
+        diagnostic.code(),
+        Code::MachineValue
+            | Code::UnknownOffset
+            | Code::UnitsNotStated
+            | Code::ModesNotStated
+            | Code::MotionNotStated
+    )
+}
