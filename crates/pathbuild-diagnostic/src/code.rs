@@ -168,6 +168,8 @@ codes! {
     765 NothingToPost "nothing-to-post" Error "PB765: a program that a post cannot write: empty, or with numbers that are none";
     766 UnknownPost "unknown-post" Error "PB766: no post-processor of that name";
     767 PostDiffers "post-differs" Error "PB767: what a post wrote, read back, does not move as the program does";
+    768 PostBuildFailed "post-build-failed" Error "PB768: the command that a post names does not run, or fails";
+    769 UncorrectedHeights "uncorrected-heights" Error "PB769: a program whose heights are still to be corrected would be written through a post";
 }
 
 impl Code {

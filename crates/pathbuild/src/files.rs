@@ -6,6 +6,7 @@ use std::fs;
 use std::io::{self, Write};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
@@ -25,7 +26,7 @@ pub(crate) fn read(file: &Utf8Path) -> io::Result<String> {
 /// A diagnostic that says why it cannot be written.
 pub(crate) fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     let written = fs::File::create_new(file).and_then(|mut new| new.write_all(text.as_bytes()));
-    written.map_err(|reason| cannot_write(file, &reason))
+    written.map_err(|reason| Box::new(cannot_write(file, &reason.to_string())))
 }
 
 /// Writes a file whole or not at all: beside it first, then under its name. What is no file, such as a device, is written to as it is.
@@ -35,18 +36,32 @@ pub(crate) fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>>
 pub(crate) fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     let beside = Utf8PathBuf::from(format!("{file}.{}.tmp", std::process::id()));
     if file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir()) {
-        return fs::write(file, text).map_err(|reason| cannot_write(file, &reason));
+        return fs::write(file, text).map_err(|reason| Box::new(cannot_write(file, &reason.to_string())));
     }
     let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, file));
     written.map_err(|reason| {
         // It may not even have been made.
         _ = fs::remove_file(&beside);
-        cannot_write(file, &reason)
+        Box::new(cannot_write(file, &reason.to_string()))
     })
 }
 
-fn cannot_write(file: &Utf8Path, reason: &io::Error) -> Box<Diagnostic> {
-    let diagnostic = Diagnostic::new(&files::CANNOT_WRITE).in_file(file);
-    let diagnostic = diagnostic.with("name", file.file_name().unwrap_or_default());
-    Box::new(diagnostic.with("reason", reason.to_string()))
+/// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.
+pub(crate) fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
+    let diagnostic = match error {
+        ReadError::Missing => Diagnostic::new(&files::MISSING),
+        ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
+        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", &**reason),
+        ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
+            .with("what", format!("the file's size of {size} bytes"))
+            .with("limit", format!("{limit} bytes"))
+            .with("key", "file-size"),
+    };
+    diagnostic.in_file(file)
+}
+
+/// PB004.
+pub(crate) fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
+    let name = file.file_name().unwrap_or_default();
+    Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
 }

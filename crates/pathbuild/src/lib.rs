@@ -7,6 +7,7 @@ pub mod config;
 mod context;
 mod exit;
 mod files;
+pub mod posting;
 pub mod printer;
 pub mod progress;
 pub mod render;

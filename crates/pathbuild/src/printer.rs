@@ -125,6 +125,15 @@ impl Printer {
         self.write(Stream::Stdout, text);
     }
 
+    /// Prints a result that need not be text, as it is, to stdout.
+    pub fn result_bytes(&self, bytes: &[u8]) {
+        let failed = &mut self.failures.borrow_mut().stdout;
+        if failed.is_none() {
+            let mut stdout = io::stdout().lock();
+            *failed = stdout.write_all(bytes).and_then(|()| stdout.flush()).err();
+        }
+    }
+
     /// Prints rendered diagnostics, as they are.
     pub fn diagnostics(&self, stream: Stream, text: impl Display) {
         if stream == Stream::Stdout || self.verbosity >= Verbosity::Quiet {

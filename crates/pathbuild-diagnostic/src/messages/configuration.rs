@@ -142,6 +142,7 @@ macro_rules! expectations {
 }
 
 expectations! {
+    NUMBER: "a number", "eine Zahl";
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
@@ -154,5 +155,6 @@ expectations! {
     SWITCH: "true or false", "true oder false";
     TABLE: "a table", "eine Tabelle";
     LIST_OF_TABLES: "a list of tables", "eine Liste von Tabellen";
+    AXES: "a list of three numbers greater than 0", "eine Liste von drei Zahlen größer als 0";
     EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
 }

@@ -1,4 +1,4 @@
-//! Post-processors: their definitions, and what goes wrong when a program is written through one. (PB750 to PB766)
+//! Post-processors: their definitions, and what goes wrong when a program is written through one. (PB750 to PB769)
 
 messages! {
     /// Bytes that are no text.
@@ -144,6 +144,13 @@ messages! {
         help_en: "add it as [tool.NAME] to pathbuild.toml",
         help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
     }
+    /// A program's T that the table does not have.
+    TOOL_NUMBER_UNKNOWN: UnknownTool {
+        en: "the tool table has no number {index}: the diameter of T{index} is not known, and 0 is written where the post asks for it",
+        de: "die Werkzeugtabelle hat keine Nummer {index}: der Durchmesser von T{index} ist nicht bekannt, und wo der Postprozessor ihn verlangt, steht 0",
+        help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
+        help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
+    }
     /// Nothing to write.
     JOB_EMPTY: NothingToPost {
         en: "the program has no operations",
@@ -175,8 +182,8 @@ messages! {
     }
     /// A note: nothing checked the program.
     POST_WITHOUT_DIALECT: DoubtfulPost {
-        en: "the post names no dialect, so its output was not checked; --dialect names one",
-        de: "der Postprozessor nennt keinen Dialekt, die Ausgabe wurde nicht geprüft; --dialect nennt einen",
+        en: "the post names no dialect, so its output was not checked; --dialect (of `post`: --target) names one",
+        de: "der Postprozessor nennt keinen Dialekt, die Ausgabe wurde nicht geprüft; --dialect (bei `post`: --target) nennt einen",
     }
     /// A note: the tool table's coolant comes to nothing.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
@@ -413,5 +420,26 @@ messages! {
     JOB_MOVE: NothingToPost {
         en: "a move of this kind (an arc of several turns, a probing other than G38.2) cannot be written through a post",
         de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, ein anderes Antasten als G38.2) kann kein Postprozessor schreiben",
+    }
+    /// The command after writing failed.
+    POST_BUILD_FAILED: PostBuildFailed {
+        en: "the post's command \"{command}\" failed: {reason}",
+        de: "der Befehl »{command}« des Postprozessors ist fehlgeschlagen: {reason}",
+        help_en: "the program was written; only the command failed",
+        help_de: "das Programm wurde geschrieben, nur der Befehl ist fehlgeschlagen",
+    }
+    /// A path with probes, emitted through a post.
+    POST_WITH_PROBES: UncorrectedHeights {
+        en: "the path has Z-probes: written through a post, its heights would stay uncorrected",
+        de: "der Pfad hat Z-Proben: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
+        help_en: "emit it without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
+        help_de: "ohne Postprozessor ausgeben, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
+    }
+    /// A program with formulas that were not worked out.
+    POST_UNADJUSTED: UncorrectedHeights {
+        en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
+        de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
+        help_en: "run `pathbuild adjust` first, and take the _Milling.gcode that it writes",
+        help_de: "zuerst `pathbuild adjust` ausführen und die _Milling.gcode nehmen, die es schreibt",
     }
 }

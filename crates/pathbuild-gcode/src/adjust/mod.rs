@@ -55,6 +55,12 @@ pub struct Adjusted {
     pub warnings: Vec<Diagnostic>,
 }
 
+/// The first line, from 1, with a formula that has not been worked out: `Z1.000(=...)`, not `(==...)`.
+pub fn first_open_formula(program: &[u8]) -> Option<u32> {
+    let is_open = |line: &[u8]| scan::spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
+    (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
+}
+
 /// Puts measured heights into a program.
 ///
 /// # Errors

@@ -3,11 +3,13 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
+use super::built_in::Language;
 use super::job::Job;
 use super::options::PostOptions;
 use super::suggest::nearest;
 use super::target::{self, Target};
 use super::{cad6, cambam, read_back};
+use crate::dialect::Dialect;
 use crate::verify::{Ends, Tolerance};
 
 /// A definition that was read, ready to write programs.
@@ -88,6 +90,19 @@ impl Post {
             Engine::CamBam(definition) => definition.extension(),
             Engine::Cad6(definition) => definition.extension(),
         }
+    }
+
+    /// What it is written in.
+    pub fn language(&self) -> Language {
+        match &self.engine {
+            Engine::CamBam(_) => Language::CamBam,
+            Engine::Cad6(_) => Language::Cad6,
+        }
+    }
+
+    /// The dialect in which its output is read back, if it names its own or `named` is one.
+    pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
+        Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
     /// Writes a program.

@@ -62,6 +62,7 @@ pub fn quote(diagnostics: &mut [Diagnostic], file: &[u8]) {
         if let Some((_, line)) = lines.peek().filter(|(number, _)| *number == wanted) {
             let line = line.trim_ascii_end();
             diagnostic.text = Some(fault(line, Span::new(0, line.len())));
+            diagnostic.place.column.get_or_insert(1);
         }
     }
 }

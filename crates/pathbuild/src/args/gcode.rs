@@ -1,29 +1,68 @@
 use camino::Utf8PathBuf;
-use clap::{Args, Subcommand};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Subcommand, ValueEnum};
+use pathbuild_gcode::dialect::Dialect;
+
+/// How programs are read.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ReadingArgs {
+    /// native, rs274, linuxcnc, grbl or xpertmill; else guessed
+    #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
+    pub dialect: Option<Dialect>,
+    /// `XpertMILL`: what G70 and G71 mean, inches and millimetres (din) or the other way round (table)
+    #[arg(long, value_name = "din|table", value_enum, hide_possible_values = true)]
+    pub unit_codes: Option<UnitCodesArg>,
+    /// `XpertMILL`: I and J are the centre itself, not its distance from the arc's beginning
+    #[arg(long)]
+    pub absolute_arc_centres: bool,
+    /// `XpertMILL`: pass over F; the layers' feeds hold
+    #[arg(long)]
+    pub ignore_feed: bool,
+}
+
+/// What G70 and G71 mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitCodesArg {
+    /// G70 inches, G71 millimetres.
+    Din,
+    /// The other way round.
+    Table,
+}
+
+fn dialects() -> impl TypedValueParser<Value = Dialect> {
+    let names = Dialect::ALL.iter().map(|dialect| dialect.name());
+    PossibleValuesParser::new(names).try_map(|name| name.parse::<Dialect>().map_err(|()| "unknown dialect"))
+}
 
 /// `pathbuild import`
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
-    /// G-code program
+    /// G-code programs
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
-    /// rs274, linuxcnc, grbl, xpertmill or native; else guessed
-    #[arg(long, value_name = "DIALECT")]
-    pub dialect: Option<String>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
 }
 
 /// `pathbuild verify`
 #[derive(Clone, Debug, Args)]
 pub struct VerifyArgs {
-    /// G-code program
+    /// G-code programs
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
-    /// rs274, linuxcnc, grbl, xpertmill or native; else guessed
-    #[arg(long, value_name = "DIALECT")]
-    pub dialect: Option<String>,
-    /// Compare with what this path's drawing says
+    /// Compare with what this path's drawing says, which also tells cutter and material
     #[arg(long, value_name = "PATH")]
     pub against: Option<String>,
+    /// Diameter of the cutter; else by T and `[tool.NAME]`
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub cutter: Option<String>,
+    /// Height of the material's upper face; of native programs it is known
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub surface: Option<String>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
 }
 
 /// `pathbuild post`
@@ -39,12 +78,21 @@ pub struct PostArgs {
     /// A built-in name or a file
     #[arg(long, value_name = "POST", required = true)]
     pub post: Option<String>,
-    /// Dialect of the program; else guessed
-    #[arg(long, value_name = "DIALECT")]
-    pub dialect: Option<String>,
     /// File to write; else standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
+    /// Dialect in which the post's output is checked and read back, where the post names none
+    #[arg(long, value_name = "DIALECT")]
+    pub target: Option<String>,
+    /// Date that the post may write
+    #[arg(long, value_name = "DATE")]
+    pub date: Option<String>,
+    /// Run the command that the post names
+    #[arg(long, requires = "output")]
+    pub run_post_build: bool,
+    /// How the program is read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
 }
 
 /// What can be asked about post-processors.

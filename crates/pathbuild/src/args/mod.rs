@@ -18,7 +18,7 @@ pub use check::CheckArgs;
 pub use common::CommonArgs;
 pub use emit::{AdjustArgs, EmitArgs};
 pub use format::{Format, ReportFile};
-pub use gcode::{ImportArgs, PostArgs, PostCommand, VerifyArgs};
+pub use gcode::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
 pub use graph::GraphArgs;
 pub use inputs::{Input, Inputs};
 pub use misc::{
@@ -64,13 +64,10 @@ pub enum Command {
     #[command(hide = true)]
     Diff(DiffArgs),
     /// Read a G-code program and print what it is
-    #[command(hide = true)]
     Import(ImportArgs),
     /// Check a G-code program
-    #[command(hide = true)]
     Verify(VerifyArgs),
     /// Write a G-code program for another machine
-    #[command(hide = true)]
     Post(PostArgs),
     /// Show what embeds what, with bindings
     Graph(GraphArgs),
@@ -120,6 +117,9 @@ impl Command {
             | Self::Why(args) => args.inputs.clone(),
             Self::QProject(args) => Inputs::places([&args.drawing]),
             Self::Adjust(args) => Inputs::places(&args.files),
+            Self::Import(args) => Inputs::places(&args.files),
+            Self::Verify(args) => Inputs::places(&args.files),
+            Self::Post(args) => Inputs::places(&args.file),
             Self::Config(ConfigArgs { command: ConfigCommand::Show { inputs, .. } }) => inputs.clone(),
             _ => Inputs::default(),
         }

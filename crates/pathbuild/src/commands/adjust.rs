@@ -2,9 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{OsSystem, ReadError, Written};
+use pathbuild_db::system::{OsSystem, Written};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::files;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use regex::Regex;
 
@@ -12,6 +11,7 @@ use crate::args::AdjustArgs;
 use crate::config::{positive, regex};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::files::{cannot_write, unreadable};
 use crate::report::Findings;
 
 /// Runs the command. Of several programs each is written unless something is wrong with it.
@@ -164,22 +164,4 @@ impl<'a> Adjustment<'a> {
         self.context.show(&findings);
         if self.has_failed || findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }
-}
-
-fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
-    let diagnostic = match error {
-        ReadError::Missing => Diagnostic::new(&files::MISSING),
-        ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
-        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", &**reason),
-        ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
-            .with("what", format!("the file's size of {size} bytes"))
-            .with("limit", format!("{limit} bytes"))
-            .with("key", "file-size"),
-    };
-    diagnostic.in_file(file)
-}
-
-fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
-    let name = file.file_name().unwrap_or_default();
-    Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
 }

@@ -8,10 +8,14 @@ pub mod config;
 pub mod emit;
 pub mod explain;
 pub mod graph;
+pub mod import;
 pub mod init;
 pub mod locate;
 pub mod man;
+pub mod post;
+mod program;
 pub mod texts;
+pub mod verify;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
@@ -30,6 +34,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Check(args) => check::run(context, args),
         Command::Emit(args) => emit::run(context, args),
         Command::Adjust(args) => adjust::run(context, args),
+        Command::Import(args) => import::run(context, args),
+        Command::Verify(args) => verify::run(context, args),
+        Command::Post(args) => post::run(context, args),
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
         Command::Man => man::run(context),

@@ -1,6 +1,6 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, Word};
 
 use super::kinds::number::number_from_text;
 use super::kinds::pattern::{regex_fault, split_restriction};
@@ -39,12 +39,21 @@ pub(super) fn read(arguments: &CommonArgs, working_directory: &Utf8Path) -> (Opt
 /// # Errors
 /// A diagnostic that underlines it.
 pub fn positive(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
-    let fault = || {
-        fault(&messages::INVALID_VALUE, name, text)
-            .with("expected", Value::Word(&messages::POSITIVE))
-            .with("found", text)
-    };
-    number_from_text(text).filter(|number| *number > 0.0).ok_or_else(|| Box::new(fault()))
+    let number = number_from_text(text).filter(|number| *number > 0.0);
+    number.ok_or_else(|| Box::new(invalid(name, text, &messages::POSITIVE)))
+}
+
+/// A number, with decimal point or comma, of an option.
+///
+/// # Errors
+/// A diagnostic that underlines it.
+pub fn number(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
+    number_from_text(text).ok_or_else(|| Box::new(invalid(name, text, &messages::NUMBER)))
+}
+
+fn invalid(name: &str, text: &str, expected: &'static Word) -> Diagnostic {
+    let fault = fault(&messages::INVALID_VALUE, name, text);
+    fault.with("expected", Value::Word(expected)).with("found", text)
 }
 
 /// A regular expression of an option.

@@ -26,7 +26,7 @@ mod source;
 mod template;
 pub mod types;
 
-pub use arguments::{positive, regex};
+pub use arguments::{number, positive, regex};
 pub use load::load;
 pub use options::Options;
 pub use origin::{Origin, Sourced};

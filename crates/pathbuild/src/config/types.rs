@@ -228,10 +228,19 @@ pub struct Tool {
     pub number: Option<u32>,
     /// Revolutions a minute.
     pub spindle: Option<f64>,
-    /// Which way it turns.
-    pub direction: Direction,
-    /// What cools it.
-    pub coolant: Coolant,
+    /// Which way it turns; `None`: clockwise, or whoever stands at the machine sees to it where there is no speed either.
+    pub direction: Option<Direction>,
+    /// What cools it; `None`: whoever stands at the machine sees to it.
+    pub coolant: Option<Coolant>,
+}
+
+/// A text for post-processors, by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Macro {
+    /// What it is called in definitions.
+    pub name: Box<str>,
+    /// What stands for it.
+    pub value: Box<str>,
 }
 
 /// How far an axis goes, in mm of the emitted program's coordinates.

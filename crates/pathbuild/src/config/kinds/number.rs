@@ -96,6 +96,16 @@ pub(in crate::config) const EXTENT: Kind<Option<Extent>> = Kind {
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
 };
 
+/// One number greater than 0 for each of X, Y and Z.
+pub(in crate::config) const AXES: Kind<Option<[f64; 3]>> = Kind {
+    read: |value, reader| match axes(value) {
+        Some(axes) => Some(Some(axes)),
+        None => reader.expected(Value::Word(&messages::AXES), value),
+    },
+    show: |axes| axes.map(|[x, y, z]| format!("[{x}, {y}, {z}]")),
+    schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
+};
+
 /// True or false.
 pub(in crate::config) const SWITCH: Kind<bool> =
     Kind { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
@@ -133,6 +143,13 @@ fn extent(value: &Spanned<DeValue<'_>>) -> Option<Extent> {
         (2, Some(from), Some(to)) if from < to => Some(Extent { from, to }),
         _ => None,
     }
+}
+
+fn axes(value: &Spanned<DeValue<'_>>) -> Option<[f64; 3]> {
+    let array = value.get_ref().as_array()?;
+    let numbers: Option<Vec<f64>> =
+        array.iter().map(|item| number(item).filter(|number| *number > 0.0)).collect();
+    numbers?.try_into().ok()
 }
 
 const SIZE_PATTERN: &str = "^[0-9]+ ?(B|kB|KiB|MB|MiB|GB|GiB)$";

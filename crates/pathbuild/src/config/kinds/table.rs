@@ -12,7 +12,7 @@ use super::text::{choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::kind::Kind;
 use crate::config::nearest::nearest;
 use crate::config::reader::{Reader, Table};
-use crate::config::types::{Coolant, Direction, Level, LineType, LineTypeAlias, SeveritiesIn, Tool};
+use crate::config::types::{Coolant, Direction, Level, LineType, LineTypeAlias, Macro, SeveritiesIn, Tool};
 
 /// Names of line types, each with what it stands for.
 pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
@@ -97,6 +97,16 @@ pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
     },
 };
 
+/// Macros of posts with their texts.
+pub(in crate::config) const MACROS: Kind<Vec<Macro>> = Kind {
+    read: |value, reader| {
+        let entries = entries(value, reader)?;
+        Some(entries.into_iter().filter_map(|entry| post_macro(entry, reader)).collect())
+    },
+    show: |macros| inline(macros.iter().map(|it| (&*it.name, Some(quoted(&it.value))))),
+    schema: || json!({ "type": "object", "additionalProperties": { "type": "string" } }),
+};
+
 type Entry<'v, 't> = (&'v Spanned<DeString<'t>>, &'v Spanned<DeValue<'t>>);
 
 /// The entries of a table, or a report that it is none.
@@ -110,6 +120,11 @@ fn entries<'v, 't>(value: &'v Spanned<DeValue<'t>>, reader: &mut Reader<'_>) -> 
 fn alias((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<LineTypeAlias> {
     let means = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
     Some(LineTypeAlias { name: (**name.get_ref()).into(), means })
+}
+
+fn post_macro((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<Macro> {
+    let text = reader.within(name.get_ref(), |reader| reader.text(value))?;
+    Some(Macro { name: (**name.get_ref()).into(), value: text.into() })
 }
 
 fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Code, Level)> {
@@ -172,9 +187,8 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let paths = table.take("paths", &REGEX).map(|it| it.value);
     let number = table.take("number", &COUNT).and_then(|it| u32::try_from(it.value).ok());
     let spindle = table.take("spindle", &POSITIVE).and_then(|it| it.value);
-    let direction =
-        table.take("direction", &choice::<Direction>()).map_or(Direction::Clockwise, |it| it.value);
-    let coolant = table.take("coolant", &choice::<Coolant>()).map_or(Coolant::Off, |it| it.value);
+    let direction = table.take("direction", &choice::<Direction>()).map(|it| it.value);
+    let coolant = table.take("coolant", &choice::<Coolant>()).map(|it| it.value);
     Some(Tool { name: name.into(), diameter: diameter?, paths, number, spindle, direction, coolant })
 }
 
@@ -185,8 +199,8 @@ fn shown_tool(tool: &Tool) -> Option<String> {
         ("paths", tool.paths.as_deref().map(quoted)),
         ("number", tool.number.map(|number| number.to_string())),
         ("spindle", number(tool.spindle)),
-        ("direction", name_of(tool.direction).map(quoted)),
-        ("coolant", name_of(tool.coolant).map(quoted)),
+        ("direction", tool.direction.and_then(name_of).map(quoted)),
+        ("coolant", tool.coolant.and_then(name_of).map(quoted)),
     ])
 }
 

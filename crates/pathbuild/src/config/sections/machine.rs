@@ -1,7 +1,7 @@
-//! `[machine]`: what the machine can do, for `verify`. (spec/90-gcode-import.md)
+//! `[machine]`: what the machine can do, for `verify` and for times. (spec/90-gcode-import.md)
 
 use crate::config::kind::Key;
-use crate::config::kinds::number::{EXTENT, POSITIVE};
+use crate::config::kinds::number::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
@@ -16,4 +16,14 @@ section! {
     z: Option<Extent> = "z", EXTENT, None, "[0, 60]";
     /// mm/min: largest feed
     max_feed: Option<f64> = "max-feed", POSITIVE, None, "1500";
+    /// mm: how far X, Y and Z go, wherever the part is clamped; x, y and z say more
+    travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]";
+    /// 1/min: the spindle's slowest and fastest speed
+    spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]";
+    /// mm/min: the fastest that X, Y and Z go; with accelerations, times are those of the machine
+    rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]";
+    /// mm/s²: the most that X, Y and Z gain in speed
+    accelerations: Option<[f64; 3]> = "accelerations", AXES, None, "[200, 200, 50]";
+    /// mm: how far a corner could be cut for the speed at which it is taken (GRBL's $11); 0: full stop
+    junction_deviation: f64 = "junction-deviation", NOT_NEGATIVE, 0.01, "0.01";
 }

@@ -3,11 +3,11 @@
 use pathbuild_diagnostic::Code;
 
 use crate::config::kind::Key;
-use crate::config::kinds::table::{LINE_TYPES, SEVERITY, SEVERITY_IN, TOOLS};
+use crate::config::kinds::table::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
-use crate::config::types::{Level, LineTypeAlias, SeveritiesIn, Tool};
+use crate::config::types::{Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
 
 section! {
     /// aliases beyond the built-in ones: name in the drawing = one of the line types that mean something
@@ -20,4 +20,6 @@ section! {
     /// a tool, for post-processors: found by O (and by paths, a pattern of path names)
     tools: Vec<Tool> = "tool", TOOLS, Vec::new(),
         "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"";
+    /// texts for post-processors: a macro {$name}, or ~name~ in control texts; they win over the definition's
+    macros: Vec<Macro> = "macros", MACROS, Vec::new(), "[macros]\noperator = \"anna\"";
 }

@@ -1,0 +1,53 @@
+//! The summary as one JSON object a program. Lengths are mm, feeds mm/min.
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_gcode::summary::{Extent, Tally, Used};
+use serde_json::{Value, json};
+
+use super::facts::Facts;
+
+pub(super) fn json(facts: &Facts<'_>) -> String {
+    let (program, summary) = (facts.program, &facts.summary);
+    let taken =
+        facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
+    let object = json!({
+        "file": program.file.as_str(),
+        "lines": program.lines(),
+        "dialect": program.dialect.name(),
+        "guessed": program.evidence.map(|evidence| json!({ "reason": evidence.reason.en, "line": evidence.line })),
+        "moves": tally(&summary.total),
+        "box": extent(&summary.extent),
+        "cutting_box": extent(&summary.cut),
+        "tools": summary.tools.iter().map(used).collect::<Vec<_>>(),
+        "minutes": facts.minutes(),
+        "rapid": facts.rapid,
+        "machine_seconds": facts.machine_seconds,
+        "dwell_seconds": summary.dwell,
+        "stops": summary.stops,
+        "tool_changes": summary.tool_changes,
+        "taken": taken.collect::<Vec<_>>(),
+    });
+    format!("{object}\n")
+}
+
+fn tally(tally: &Tally) -> Value {
+    let kind =
+        |kind: &pathbuild_gcode::summary::Kind| json!({ "count": kind.moves, "length": kind.total.length });
+    json!({
+        "count": tally.moves(),
+        "arcs": tally.arcs,
+        "rapid": kind(&tally.rapid),
+        "milling": kind(&tally.milling),
+        "drilling": kind(&tally.drilling),
+        "probing": kind(&tally.probing),
+    })
+}
+
+fn extent(extent: &Extent) -> Value {
+    let axis = |ends: &Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
+    json!({ "x": axis(&extent[0]), "y": axis(&extent[1]), "z": axis(&extent[2]) })
+}
+
+fn used(used: &Used) -> Value {
+    json!({ "tool": used.tool, "moves": tally(&used.tally), "feeds": used.feeds, "speeds": used.speeds })
+}

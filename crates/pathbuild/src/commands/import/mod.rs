@@ -1,0 +1,35 @@
+//! `pathbuild import`: what a G-code program is. (spec/90-gcode-import.md)
+
+mod facts;
+mod json;
+mod text;
+
+use crate::args::{Format, ImportArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+use super::program::Program;
+use facts::Facts;
+
+/// Runs the command: prints each program's summary, and what is wrong with it. A program with errors is summed up as far as it was read.
+pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
+    let mut diagnostics = Vec::new();
+    for file in &args.files {
+        match Program::open(context, file, &args.reading) {
+            Ok(program) => {
+                let facts = Facts::new(context, &program);
+                let shown = if context.format == Format::Json {
+                    json::json(&facts)
+                } else {
+                    text::text(context, &facts)
+                };
+                context.printer.result(shown);
+                diagnostics.extend(program.read.problems);
+            }
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}

@@ -1,0 +1,176 @@
+//! The summary for a person.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::Number;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::summary::{Extent, Used};
+
+use super::facts::Facts;
+use crate::context::Context;
+
+/// Some lines, the first with the file's name.
+pub(super) fn text(context: &Context, facts: &Facts<'_>) -> String {
+    let say = Say(context);
+    let mut text = say.title(facts);
+    for (label, line) in say.lines(facts) {
+        _ = writeln!(text, "  {label:<10} {line}");
+    }
+    text
+}
+
+struct Say<'a>(&'a Context);
+
+impl Say<'_> {
+    fn is<'t>(&self, en: &'t str, de: &'t str) -> &'t str {
+        self.0.choose(en, de)
+    }
+
+    fn title(&self, facts: &Facts<'_>) -> String {
+        let program = facts.program;
+        let lines = self.is("lines", "Zeilen");
+        let mut title = format!("{}: {} {lines}, {}", program.file, program.lines(), program.dialect);
+        if let Some(evidence) = program.evidence {
+            let reason = self.is(evidence.reason.en, evidence.reason.de);
+            _ = write!(title, " ({}: {reason}", self.is("guessed", "vermutet"));
+            if let Some(line) = evidence.line {
+                _ = write!(title, ", {} {line}", self.is("line", "Zeile"));
+            }
+            title.push(')');
+        }
+        title.push('\n');
+        title
+    }
+
+    fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {
+        let summary = &facts.summary;
+        let mut lines = vec![
+            (self.is("moves", "Bewegungen"), self.moves(facts)),
+            (self.is("lengths", "Längen"), self.lengths(facts)),
+        ];
+        lines.extend(self.extent(&summary.extent).map(|box_| (self.is("box", "Bereich"), box_)));
+        lines.extend(self.extent(&summary.cut).map(|box_| (self.is("cutting", "Fräsen"), box_)));
+        let is_layer = facts.program.dialect == Dialect::Xpertmill;
+        let tools = if is_layer { self.is("layers", "Ebenen") } else { self.is("tools", "Werkzeuge") };
+        for (index, used) in summary.tools.iter().enumerate() {
+            lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer)));
+        }
+        lines.push((self.is("time", "Zeit"), self.time(facts)));
+        lines.extend(self.waits(facts).map(|waits| (self.is("waits", "Halte"), waits)));
+        for (index, taken) in facts.taken.iter().enumerate() {
+            let label = if index == 0 { self.is("taken", "angenommen") } else { "" };
+            let line = taken.place.line.unwrap_or(0);
+            lines
+                .push((label, format!("{} {line}: {}", self.is("line", "Zeile"), taken.text(self.0.lang()))));
+        }
+        lines
+    }
+
+    fn moves(&self, facts: &Facts<'_>) -> String {
+        let total = &facts.summary.total;
+        let kinds = [
+            (total.rapid.moves, self.is("rapid", "Eilgang")),
+            (total.milling.moves, self.is("milling", "Fräsen")),
+            (total.drilling.moves, self.is("straight down", "senkrecht hinunter")),
+            (total.probing.moves, self.is("probing", "Messen")),
+        ];
+        let kinds =
+            kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}"));
+        let mut moves = format!("{}: {}", total.moves(), kinds.collect::<Vec<_>>().join(", "));
+        if total.arcs > 0 {
+            _ = write!(moves, "; {} {}", total.arcs, self.is("of them arcs", "davon Bögen"));
+        }
+        moves
+    }
+
+    fn lengths(&self, facts: &Facts<'_>) -> String {
+        let total = &facts.summary.total;
+        let cutting = total.cutting().length;
+        let rapid = total.rapid.total.length;
+        let [cuts, sweeps] = [self.is("cutting", "Fräsen"), self.is("rapid", "Eilgang")];
+        format!("{:.1} mm: {cutting:.1} mm {cuts}, {rapid:.1} mm {sweeps}", cutting + rapid)
+    }
+
+    /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis goes anywhere that is known.
+    fn extent(&self, extent: &Extent) -> Option<String> {
+        let to = self.is("to", "bis");
+        let axis = |(axis, ends): (char, &Option<(f64, f64)>)| {
+            ends.map(|(low, high)| format!("{axis} {low:.3} {to} {high:.3}"))
+        };
+        let axes: Vec<String> = ['X', 'Y', 'Z'].into_iter().zip(extent).filter_map(axis).collect();
+        (!axes.is_empty()).then(|| axes.join(", "))
+    }
+
+    fn used(&self, used: &Used, is_layer: bool) -> String {
+        let name = match used.tool {
+            Some(number) if is_layer => number.to_string(),
+            Some(number) => format!("T{number}"),
+            None => self.is("none named", "keins genannt").to_owned(),
+        };
+        let (moves, length) = (used.tally.moves(), used.tally.cutting().length);
+        let mut line = format!("{name}: {moves} {}", self.is("moves", "Bewegungen"));
+        _ = write!(line, ", {length:.1} mm {}", self.is("cutting", "Fräsen"));
+        if !used.feeds.is_empty() {
+            _ = write!(line, ", F {}", numbers(&used.feeds));
+        }
+        if !used.speeds.is_empty() {
+            _ = write!(line, ", S {}", numbers(&used.speeds));
+        }
+        line
+    }
+
+    fn time(&self, facts: &Facts<'_>) -> String {
+        let minutes = facts.minutes();
+        let mut time = match facts.rapid {
+            Some(rapid) => format!(
+                "{} {minutes:.0} min, {} {}",
+                self.is("about", "etwa"),
+                self.is("rapid at", "Eilgang mit"),
+                Number(rapid)
+            ),
+            None => format!(
+                "{} {minutes:.0} min {}",
+                self.is("about", "etwa"),
+                self.is(
+                    "without rapid moves (--rapid is not known)",
+                    "ohne Eilgang (--rapid ist nicht bekannt)"
+                )
+            ),
+        };
+        if let Some(seconds) = facts.machine_seconds {
+            let seconds = seconds.round();
+            let minutes = (seconds / 60.0).floor();
+            let rest = seconds - 60.0 * minutes;
+            let on = self
+                .is("on the machine, with its accelerations", "auf der Maschine, mit ihren Beschleunigungen");
+            _ = write!(time, "; {minutes:.0}:{rest:02.0} min {on}");
+        }
+        time
+    }
+
+    fn waits(&self, facts: &Facts<'_>) -> Option<String> {
+        let summary = &facts.summary;
+        let mut waits = Vec::new();
+        if summary.dwell > 0.0 {
+            waits.push(format!("{:.1} s {}", summary.dwell, self.is("dwelling", "Verweilen")));
+        }
+        if summary.stops > 0 {
+            waits.push(format!("{} {}", summary.stops, self.is("for a person", "auf einen Menschen")));
+        }
+        if summary.tool_changes > 0 {
+            waits.push(format!("{} {}", summary.tool_changes, self.is("tool changes", "Werkzeugwechsel")));
+        }
+        (!waits.is_empty()).then(|| waits.join(", "))
+    }
+}
+
+/// A few numbers; of many the smallest and the largest.
+fn numbers(values: &[f64]) -> String {
+    const MOST: usize = 6;
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    match values.as_slice() {
+        [first, .., last] if values.len() > MOST => format!("{} ... {}", Number(*first), Number(*last)),
+        values => values.iter().map(|value| Number(*value).to_string()).collect::<Vec<_>>().join(", "),
+    }
+}

@@ -1,0 +1,131 @@
+//! `pathbuild post`: a program written for another machine, and the posts that come with pathbuild. (spec/85-post-processors.md)
+
+use camino::Utf8Path;
+use pathbuild_db::System;
+use pathbuild_db::system::{OsSystem, Written};
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Note};
+use pathbuild_gcode::adjust::first_open_formula;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::post::{self, BUILT_IN, Job, Output, Remark, native_remark};
+
+use crate::args::{PostArgs, PostCommand};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::files::cannot_write;
+use crate::posting::{Poster, Wishes, furnish, run_post_build};
+
+use super::program::Program;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
+    match (&args.command, &args.file) {
+        (Some(PostCommand::List), _) => list(context),
+        (Some(PostCommand::Show { name }), _) => show(context, name),
+        (None, Some(file)) => rewrite(context, file, args),
+        (None, None) => context.usage("post needs a program, or `list` or `show NAME`"),
+    }
+}
+
+fn list(context: &Context) -> ExitStatus {
+    for post in BUILT_IN {
+        let language = post.language.name();
+        context.printer.result(format_args!("{:<10} {language:<14} {}\n", post.name, post.description));
+    }
+    ExitStatus::Success
+}
+
+fn show(context: &Context, name: &str) -> ExitStatus {
+    match BUILT_IN.iter().find(|post| post.name == name) {
+        Some(post) => {
+            context.printer.result(post.text);
+            ExitStatus::Success
+        }
+        None => context.fail(post::load(name).err().unwrap_or_default()),
+    }
+}
+
+/// Writes a program through a post.
+fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
+    let wishes = Wishes {
+        date: args.date.as_deref().map(Into::into),
+        dialect: args.target.as_deref().map(Into::into),
+        run_post_build: args.run_post_build,
+    };
+    let poster = match Poster::of_run(context, args.post.as_deref(), wishes) {
+        Ok(Some(poster)) => poster,
+        Ok(None) => return context.usage(NATIVE),
+        Err(problems) => return context.fail(problems),
+    };
+    let mut diagnostics = Vec::new();
+    if let Err(errors) = written(context, file, args, &poster, &mut diagnostics) {
+        diagnostics.extend(errors);
+        context.show(&context.findings(diagnostics));
+        return ExitStatus::Errors;
+    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+const NATIVE: &str = "the native program is written from drawings only: `pathbuild emit`";
+
+/// Reads the program, writes it and says so. Warnings are added to `diagnostics`; with errors nothing is written.
+fn written(
+    context: &Context,
+    file: &Utf8Path,
+    args: &PostArgs,
+    poster: &Poster,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(), Vec<Diagnostic>> {
+    let mut program = Program::open(context, file, &args.reading).map_err(|problem| vec![*problem])?;
+    let is_wrong = program.read.problems.iter().any(Diagnostic::is_error);
+    diagnostics.append(&mut program.read.problems);
+    if is_wrong {
+        return Err(Vec::new());
+    }
+    let output = output(&program, poster, args.output.as_deref()).map_err(|mut problems| {
+        program.place_own(&mut problems);
+        problems
+    })?;
+    diagnostics.extend(output.warnings.iter().cloned());
+    say(context, &output.notes);
+    let Some(to) = &args.output else {
+        context.printer.result_bytes(&output.text);
+        return Ok(());
+    };
+    let written = OsSystem.write(to, &output.text).map_err(|reason| vec![cannot_write(to, &reason)])?;
+    let state = match written {
+        Written::Changed => context.choose("written", "geschrieben"),
+        Written::Unchanged => context.choose("unchanged", "unverändert"),
+    };
+    context.printer.status(format_args!("{to}: {state}"));
+    match &output.post_build {
+        Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),
+        None => Ok(()),
+    }
+}
+
+/// What the post makes of a program that has no errors.
+fn output(program: &Program, poster: &Poster, to: Option<&Utf8Path>) -> Result<Output, Vec<Diagnostic>> {
+    if let Some(line) = first_open_formula(&program.text).filter(|_| program.dialect == Dialect::Native) {
+        return Err(vec![Diagnostic::new(&posts::POST_UNADJUSTED).at_line(line, None)]);
+    }
+    let remark: fn(&str) -> Remark<'_> = match program.dialect {
+        Dialect::Native => native_remark,
+        _ => |_| Remark::Stays,
+    };
+    let name = program.file.file_stem().unwrap_or_default();
+    let mut job = Job::from_steps(name, &program.read.steps, &remark)?;
+    let unknown = furnish(&mut job, poster.tools());
+    let mut output = poster.write(&job, to)?;
+    output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
+    Ok(output)
+}
+
+/// Says what a post notes about its output.
+pub(super) fn say(context: &Context, notes: &[Note]) {
+    for note in notes {
+        context.printer.status(format_args!("{}", note.text(context.lang())));
+    }
+}

@@ -1,0 +1,92 @@
+//! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (spec/90-gcode-import.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Evidence, Heights, Interpretation, Options, UnitCodes, guess, interpret};
+use pathbuild_gcode::read::quote;
+
+use crate::args::{ReadingArgs, UnitCodesArg};
+use crate::context::Context;
+use crate::files::unreadable;
+
+/// A program that was read.
+pub(super) struct Program {
+    /// As it was named.
+    pub(super) file: Utf8PathBuf,
+    /// Its bytes.
+    pub(super) text: Vec<u8>,
+    /// In which dialect it was read.
+    pub(super) dialect: Dialect,
+    /// Why that was guessed, where nobody said it.
+    pub(super) evidence: Option<Evidence>,
+    /// What it does, and what is wrong with it.
+    pub(super) read: Interpretation,
+    options: Options,
+}
+
+impl Program {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// It cannot be read at all; what is wrong with its lines is in [`read`](Self::read).
+    pub(super) fn open(
+        context: &Context,
+        file: &Utf8Path,
+        args: &ReadingArgs,
+    ) -> Result<Self, Box<Diagnostic>> {
+        let limit = context.settings.limits.file_size.value;
+        let text = OsSystem.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
+        let guessed = args.dialect.is_none().then(|| guess(&text));
+        let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
+        let options = options(args);
+        let mut read = interpret(&text, dialect, &options);
+        place(&mut read.problems, file, &text);
+        let evidence = guessed.map(|guess| guess.evidence);
+        Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
+    }
+
+    /// What it does at the heights that it was drawn with, where its own are corrected.
+    pub(super) fn nominal(&self) -> Interpretation {
+        let options = Options { heights: Heights::Nominal, ..self.options.clone() };
+        interpret(&self.text, self.dialect, &options)
+    }
+
+    /// Shows under diagnostics where in the file they are.
+    pub(super) fn place(&self, diagnostics: &mut [Diagnostic]) {
+        place(diagnostics, &self.file, &self.text);
+    }
+
+    /// The same for those that know no file yet: of others the line is another file's.
+    pub(super) fn place_own(&self, diagnostics: &mut [Diagnostic]) {
+        for diagnostic in diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()) {
+            self.place(std::slice::from_mut(diagnostic));
+        }
+    }
+
+    /// How many lines it has.
+    pub(super) fn lines(&self) -> usize {
+        self.text.split_inclusive(|byte| *byte == b'\n').count()
+    }
+}
+
+fn options(args: &ReadingArgs) -> Options {
+    Options {
+        unit_codes: match args.unit_codes {
+            Some(UnitCodesArg::Table) => UnitCodes::Table,
+            Some(UnitCodesArg::Din) | None => UnitCodes::Din,
+        },
+        absolute_arc_centres: args.absolute_arc_centres,
+        ignore_feed: args.ignore_feed,
+        ..Options::default()
+    }
+}
+
+fn place(diagnostics: &mut [Diagnostic], file: &Utf8Path, text: &[u8]) {
+    quote(diagnostics, text);
+    for diagnostic in diagnostics {
+        diagnostic.file = Some(file.to_owned());
+    }
+}

@@ -1,0 +1,133 @@
+//! What a path's drawing says. (spec/90-gcode-import.md, `verify --against`)
+
+use std::sync::Arc;
+
+use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, program};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Heights, Move, Options, interpret};
+use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::verify::{Ends, Tolerance, compare};
+use pathbuild_path::PathName;
+use pathbuild_toolpath::{Comment, Correction, Program as Drawn, Step};
+
+use crate::args::Inputs;
+use crate::commands::program::Program;
+use crate::context::Context;
+use crate::session::Session;
+
+/// The program of a path.
+pub(super) struct Against {
+    drawn: Arc<Drawn>,
+    moves: Vec<(u32, Move)>,
+}
+
+/// Why there is none.
+pub(super) enum Failure {
+    /// An option is missing.
+    Usage(String),
+    /// The drawing has errors, or the name means nothing.
+    Found(Vec<Diagnostic>),
+}
+
+impl Against {
+    pub(super) fn new(context: &Context, session: &Session<'_>, name: &str) -> Result<Self, Failure> {
+        let target = target(session, name)?;
+        let checked = session.check(&[target]);
+        let [checked] = checked.as_slice() else { return Err(Failure::Found(Vec::new())) };
+        if checked.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(Failure::Found(checked.diagnostics.clone()));
+        }
+        if !checked.missing_options.is_empty() {
+            return Err(Failure::Usage(missing(context, &checked.missing_options)));
+        }
+        let drawn = program(session.db(), target).clone().ok_or_else(|| Failure::Found(Vec::new()))?;
+        let moves = written(context, &drawn);
+        Ok(Self { drawn, moves })
+    }
+
+    /// O in mm.
+    pub(super) fn cutter(&self) -> f64 {
+        self.drawn.tool
+    }
+
+    /// T in mm, if everything that is milled has the same.
+    pub(super) fn surface(&self) -> Option<f64> {
+        let mut surfaces = self.drawn.steps.iter().filter_map(|step| match step {
+            Step::Comment(Comment::Element { surface, .. }) => Some(*surface),
+            _ => None,
+        });
+        let thickness = self.drawn.thickness;
+        surfaces.all(|surface| surface == thickness).then_some(thickness)
+    }
+
+    /// Where a program first moves otherwise than drawn. Heights are compared as they were before correction; programs of other dialects
+    /// have heads and feet of their own.
+    pub(super) fn difference(&self, program: &Program) -> Option<Diagnostic> {
+        let ends = if program.dialect == Dialect::Native { Ends::All } else { Ends::Cutting };
+        let found = program.nominal().moves();
+        compare(&found, &self.moves, &Tolerance { ends, ..UNIT }).map(|difference| difference.diagnostic())
+    }
+}
+
+/// One unit of the last printed digit: two programs may have rounded what lies between two numbers differently.
+const UNIT: Tolerance =
+    Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };
+
+/// The moves of what `emit` would write, with its lines.
+fn written(context: &Context, drawn: &Drawn) -> Vec<(u32, Move)> {
+    let options = WriteOptions {
+        lang: context.lang(),
+        charset: Charset::Ascii,
+        rapid: context.settings.general.rapid.value.unwrap_or_default(),
+        correction: Correction::default(),
+    };
+    // A line that takes the place of the provenance.
+    let header = Header { provenance: "pathbuild".to_owned() };
+    let text = native::program(drawn, &header, &options);
+    let reading = Options { heights: Heights::Nominal, ..Options::default() };
+    interpret(text.as_bytes(), Dialect::Native, &reading).moves()
+}
+
+/// The one path that an argument means.
+fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
+    let db = session.db();
+    let wanted = session.wanted(&Inputs { inputs: vec![name.to_owned()] });
+    if !wanted.problems.is_empty() {
+        return Err(Failure::Found(wanted.problems));
+    }
+    if let [path] = wanted.paths.as_slice() {
+        return Ok(session.target(path, Role::Emitted));
+    }
+    let [drawing] = wanted.drawings.as_slice() else {
+        return Err(Failure::Usage(format!("--against takes one path: `{name}` is a directory")));
+    };
+    let file = drawing.file;
+    match path_names(db, file).as_slice() {
+        [path] => Ok(Target::new(db, file, path.as_str().into(), Role::Emitted)),
+        names => {
+            let mut found = check_file(db, file).to_vec();
+            if !found.iter().any(Diagnostic::is_error) {
+                let message = if names.is_empty() { &outputs::NO_PATH } else { &outputs::SEVERAL_PATHS };
+                let list: pathbuild_diagnostic::Value = names.iter().map(PathName::as_str).collect();
+                let first = names.first().map_or("", PathName::as_str);
+                let problem = Diagnostic::new(message).with("names", list).with("first", first);
+                found.push(problem.with("pattern", "path-pattern").in_file(file.path(db)));
+            }
+            Err(Failure::Found(found))
+        }
+    }
+}
+
+fn missing(context: &Context, options: &[MissingOption]) -> String {
+    let name = |option: &MissingOption| match option {
+        MissingOption::Feed => "feed",
+        MissingOption::SweepHeight => "sweep-height",
+    };
+    let line = |option: &MissingOption| {
+        let name = name(option);
+        format!("{} --{name}, `{name}` in pathbuild.toml", context.choose("missing:", "es fehlt:"))
+    };
+    options.iter().map(line).collect::<Vec<_>>().join("\n")
+}

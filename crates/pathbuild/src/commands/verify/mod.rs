@@ -1,0 +1,85 @@
+//! `pathbuild verify`: whether a G-code program is safe to run, and is what a drawing says. (spec/90-gcode-import.md, "verify")
+
+mod against;
+mod machine;
+mod stock;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::verify::{Checks, verify};
+
+use crate::args::VerifyArgs;
+use crate::config::{number, positive};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::session::Session;
+
+use super::program::Program;
+use against::Against;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
+    let wishes = match Wishes::new(args) {
+        Ok(wishes) => wishes,
+        Err(fault) => return context.refuse(vec![*fault]),
+    };
+    let session = Session::new(context);
+    let mut diagnostics = Vec::new();
+    let against = match args.against.as_deref().map(|name| Against::new(context, &session, name)).transpose()
+    {
+        Ok(against) => against,
+        Err(against::Failure::Usage(reason)) => return context.usage(&reason),
+        Err(against::Failure::Found(found)) => return conclude(context, &session, found),
+    };
+    for file in &args.files {
+        match Program::open(context, file, &args.reading) {
+            Ok(program) => diagnostics.extend(check(context, program, &wishes, against.as_ref())),
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
+    conclude(context, &session, diagnostics)
+}
+
+/// What the command line says of cutter and material.
+struct Wishes {
+    /// Diameter in mm.
+    cutter: Option<f64>,
+    /// Height of the upper face in mm.
+    surface: Option<f64>,
+}
+
+impl Wishes {
+    fn new(args: &VerifyArgs) -> Result<Self, Box<Diagnostic>> {
+        let cutter = args.cutter.as_deref().map(|text| positive("cutter", text)).transpose()?;
+        let surface = args.surface.as_deref().map(|text| number("surface", text)).transpose()?;
+        Ok(Self { cutter, surface })
+    }
+}
+
+/// Everything that is wrong with a program.
+fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&Against>) -> Vec<Diagnostic> {
+    let machine = machine::machine(context);
+    let stock = stock::stock(context, &program, wishes, against);
+    if stock.is_none() {
+        context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
+    }
+    let checks = Checks { stock: stock.as_ref(), machine: machine.as_ref() };
+    let mut found = verify(&program.read.steps, &checks);
+    found.extend(against.and_then(|against| against.difference(&program)));
+    program.place(&mut found);
+    let mut diagnostics = program.read.problems;
+    diagnostics.append(&mut found);
+    diagnostics
+}
+
+fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {
+    let findings = context.findings(session.with_elsewhere(diagnostics));
+    context.show(&findings);
+    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
+    context.printer.status(format_args!(
+        "{}: {errors}, {}: {warnings}",
+        phrase("errors", "Fehler"),
+        phrase("warnings", "Warnungen")
+    ));
+    if errors > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}

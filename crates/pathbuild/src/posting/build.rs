@@ -1,0 +1,26 @@
+//! The command that a post wants to be run on what it wrote. (spec/85-post-processors.md: as a list of arguments, no shell)
+
+use std::process::{Command, Stdio};
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
+
+/// Runs it in the directory of the file, and waits for it. What it prints goes to stderr, since stdout is for results.
+///
+/// # Errors
+/// It cannot be started, or ends with another status than 0.
+pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
+    let Some((program, arguments)) = command.split_first() else { return Ok(()) };
+    let mut run = Command::new(program);
+    run.args(arguments).stdin(Stdio::null()).stdout(std::io::stderr());
+    let failed = |reason: String| {
+        let diagnostic = Diagnostic::new(&posts::POST_BUILD_FAILED).with("command", command.join(" "));
+        Box::new(diagnostic.with("reason", reason).in_file(file))
+    };
+    match run.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(failed(status.to_string())),
+        Err(error) => Err(failed(error.to_string())),
+    }
+}

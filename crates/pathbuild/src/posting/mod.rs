@@ -1,0 +1,189 @@
+//! The post-processor of a run: which one, and what the configuration tells it. (spec/85-post-processors.md)
+
+mod build;
+mod files;
+mod tools;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::post::{
+    self, BUILT_IN, Job, Language, Output, Post, PostMacro, PostOptions, Step, ToolTable,
+};
+
+use crate::config::{Origin, types};
+use crate::context::Context;
+use crate::files::unreadable;
+
+pub use build::run_post_build;
+pub use tools::{furnish, tool_table};
+
+use files::Below;
+
+/// A definition, and everything that its text depends on beside the program.
+#[derive(Debug)]
+pub struct Poster {
+    post: Post,
+    /// Where the definition's own files are; `None` of a built-in post.
+    directory: Option<Utf8PathBuf>,
+    /// The definition's text.
+    definition: Vec<u8>,
+    /// Where the definition is, unless it is built in.
+    file: Option<Utf8PathBuf>,
+    tools: ToolTable,
+    macros: Vec<PostMacro>,
+    cycles: bool,
+    charset: Charset,
+    wishes: Wishes,
+}
+
+/// What the command line says about a post's output.
+#[derive(Clone, Debug, Default)]
+pub struct Wishes {
+    /// The date that the post may write.
+    pub date: Option<Box<str>>,
+    /// In which dialect the output is, where the post does not say it.
+    pub dialect: Option<Box<str>>,
+    /// The post's own command is run.
+    pub run_post_build: bool,
+}
+
+/// The post that writes what `spec/60-gcode.md` says.
+const NATIVE: &str = "native";
+
+impl Poster {
+    /// The post that `--post` or else the configuration names; `None`: programs are written natively.
+    ///
+    /// # Errors
+    /// There is no such post, or it is broken.
+    pub fn of_run(
+        context: &Context,
+        named: Option<&str>,
+        wishes: Wishes,
+    ) -> Result<Option<Self>, Vec<Diagnostic>> {
+        let configured = &context.settings.general.post;
+        let (name, base) = match (named, configured.origin, context.settings.directory()) {
+            (Some(name), ..) => (name, &*context.working_directory),
+            (None, Origin::File(_), Some(directory)) => (&*configured.value, directory),
+            (None, ..) => (&*configured.value, &*context.working_directory),
+        };
+        if name == NATIVE {
+            return Ok(None);
+        }
+        Self::load(context, name, base, wishes).map(Some)
+    }
+
+    fn load(context: &Context, name: &str, base: &Utf8Path, wishes: Wishes) -> Result<Self, Vec<Diagnostic>> {
+        let general = &context.settings.general;
+        let (post, definition, file) = if is_file_name(name) {
+            let file = relative(&base.join(name), context);
+            let limit = context.settings.limits.file_size.value;
+            let bytes =
+                OsSystem.read(&file, limit).map_err(|error| vec![unreadable(&file, &error, limit)])?;
+            (Post::read(&bytes, &file)?, bytes, Some(file))
+        } else {
+            let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
+            (post::load(name)?, text.as_bytes().to_vec(), None)
+        };
+        let macros = context.settings.tables.macros.value.iter();
+        Ok(Self {
+            post,
+            directory: file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned()),
+            definition,
+            file,
+            tools: tool_table(context),
+            macros: macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect(),
+            cycles: general.cycles.value,
+            charset: match general.charset.value {
+                types::Charset::Ascii => Charset::Ascii,
+                types::Charset::Utf8 => Charset::Utf8,
+            },
+            wishes,
+        })
+    }
+
+    /// The definition's file, unless the post is built in.
+    pub fn file(&self) -> Option<&Utf8Path> {
+        self.file.as_deref()
+    }
+
+    /// The extension of the files that it writes, without point.
+    pub fn extension(&self) -> &str {
+        self.post.extension()
+    }
+
+    /// The dialect in which its output is read back, if that is known.
+    pub fn reader(&self) -> Option<Dialect> {
+        self.post.reader(self.wishes.dialect.as_deref())
+    }
+
+    /// The tools of the configuration.
+    pub fn tools(&self) -> &ToolTable {
+        &self.tools
+    }
+
+    /// Whether holes become canned cycles.
+    pub fn cycles(&self) -> bool {
+        self.cycles
+    }
+
+    /// Writes a program that will be in this file.
+    ///
+    /// # Errors
+    /// What the post cannot say, or says wrongly.
+    pub fn write(&self, job: &Job, output: Option<&Utf8Path>) -> Result<Output, Vec<Diagnostic>> {
+        let below = self.directory.as_deref().map(Below);
+        let mut options = PostOptions {
+            date: self.wishes.date.clone(),
+            macros: self.macros.clone(),
+            cycles: self.cycles,
+            output: output.map(|output| output.as_str().into()),
+            run_post_build: self.wishes.run_post_build,
+            charset: self.charset,
+            dialect: self.wishes.dialect.clone(),
+            ..PostOptions::default()
+        };
+        if let Some(below) = &below {
+            options.files = below;
+        }
+        self.post.write(job, &options)
+    }
+
+    /// Makes the head of a job's text, or its first remark, tell these things.
+    pub fn say(&self, job: &mut Job, lines: &[String]) {
+        match self.post.language() {
+            Language::CamBam => {
+                let comments = lines.iter().map(|line| format!("{{$comment}}{line}{{$endcomment}}"));
+                job.texts.header = comments.collect::<Vec<_>>().join("\n").into();
+            }
+            Language::Cad6 | Language::Native => {
+                let comments = lines.iter().map(|line| Step::Comment(line.as_str().into()));
+                if let Some(first) = job.operations.first_mut() {
+                    first.steps.splice(0..0, comments);
+                }
+            }
+        }
+    }
+
+    /// Everything that a program's text depends on beside drawings and general options, for its provenance. Files that control texts
+    /// insert are not in it.
+    pub fn identity(&self) -> Vec<u8> {
+        let Self { definition, tools, macros, wishes, .. } = self;
+        let mut identity = definition.clone();
+        identity.extend(format!("{:?}", (tools, macros, &wishes.date, &wishes.dialect)).into_bytes());
+        identity
+    }
+}
+
+/// Whether a post's name is a file's: it has an extension or a directory.
+fn is_file_name(name: &str) -> bool {
+    name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
+}
+
+/// A name as a person in the working directory would write it.
+fn relative(file: &Utf8Path, context: &Context) -> Utf8PathBuf {
+    file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
+}

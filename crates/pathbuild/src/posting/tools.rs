@@ -1,0 +1,55 @@
+//! The tools of the configuration, as posts take them.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_gcode::post::{Coolant, Job, Spindle, Tool, ToolEntry, ToolTable};
+use regex::Regex;
+
+use crate::config::types;
+use crate::context::Context;
+
+/// The tools of `[tool.NAME]`. Their patterns compile: they were read without faults.
+pub fn tool_table(context: &Context) -> ToolTable {
+    ToolTable { entries: context.settings.tables.tools.value.iter().map(entry).collect() }
+}
+
+fn entry(tool: &types::Tool) -> ToolEntry {
+    let direction = tool.direction.or_else(|| tool.spindle.map(|_| types::Direction::Clockwise));
+    ToolEntry {
+        name: tool.name.clone(),
+        diameter: tool.diameter,
+        paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
+        index: tool.number,
+        spindle: direction.map(|direction| match direction {
+            types::Direction::Clockwise => Spindle::Clockwise,
+            types::Direction::Counterclockwise => Spindle::CounterClockwise,
+        }),
+        speed: tool.spindle,
+        coolant: tool.coolant.map(|coolant| match coolant {
+            types::Coolant::Off => Coolant::Off,
+            types::Coolant::Mist => Coolant::Mist,
+            types::Coolant::Flood => Coolant::Flood,
+        }),
+    }
+}
+
+/// Gives the operations of a program that was read what the table says of their tools' numbers, where the program itself says nothing.
+/// Numbers that are not in it are told.
+pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
+    let mut unknown = Vec::new();
+    for operation in &mut job.operations {
+        let index = operation.tool.index;
+        let Some(entry) = table.entries.iter().find(|entry| entry.index == Some(index)) else {
+            if !unknown.contains(&index) {
+                unknown.push(index);
+            }
+            continue;
+        };
+        operation.tool = Tool::new(index, entry.diameter, &entry.name);
+        operation.spindle = operation.spindle.or(entry.spindle);
+        operation.speed = operation.speed.or(entry.speed);
+        operation.coolant = operation.coolant.or(entry.coolant);
+    }
+    let warning = |index| Diagnostic::new(&posts::TOOL_NUMBER_UNKNOWN).with("index", u64::from(index));
+    unknown.into_iter().map(warning).collect()
+}
