@@ -68,7 +68,7 @@ fn corners_are_taken_as_fast_as_the_deviation_allows() {
     let corner_speed = libm::sqrt(100.0 * 0.01 * half_sine / (1.0 - half_sine));
     let saved_each = {
         let ramp = (100.0 - corner_speed) / 100.0;
-        let ramp_length = (100.0 + corner_speed) / 2.0 * ramp;
+        let ramp_length = f64::midpoint(100.0, corner_speed) * ramp;
         3.0 - (1.0 + ramp + (150.0 - ramp_length) / 100.0)
     };
     takes(corner, &soft, 6.0 - 2.0 * saved_each);

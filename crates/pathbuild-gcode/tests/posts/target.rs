@@ -146,7 +146,9 @@ fn without_a_dialect_a_note_says_that_nothing_was_checked() {
     };
     assert_eq!(
         notes("", None),
-        ["the post names no dialect, so its output was not checked; --dialect names one"]
+        [
+            "the post names no dialect, so its output was not checked; --dialect (of `post`: --target) names one"
+        ]
     );
     assert_eq!(notes(&dialect("grbl"), None), [""; 0]);
     assert_eq!(notes("", Some("grbl")), [""; 0]);
