@@ -1,5 +1,7 @@
 //! Elements of a path: what is drawn, and what it means. (spec/10-drawing.md, "Line types", "Special circles")
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::words;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
 
@@ -37,8 +39,8 @@ pub struct Origin {
     pub id: ElementId,
     /// Its type in the file.
     pub entity: EntityKind,
-    /// Its layer.
-    pub layer: Box<str>,
+    /// Its layer. Shared: a library has a million elements, and they are copied from stage to stage.
+    pub layer: Arc<str>,
     /// Its beginning, or centre.
     pub point: Point,
 }

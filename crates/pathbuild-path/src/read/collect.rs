@@ -1,6 +1,7 @@
 //! The entities of each path, and what each means.
 
 use std::collections::BTreeMap;
+use std::sync::Arc as Shared;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Value, words};
@@ -66,10 +67,11 @@ pub(crate) fn paths(drawing: &Drawing, language: &Language) -> Vec<Collected> {
             paths[path].hidden_layer(&drawing.layers[index].name);
         }
     }
+    let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
         if let Some(path) = index_of_layer[entity.layer as usize] {
             let position = Position { line: origin.line, handle: origin.handle };
-            paths[path].add(entity, &drawing.layers[entity.layer as usize].name, position, language);
+            paths[path].add(entity, &names[entity.layer as usize], position, language);
         }
     }
     for fault in &drawing.faults {
@@ -176,9 +178,10 @@ impl Collected {
         self.add_located(diagnostic);
     }
 
-    fn add(&mut self, entity: &Entity, layer: &str, position: Position, language: &Language) {
+    fn add(&mut self, entity: &Entity, layer: &Shared<str>, position: Position, language: &Language) {
         let id = self.next_id(position);
-        let origin = |point: Xy| Origin { id, entity: entity.kind, layer: layer.into(), point: shown(point) };
+        let origin =
+            |point: Xy| Origin { id, entity: entity.kind, layer: layer.clone(), point: shown(point) };
         match &entity.geometry {
             Geometry::Text(text) => self.texts.add_text(text, entity.layer, origin(xy(text.anchor))),
             Geometry::MText(text) => self.texts.add_mtext(text, entity.layer, origin(xy(text.anchor))),

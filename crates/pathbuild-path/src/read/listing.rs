@@ -77,7 +77,7 @@ fn assigned(
         text: found.string.into(),
         entity: found.origin.entity,
         path: path.clone(),
-        layer: found.origin.layer,
+        layer: (&*found.origin.layer).into(),
         position: at(found.origin.id),
         circle: found.circle,
         elements: found.owners.iter().map(element).collect(),

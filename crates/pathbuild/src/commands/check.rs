@@ -1,6 +1,6 @@
 //! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::time::Instant;
 
 use pathbuild_db::{Role, SourceFile, Target, check_file, path_names};
@@ -33,7 +33,8 @@ fn check(session: &Session<'_>, wanted: Wanted, with_all_values: bool) -> Checke
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
     session.read_ahead(&whole);
     let of_file = |file: SourceFile| path_names(db, file).iter().map(move |name| (file, name.clone()));
-    let named = wanted.paths.into_iter().filter(|path| !whole.contains(&path.file));
+    let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
+    let named = wanted.paths.into_iter().filter(|path| !is_whole.contains(&path.file));
     let asked: Vec<Asked> = whole
         .iter()
         .flat_map(|file| of_file(*file))

@@ -1,6 +1,8 @@
 //! Which drawings and paths the arguments mean. (spec/05-command-line.md)
 
 use std::cell::LazyCell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Kind;
@@ -23,6 +25,8 @@ pub struct Wanted {
     pub directories: Vec<Utf8PathBuf>,
     /// Names that mean nothing, or too much.
     pub problems: Vec<Diagnostic>,
+    /// Where each drawing stands in `drawings`.
+    places: HashMap<SourceFile, usize>,
 }
 
 /// A drawing that was asked for.
@@ -173,9 +177,12 @@ impl Session<'_> {
 
 impl Wanted {
     fn add_drawing(&mut self, file: SourceFile, is_named: bool) {
-        match self.drawings.iter_mut().find(|known| known.file == file) {
-            Some(known) => known.is_named |= is_named,
-            None => self.drawings.push(WantedDrawing { file, is_named }),
+        match self.places.entry(file) {
+            Entry::Occupied(known) => self.drawings[*known.get()].is_named |= is_named,
+            Entry::Vacant(place) => {
+                place.insert(self.drawings.len());
+                self.drawings.push(WantedDrawing { file, is_named });
+            }
         }
     }
 }
