@@ -2,6 +2,7 @@
 
 mod memory;
 mod os;
+mod overlay;
 
 use std::fmt::Debug;
 use std::time::SystemTime;
@@ -10,6 +11,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 pub use memory::MemorySystem;
 pub use os::OsSystem;
+pub use overlay::Overlay;
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {

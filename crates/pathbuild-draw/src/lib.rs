@@ -13,6 +13,7 @@ pub mod generate;
 pub mod model;
 mod parse;
 mod place;
+mod q_project;
 mod random;
 mod sheet;
 mod write;
@@ -22,6 +23,7 @@ pub use error::DrawError;
 pub use fixture::{Command, Content, Expect, Fixture, FixtureFile};
 pub use model::{Entity, Layer, Options, Point, Shape, Version};
 pub use place::{TextCircle, text_circle};
+pub use q_project::q_project;
 pub use sheet::Sheet;
 
 /// The examples of README.md are tests.

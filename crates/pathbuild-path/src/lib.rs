@@ -48,7 +48,7 @@ pub use path::{
 };
 pub use pattern::PatternError;
 pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
-pub use read::{AssignedElement, AssignedText, assigned_texts, raw_file};
+pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
 pub use table::RangeTable;
 pub use text::{ParameterText, Piece};
 pub use text_circle::TextCircle;

@@ -3,6 +3,7 @@
 mod collect;
 mod listing;
 mod parameters;
+mod proxies;
 mod texts;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use crate::raw::{Language, RawFile};
 use collect::Collected;
 
 pub use listing::{AssignedElement, AssignedText, assigned_texts};
+pub use proxies::{ProxyLine, proxy_lines};
 
 /// Finds the paths of a drawing. A drawing with errors of its own has none.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {

@@ -43,4 +43,53 @@ messages! {
         help_en: "check that nobody needs it; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch jemand braucht; emit --remove-stale entfernt solche Dateien",
     }
+    /// A path without an embedding.
+    LACKS_PATH: QProjectLacksPath {
+        en: "the Q-project does not embed path {name} of {drawing}",
+        de: "das Q-Projekt bettet Pfad {name} aus {drawing} nicht ein",
+        help_en: "add it, or write the Q-project anew: pathbuild q-project {drawing}",
+        help_de: "ihn hinzufügen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+    }
+    /// Another value than on the proxy line.
+    Q_VALUE_DIFFERS: QProjectDiffers {
+        en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
+        de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
+        help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
+        help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+    }
+    /// Another length than the proxy line.
+    Q_LENGTH_DIFFERS: QProjectDiffers {
+        en: "the segment is {here} mm long, the proxy line of path {name} in {drawing} {there} mm",
+        de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} {there} mm",
+        help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
+        help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+    }
+    /// A proxy line of nothing.
+    PROXY_OF_NOTHING: ProxyDiffers {
+        en: "the proxy line names {name}, which is no path of this drawing",
+        de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
+        help_en: "the drawing's paths: {names}",
+        help_de: "die Pfade der Zeichnung: {names}",
+    }
+    /// A proxy line with the name of another path.
+    PROXY_OF_OTHER: ProxyDiffers {
+        en: "the proxy line names {name}, but runs from the start of path {other} to its end",
+        de: "die Stellvertreterlinie nennt {name}, läuft aber vom Anfang von Pfad {other} zu dessen Ende",
+        help_en: "correct the name",
+        help_de: "den Namen berichtigen",
+    }
+    /// Another value than the path's.
+    PROXY_VALUE_DIFFERS: ProxyDiffers {
+        en: "{letter} is {here} on the proxy line, but {there} in path {name}",
+        de: "{letter} ist auf der Stellvertreterlinie {here}, in Pfad {name} aber {there}",
+        help_en: "write the path's {letter} on the proxy line, which people copy into their projects",
+        help_de: "das {letter} des Pfads an die Stellvertreterlinie schreiben, die in Projekte kopiert wird",
+    }
+    /// Another length than the path's.
+    PROXY_LENGTH_DIFFERS: ProxyDiffers {
+        en: "the proxy line is {here} mm long, but path {name} is {there} mm from start to end",
+        de: "die Stellvertreterlinie ist {here} mm lang, Pfad {name} aber {there} mm von Anfang bis Ende",
+        help_en: "draw it from the path's start to its end",
+        help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
+    }
 }

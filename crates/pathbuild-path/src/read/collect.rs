@@ -338,11 +338,11 @@ impl Collected {
     }
 }
 
-fn xy(point: Point3) -> Xy {
+pub(super) fn xy(point: Point3) -> Xy {
     Xy::new(point.x, point.y)
 }
 
-fn plane_arc(arc: &DxfArc) -> Arc {
+pub(super) fn plane_arc(arc: &DxfArc) -> Arc {
     Arc::from_angles(xy(arc.centre), arc.radius, arc.start_angle, arc.end_angle, arc.clockwise)
 }
 

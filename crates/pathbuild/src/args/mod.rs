@@ -81,7 +81,6 @@ pub enum Command {
     #[command(hide = true)]
     Why(GraphArgs),
     /// Write a Q-project: a drawing that embeds every path of another
-    #[command(hide = true)]
     QProject(QProjectArgs),
     /// Manage the results kept between runs
     #[command(hide = true)]

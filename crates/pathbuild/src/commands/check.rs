@@ -46,6 +46,7 @@ fn check(session: &Session<'_>, wanted: Wanted, with_all_values: bool) -> Checke
     } else {
         check_examples(session, &asked, &mut checked)
     };
+    checked.diagnostics.extend(session.q_projects(&whole));
     let mut files = [whole, reached].concat();
     files.sort_by(|a, b| a.path(db).cmp(b.path(db)));
     files.dedup();

@@ -14,6 +14,7 @@ pub mod locate;
 pub mod man;
 pub mod post;
 mod program;
+pub mod q_project;
 pub mod texts;
 pub mod verify;
 
@@ -45,6 +46,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Rdeps(args) => graph::rdeps(context, args),
         Command::Where(args) => locate::run(context, args),
         Command::Texts(args) => texts::run(context, args),
+        Command::QProject(args) => q_project::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -6,6 +6,7 @@ mod graph;
 mod library;
 mod outputs;
 mod provenance;
+mod q_projects;
 mod resolve;
 mod settings;
 mod watchdog;
@@ -14,7 +15,7 @@ mod work;
 use std::sync::Arc;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::OsSystem;
+use pathbuild_db::system::{OsSystem, Overlay, System};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use crate::context::Context;
@@ -35,16 +36,22 @@ pub struct Session<'a> {
 impl<'a> Session<'a> {
     /// A session over the files of the operating system.
     pub fn new(context: &'a Context) -> Self {
-        Self::over(context, false)
+        Self::over(context, false, Arc::new(OsSystem))
     }
 
     /// A session that can say out of which drawings a program was made.
     pub fn with_hashes(context: &'a Context) -> Self {
-        Self::over(context, true)
+        Self::over(context, true, Arc::new(OsSystem))
     }
 
-    fn over(context: &'a Context, is_hashed: bool) -> Self {
-        let db = Database::new(Arc::new(OsSystem));
+    /// A session in which a drawing is there that has not been written yet.
+    pub fn with_drawing(context: &'a Context, path: &Utf8Path, bytes: Vec<u8>) -> Self {
+        let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
+        Self::over(context, false, Arc::new(overlay))
+    }
+
+    fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
+        let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
         Self { db, context }
     }
@@ -54,7 +61,8 @@ impl<'a> Session<'a> {
         &self.db
     }
 
-    fn file(&self, path: &Utf8Path) -> SourceFile {
+    /// The drawing under a path.
+    pub fn file(&self, path: &Utf8Path) -> SourceFile {
         self.db.file(&self.normal(path))
     }
 

@@ -1,0 +1,255 @@
+//! What is wrong with a Q-project or with proxy lines: PB515, PB516, PB517.
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
+use pathbuild_path::approx::{coincide, near};
+use pathbuild_path::{
+    Bindings, Letter, Path, PathName, ProxyLine, Segment, SegmentKind, Subpath, SubpathName, parse_number,
+};
+
+use super::{Component, proxy_lines};
+use crate::database::Db;
+use crate::inputs::SourceFile;
+use crate::queries::instance::{Instance, path};
+use crate::queries::raw::{NameKey, file_diagnostics, path_names, raw_path};
+use crate::settings::Settings;
+
+/// A distance in mm by which lengths may differ, as those of embedded paths may.
+const LENGTH_TOLERANCE: f64 = 0.001;
+
+/// What the proxy lines of a drawing and its Q-project say against each other.
+#[salsa::tracked]
+pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
+    let mut judge = Judge { component: Component::new(db, drawing), q_project, found: Vec::new() };
+    judge.proxies();
+    if let Some(paths) = sound_paths(db, q_project) {
+        judge.embeddings(&paths);
+    }
+    judge.found
+}
+
+/// The paths of a Q-project with example values; `None` where one has errors, so that it is not known what it embeds.
+fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<&Path>> {
+    let is_readable = !file_diagnostics(db, file).iter().any(Diagnostic::is_error);
+    let sound = |name: &PathName| {
+        let key = NameKey::of(db, name);
+        let values = Bindings::check_values(raw_path(db, file, key)?);
+        path(db, Instance::new(db, file, key, values)).path.as_ref()
+    };
+    is_readable.then(|| path_names(db, file).iter().map(sound).collect())?
+}
+
+struct Judge<'db> {
+    component: Component<'db>,
+    q_project: SourceFile,
+    found: Vec<Diagnostic>,
+}
+
+/// What two texts say differently: the letter or variable, and both values.
+type Difference = (String, Value, Value, Option<TextFault>);
+
+impl<'db> Judge<'db> {
+    /// PB517.
+    fn proxies(&mut self) {
+        let proxies = proxy_lines(self.component.db, self.component.file).iter();
+        let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| self.at_proxy(proxy, problem));
+        self.found = proxies.flat_map(of_proxy).collect();
+    }
+
+    fn at_proxy(&self, proxy: &ProxyLine, problem: Diagnostic) -> Diagnostic {
+        let mut problem = proxy.origin.at(problem).in_file(self.component.file.path(self.component.db));
+        problem.place.element = None;
+        problem.locate(proxy.position.line, proxy.position.handle);
+        problem
+    }
+
+    /// PB517, without a place.
+    fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
+        let language = Settings::get(self.component.db).language(self.component.db);
+        let written = proxy.text.piece(Letter::Embed).map(|piece| (piece, proxy.text.value(piece)));
+        let Some((piece, written)) = written.filter(|(_, written)| !written.contains('=')) else {
+            return Vec::new();
+        };
+        let fault = proxy.text.fault(piece);
+        let known = |name: &PathName| self.component.names.contains(name);
+        let Some(name) = proxy.name(language).filter(known) else {
+            let names: Value = self.component.names.iter().map(PathName::as_str).collect();
+            let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).with("name", written);
+            return vec![problem.with("names", names).with_text(fault)];
+        };
+        if let Some(other) = self.other(proxy, &name) {
+            let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).with("name", name.as_str());
+            return vec![problem.with("other", other.as_str()).with_text(fault)];
+        }
+        let Some(path) = self.component.path(&name, Some(proxy)) else { return Vec::new() };
+        let differences = differences_from_path(proxy, path).into_iter();
+        let mut problems: Vec<Diagnostic> =
+            differences.map(|it| differing(&messages::PROXY_VALUE_DIFFERS, it, &name)).collect();
+        let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
+        if (here - there).abs() > LENGTH_TOLERANCE {
+            let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).with("name", name.as_str());
+            problems.push(problem.with("here", here).with("there", there));
+        }
+        problems
+    }
+
+    /// The path whose start and end a proxy line joins, where that is another than the one it names, which it does not join.
+    fn other(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'db PathName> {
+        let (start, end) = (proxy.curve.start(), proxy.curve.end());
+        let is_joined = |name: &&PathName| {
+            let ends =
+                self.component.raw(name).and_then(|raw| Some((raw.start.as_ref()?.at, raw.end.as_ref()?.at)));
+            ends.is_some_and(|(from, to)| {
+                coincide(from, start) && coincide(to, end) || coincide(from, end) && coincide(to, start)
+            })
+        };
+        let joined: Vec<&PathName> = self.component.names.iter().filter(is_joined).collect();
+        if joined.contains(&named) { None } else { joined.first().copied() }
+    }
+
+    fn embeddings(&mut self, paths: &[&Path]) {
+        let mut embedded: BTreeMap<&PathName, Vec<(&Path, &Segment, &Subpath)>> = BTreeMap::new();
+        for path in paths {
+            for segment in &path.segments {
+                if let SegmentKind::Subpath(subpath) = &segment.kind
+                    && let SubpathName::Found { name, .. } = &subpath.name
+                {
+                    embedded.entry(name).or_default().push((path, segment, subpath));
+                }
+            }
+        }
+        for name in self.component.names {
+            match embedded.get(name) {
+                None => {
+                    let problem = self.named(Diagnostic::new(&messages::LACKS_PATH), name);
+                    self.found.push(problem.in_file(self.q_project.path(self.component.db)));
+                }
+                Some(segments) => {
+                    for (path, segment, subpath) in segments {
+                        self.embedding(name, path, segment, subpath);
+                    }
+                }
+            }
+        }
+    }
+
+    /// PB516 where a subpath agrees with no proxy line of its path. Proxy lines that are wrong themselves are not compared with.
+    fn embedding(&mut self, name: &PathName, path: &Path, segment: &Segment, subpath: &Subpath) {
+        let proxies = self.component.proxies.get(name).into_iter().flatten();
+        let right = proxies.filter(|proxy| self.problems(proxy).is_empty());
+        let mut compared: Vec<Vec<Diagnostic>> =
+            right.map(|proxy| self.differences(name, proxy, subpath)).collect();
+        if compared.iter().any(Vec::is_empty) || compared.is_empty() {
+            return;
+        }
+        let place = |problem: Diagnostic| {
+            let problem = segment.origin.at(problem.in_path(path.name.as_str()));
+            problem.in_file(self.q_project.path(self.component.db))
+        };
+        let placed: Vec<Diagnostic> = compared.swap_remove(0).into_iter().map(place).collect();
+        self.found.extend(placed);
+    }
+
+    fn differences(&self, name: &PathName, proxy: &ProxyLine, subpath: &Subpath) -> Vec<Diagnostic> {
+        let differences = differences_from_proxy(subpath, proxy).into_iter();
+        let differing = differences.map(|it| differing(&messages::Q_VALUE_DIFFERS, it, name));
+        let mut problems: Vec<Diagnostic> = differing.collect();
+        let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
+        if (here - there).abs() > LENGTH_TOLERANCE {
+            let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).with("name", name.as_str());
+            problems.push(problem.with("here", here).with("there", there));
+        }
+        problems.into_iter().map(|problem| problem.with("drawing", self.drawing())).collect()
+    }
+
+    fn named(&self, problem: Diagnostic, name: &PathName) -> Diagnostic {
+        problem.with("name", name.as_str()).with("drawing", self.drawing())
+    }
+
+    fn drawing(&self) -> &'db str {
+        self.component.file.path(self.component.db).file_name().unwrap_or_default()
+    }
+}
+
+fn differing(
+    message: &'static Message,
+    (letter, here, there, text): Difference,
+    name: &PathName,
+) -> Diagnostic {
+    let problem = Diagnostic::new(message).with("name", name.as_str()).with("letter", letter);
+    let problem = problem.with("here", here).with("there", there);
+    match text {
+        Some(text) => problem.with_text(text),
+        None => problem,
+    }
+}
+
+/// What a proxy line says of T, O and M that its path does not.
+fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
+    let number = |letter: Letter, there: f64| {
+        let (here, fault) = proxy.value(letter)?;
+        (!is_number(here, there))
+            .then(|| (letter.as_char().to_string(), here.into(), there.into(), Some(fault)))
+    };
+    let material = || {
+        let (here, fault) = proxy.value(Letter::M)?;
+        let there = path.material.as_deref();
+        (there != Some(here)).then(|| ("M".to_owned(), here.into(), there.unwrap_or("-").into(), Some(fault)))
+    };
+    let numbers = [number(Letter::T, path.thickness), number(Letter::O, path.tool)];
+    numbers.into_iter().flatten().chain(material()).collect()
+}
+
+/// What a subpath of a Q-project says of T, O, M and variables that the proxy line does not.
+fn differences_from_proxy(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
+    let fault = |letter: char| {
+        subpath.faults.iter().find(|(known, _)| *known == letter).map(|(_, fault)| fault.clone())
+    };
+    let number = |letter: Letter, here: f64| {
+        let (there, _) = proxy.value(letter)?;
+        let letter = letter.as_char();
+        (!is_number(there, here)).then(|| (letter.to_string(), here.into(), there.into(), fault(letter)))
+    };
+    let material = || {
+        let (there, _) = proxy.value(Letter::M)?;
+        let here = subpath.material.as_deref();
+        (here != Some(there)).then(|| ("M".to_owned(), here.unwrap_or("-").into(), there.into(), fault('M')))
+    };
+    let mut differences: Vec<Difference> =
+        [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool), material()]
+            .into_iter()
+            .flatten()
+            .collect();
+    differences.extend(differing_variables(subpath, proxy));
+    differences
+}
+
+fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
+    let there: BTreeMap<char, &str> = proxy.variables().collect();
+    let here = subpath.values.iter().filter_map(|given| Some((given.variable?, given)));
+    let mut differences = Vec::new();
+    let mut given = Vec::new();
+    for (variable, value) in here {
+        given.push(variable);
+        let other = there.get(&variable).copied();
+        if other.is_none_or(|other| !is_same_value(&value.value, other)) {
+            let values = ((&*value.value).into(), other.unwrap_or("-").into());
+            differences.push((format!(":{variable}"), values.0, values.1, Some(value.text.clone())));
+        }
+    }
+    let missing = there.iter().filter(|(variable, _)| !given.contains(variable));
+    differences
+        .extend(missing.map(|(variable, value)| (format!(":{variable}"), "-".into(), (*value).into(), None)));
+    differences
+}
+
+fn is_number(text: &str, number: f64) -> bool {
+    parse_number(text).is_some_and(|written| near(written, number))
+}
+
+/// Numbers are the same with a point or a comma.
+fn is_same_value(a: &str, b: &str) -> bool {
+    a == b || parse_number(a).is_some_and(|number| is_number(b, number))
+}

@@ -1,0 +1,68 @@
+//! What a Q-project is to embed.
+
+use pathbuild_path::{Letter, Path, PathName, ProxyLine, RawPath};
+
+use super::{Component, values};
+use crate::database::Db;
+use crate::inputs::SourceFile;
+
+/// A Q-project that is to be drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct QProject {
+    /// T, O and M of its path: the greatest T of what it embeds.
+    pub parameters: String,
+    /// What it embeds, in the order of the drawing's paths.
+    pub lines: Vec<QProjectLine>,
+}
+
+/// A subpath segment that is to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QProjectLine {
+    /// From its start to its end, in mm.
+    pub length: f64,
+    /// Its text.
+    pub text: String,
+}
+
+/// The Q-project of a drawing: each path as its first proxy line says, else with its own values. Paths with errors are left out.
+#[salsa::tracked]
+pub fn q_project(db: &dyn Db, drawing: SourceFile) -> QProject {
+    let component = Component::new(db, drawing);
+    let planned: Vec<(&Path, QProjectLine)> =
+        component.names.iter().filter_map(|name| line(&component, name)).collect();
+    let Some((first, _)) = planned.first() else { return QProject::default() };
+    let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
+    let material = first.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
+    let parameters = format!("T{thickness} O{}{material}", first.tool);
+    QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
+}
+
+fn line<'db>(component: &Component<'db>, name: &PathName) -> Option<(&'db Path, QProjectLine)> {
+    let raw = component.raw(name)?;
+    let proxy = component.proxies.get(name).and_then(|proxies| proxies.first().copied());
+    let path = component.path(name, proxy)?;
+    Some((path, QProjectLine { length: (path.end - path.start).norm(), text: text(raw, path, proxy) }))
+}
+
+/// The text of a proxy line, and what it leaves open.
+fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
+    let mut pieces = vec![format!(">{}", path.name)];
+    if let Some(proxy) = proxy {
+        let others =
+            proxy.text.pieces().iter().filter_map(|piece| Some((piece.letter?, proxy.text.value(piece))));
+        let others = others.filter(|(letter, value)| {
+            !matches!(letter, Letter::Embed | Letter::Variable) && !value.contains('=')
+        });
+        pieces.extend(others.map(|(letter, value)| format!("{}{value}", letter.as_char())));
+    }
+    let is_open = |letter| proxy.is_none_or(|proxy| proxy.value(letter).is_none());
+    let own = [
+        path.material.as_ref().map(|material| (Letter::M, material.to_string())),
+        Some((Letter::T, path.thickness.to_string())),
+        Some((Letter::O, path.tool.to_string())),
+    ];
+    let own = own.into_iter().flatten().filter(|(letter, _)| is_open(*letter));
+    pieces.extend(own.map(|(letter, value)| format!("{}{value}", letter.as_char())));
+    pieces.extend(values(raw, proxy).iter().map(|(variable, value)| format!(":{variable}{value}")));
+    pieces.join(" ")
+}

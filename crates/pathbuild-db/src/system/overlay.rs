@@ -1,0 +1,77 @@
+//! A system with one file more, or with other bytes in it: what would be, were it written.
+
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::{Entry, Kind, ReadError, System, Written};
+
+/// Another system, with this file in it. Only reading is as if it were there.
+#[derive(Debug)]
+pub struct Overlay {
+    below: Arc<dyn System>,
+    path: Utf8PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Overlay {
+    /// A system with these bytes under this path, which must be normalised.
+    pub fn new(below: Arc<dyn System>, path: Utf8PathBuf, bytes: Vec<u8>) -> Self {
+        Self { below, path, bytes }
+    }
+
+    fn directory(&self) -> &Utf8Path {
+        self.path.parent().unwrap_or(Utf8Path::new(""))
+    }
+}
+
+impl System for Overlay {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let size = self.bytes.len() as u64;
+        match path == self.path {
+            true if size > limit => Err(ReadError::TooLarge { size }),
+            true => Ok(self.bytes.clone()),
+            false => self.below.read(path, limit),
+        }
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        if path == self.path {
+            return Ok(self.bytes[..length.min(self.bytes.len())].to_vec());
+        }
+        self.below.head(path, length)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        self.below.modified(path)
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+        let listed = self.below.list(directory);
+        let Some(name) = self.path.file_name().filter(|_| directory == self.directory()) else {
+            return listed;
+        };
+        let mut entries = listed.unwrap_or_default();
+        if !entries.iter().any(|entry| &*entry.name == name) {
+            entries.push(Entry { name: name.into(), is_directory: false });
+        }
+        Ok(entries)
+    }
+
+    fn kind(&self, path: &Utf8Path) -> Kind {
+        if path == self.path { Kind::File } else { self.below.kind(path) }
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        self.below.canonical(path)
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+        self.below.write(path, bytes)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+        self.below.remove(path)
+    }
+}

@@ -1,0 +1,112 @@
+//! Proxy lines: drawn beside a component's path, to be copied into projects. (spec/20-paths-and-files.md, "Q-projects")
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::{ElementId, TextFault};
+use pathbuild_dxf::{Drawing, Entity, Geometry};
+
+use super::collect::{Owner, plane_arc, xy};
+use super::texts::Texts;
+use crate::assign::Candidate;
+use crate::element::{Origin, Shape, shown};
+use crate::geometry::{Curve, Line};
+use crate::letter::Letter;
+use crate::line_type::LineType;
+use crate::name::PathName;
+use crate::raw::{Language, Position};
+use crate::text::{ParameterText, Piece};
+
+/// A DASHDOT line or arc with a subpath's text, on a layer that is no path layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProxyLine {
+    /// The line or arc. Its number is no path's: see `position`.
+    pub origin: Origin,
+    /// Where it is in the file.
+    pub position: Position,
+    /// What is drawn.
+    pub curve: Curve,
+    /// The text, which has a `>`.
+    pub text: ParameterText,
+}
+
+impl ProxyLine {
+    /// The path that it stands for; `None` when there is no path name after `>`.
+    pub fn name(&self, language: &Language) -> Option<PathName> {
+        let (value, _) = self.value(Letter::Embed)?;
+        language.path_pattern.find(value).map(|(name, _)| name)
+    }
+
+    /// What it says of a letter. A value that refers to variables of whoever copies it says nothing.
+    pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
+        let piece = self.text.piece(letter)?;
+        self.known(piece)
+    }
+
+    /// The values that it sets, by variable.
+    pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
+        let pieces = self.text.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
+        pieces.filter_map(|piece| {
+            let mut value = self.known(piece)?.0.chars();
+            Some((value.next()?, value.as_str()))
+        })
+    }
+
+    fn known(&self, piece: &Piece) -> Option<(&str, TextFault)> {
+        let value = self.text.value(piece);
+        (!value.contains('=')).then(|| (value, self.text.fault(piece)))
+    }
+}
+
+/// The proxy lines of a drawing, of which all layers are there, in file order. Other texts and lines beside them are not looked at.
+pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
+    let is_path: Vec<bool> =
+        drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name).is_some()).collect();
+    let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
+    for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
+        if is_path[entity.layer as usize] {
+            continue;
+        }
+        let layer = &*drawing.layers[entity.layer as usize].name;
+        let origin = |point| Origin { id, entity: entity.kind, layer: layer.into(), point: shown(point) };
+        match &entity.geometry {
+            Geometry::Text(text) if is_subpath(&text.string) => {
+                texts.add_text(text, entity.layer, origin(xy(text.anchor)));
+            }
+            Geometry::MText(text) if is_subpath(&text.plain) => {
+                texts.add_mtext(text, entity.layer, origin(xy(text.anchor)));
+            }
+            _ => {
+                let Some(curve) = dash_dotted(entity, language) else { continue };
+                let shape = Shape::Curve(curve);
+                let candidate = Candidate { id, shape, group: entity.group, is_taken: false };
+                texts.add_candidate(entity.layer, layer, candidate, Owner::Faulty);
+                curves.insert(id, (origin(curve.start()), curve));
+            }
+        }
+    }
+    let with_text = texts.matched().into_iter().filter_map(|found| {
+        let (id, _) = found.owners.first()?;
+        let (origin, curve) = curves.remove(id)?;
+        let at = drawing.origins.get(id.0 as usize)?;
+        let position = Position { line: at.line, handle: at.handle };
+        Some(ProxyLine { origin, position, curve, text: ParameterText::new(&found.string) })
+    });
+    let mut lines: Vec<ProxyLine> = with_text.collect();
+    lines.sort_by_key(|line| line.origin.id);
+    lines
+}
+
+fn is_subpath(text: &str) -> bool {
+    ParameterText::new(text).piece(Letter::Embed).is_some()
+}
+
+fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {
+    if LineType::of(&entity.line_type, &language.line_types) != Some(LineType::Dashdot) {
+        return None;
+    }
+    match &entity.geometry {
+        Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
+        Geometry::Arc(arc) => Some(Curve::Arc(plane_arc(arc))),
+        _ => None,
+    }
+}

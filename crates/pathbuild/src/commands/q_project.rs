@@ -1,0 +1,139 @@
+//! `pathbuild q-project`: writes a drawing that embeds every path of another. (spec/20-paths-and-files.md, "Q-projects")
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Written;
+use pathbuild_db::{Db, QProject, Role, Settings, SourceFile, check_file, path_names, q_project};
+use pathbuild_diagnostic::messages::{files, outputs};
+use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_path::PathName;
+
+use crate::args::QProjectArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::session::Session;
+
+/// Runs the command. Nothing is written where the drawing is not in order, or what would be written would not be.
+pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
+    let session = Session::new(context);
+    let drawing = session.file(&args.drawing);
+    let name = match path_name(&session, drawing, args.path_name.as_deref()) {
+        Ok(name) => name,
+        Err(reason) => return context.usage(&reason),
+    };
+    let output = session.normal(args.output.as_deref().unwrap_or(&beside(&args.drawing)));
+    if output == *drawing.path(session.db()) {
+        return context.usage("the Q-project would be written over its own drawing");
+    }
+    match drawn(context, &session, drawing, &output, &name) {
+        Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
+        Err(problems) => {
+            let findings = context.findings(session.with_elsewhere(problems));
+            context.show(&findings);
+            ExitStatus::Errors
+        }
+    }
+}
+
+/// `NAME_Q.dxf` beside `NAME.dxf`.
+fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
+    drawing.with_file_name(format!("{}_Q.dxf", drawing.file_stem().unwrap_or_default()))
+}
+
+/// The name of the Q-project's path: the one that was given, or the drawing's first number with `.0Q`.
+fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) -> Result<PathName, String> {
+    let name = given.map_or_else(|| default_name(drawing.path(session.db())), str::to_owned);
+    let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
+    if !pattern.matches(&name) {
+        let pattern = pattern.as_str();
+        return Err(format!("{name:?} is no path name: give one that matches {pattern} with --path-name"));
+    }
+    let name = PathName::new(&name);
+    if path_names(session.db(), drawing).contains(&name) {
+        return Err(format!("{name} is a path of the drawing itself: give another name with --path-name"));
+    }
+    Ok(name)
+}
+
+/// The first number in the drawing's name with `.0Q`.
+fn default_name(drawing: &Utf8Path) -> String {
+    let stem = drawing.file_stem().unwrap_or_default();
+    let is_digit = |character: char| character.is_ascii_digit();
+    let number = stem.trim_start_matches(|character| !is_digit(character));
+    let end = number.find(|character| !is_digit(character)).unwrap_or(number.len());
+    format!("{}.0Q", &number[..end])
+}
+
+/// The Q-project as DXF, and how many paths it embeds.
+fn drawn(
+    context: &Context,
+    session: &Session<'_>,
+    drawing: SourceFile,
+    output: &Utf8Path,
+    name: &PathName,
+) -> Result<(Vec<u8>, usize), Vec<Diagnostic>> {
+    let problems = faults(session, drawing);
+    if problems.iter().any(Diagnostic::is_error) {
+        return Err(problems);
+    }
+    let planned = q_project(session.db(), drawing);
+    let bytes = dxf(planned, name).map_err(|reason| {
+        let problem = Diagnostic::new(&files::CANNOT_WRITE)
+            .with("name", output.file_name().unwrap_or_default())
+            .with("reason", reason);
+        vec![problem.in_file(drawing.path(session.db()))]
+    })?;
+    let as_if = Session::with_drawing(context, output, bytes.clone());
+    let (there, written) = (as_if.file(drawing.path(session.db())), as_if.file(output));
+    let mut problems = faults(&as_if, written);
+    problems.extend_from_slice(pathbuild_db::q_project_findings(as_if.db(), there, written));
+    let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
+    if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, planned.lines.len())) }
+}
+
+/// What is wrong with a drawing and all its paths; that it has none, too.
+fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
+    let db = session.db();
+    let mut problems = check_file(db, drawing).to_vec();
+    let targets = session.targets(drawing, &Role::Checked);
+    if targets.is_empty() && problems.is_empty() {
+        let pattern = Settings::get(db).language(db).path_pattern.as_str();
+        problems.push(Diagnostic::new(&outputs::NO_PATH).with("pattern", pattern).in_file(drawing.path(db)));
+    }
+    problems.extend(session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics));
+    problems
+}
+
+fn dxf(planned: &QProject, name: &PathName) -> Result<Vec<u8>, String> {
+    let segments: Vec<(f64, &str)> =
+        planned.lines.iter().map(|line| (line.length, line.text.as_str())).collect();
+    let sheet = pathbuild_draw::q_project(name.as_str(), &planned.parameters, &segments);
+    let reasons = |errors: Vec<pathbuild_draw::DrawError>| {
+        errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    Ok(sheet.map_err(reasons)?.to_dxf())
+}
+
+fn write(
+    context: &Context,
+    session: &Session<'_>,
+    output: &Utf8Path,
+    bytes: &[u8],
+    count: usize,
+) -> ExitStatus {
+    let state = match session.db().system().write(output, bytes) {
+        Ok(Written::Changed) => context.choose("written", "geschrieben"),
+        Ok(Written::Unchanged) => context.choose("unchanged", "unverändert"),
+        Err(reason) => {
+            let problem = Diagnostic::new(&files::CANNOT_WRITE)
+                .with("name", output.file_name().unwrap_or_default())
+                .with("reason", &*reason);
+            return context.fail(vec![problem.in_file(output)]);
+        }
+    };
+    let paths = match count {
+        1 => context.choose("path", "Pfad"),
+        _ => context.choose("paths", "Pfade"),
+    };
+    context.printer.status(format_args!("{output}: {state}, {count} {paths}"));
+    ExitStatus::Success
+}
