@@ -256,6 +256,21 @@ fn gcode_of_the_original_tool_is_current() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// Moved over and then changed, a drawing is told from its G-code: by the line of the program where it begins.
+#[test]
+fn a_changed_drawing_is_not_current() {
+    let cases = support::project().join("fixtures/conformance/cases");
+    let runs = recorded::runs(&[cases]);
+    let run = runs.iter().find(|run| run.case.ends_with("line") && run.number == 0).unwrap();
+    let What::Compile(arguments) = &run.what else { panic!("{run} compiles nothing") };
+    let place = with_expected_files(run);
+    assert_eq!(check_moves(&place, arguments).status, Some(0));
+    let drawing = place.read("1234.1P.dxf");
+    assert!(drawing.contains(" B-0,2 "));
+    let place = place.file("1234.1P.dxf", drawing.replace(" B-0,2 ", " B-0,25 "));
+    assert_snapshot!(check_moves(&place, arguments));
+}
+
 /// What the original tool wrote in a run that ended well.
 fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     let folder = run.case.join("expected").join(run.number.to_string());
@@ -268,6 +283,20 @@ fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
 /// What is wrong about comparing a run's outputs with what the original tool wrote.
 fn fault(run: &Run) -> Option<String> {
     let What::Compile(arguments) = &run.what else { return None };
+    let place = with_expected_files(run);
+    let before = files(&place);
+    let checked = check_moves(&place, arguments);
+    let is_right = checked.status == Some(0) && files(&place) == before;
+    (!is_right).then(|| format!("{run} is not current, or was changed:\n{checked}"))
+}
+
+fn check_moves(place: &Place, arguments: &[String]) -> support::Run {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    place.run_with(&[&["emit", "--check", "--moves"], &arguments[1..]].concat())
+}
+
+/// A case's drawings, and beside them what the original tool wrote.
+fn with_expected_files(run: &Run) -> Place {
     let sources = fs::read_dir(&run.case).unwrap().map(|entry| entry.unwrap().path());
     let mut place = Place::new();
     for source in sources.filter(|path| path.file_name().is_some_and(|name| name != "expected")) {
@@ -276,14 +305,10 @@ fn fault(run: &Run) -> Option<String> {
     for (name, content) in expected_files(run) {
         place = place.file(&name, content);
     }
-    let before = files(&place);
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let checked = place.run_with(&[&["emit", "--check", "--moves"], &arguments[1..]].concat());
-    let is_right = checked.status == Some(0) && files(&place) == before;
-    (!is_right).then(|| format!("{run} is not current, or was changed:\n{checked}"))
+    place
 }
 
-fn with_source(mut place: Place, source: &std::path::Path, below: &str) -> Place {
+fn with_source(mut place: Place, source: &Path, below: &str) -> Place {
     let name = format!("{below}{}", source.file_name().unwrap().to_str().unwrap());
     if !source.is_dir() {
         return place.file(&name, fs::read(source).unwrap());

@@ -4,15 +4,16 @@ use pathbuild_path::approx::{above, at_least, coincide, near};
 use pathbuild_path::{Chain, ChainSegment, Curve, Cut};
 
 use crate::bars::BarPlan;
-use crate::fold::{Fold, Parts, Place, Tip, distance};
+use crate::fold::{Fold, Parts, Place, Tip};
 use crate::mill::Section;
+use crate::nearest::OpenEdges;
 use crate::program::ElementKind;
 
 /// A segment of the chain, placed, with the depths of its edges from top to bottom.
-struct Strand<'a> {
+pub(crate) struct Strand<'a> {
     segment: &'a ChainSegment,
-    curve: Curve,
-    depths: Vec<f64>,
+    pub(crate) curve: Curve,
+    pub(crate) depths: Vec<f64>,
     /// h + B, or h + D of a mark.
     bottom: f64,
     /// h + D and where the bars are, for segments with bars; no plan where nothing goes below D.
@@ -22,10 +23,10 @@ struct Strand<'a> {
 
 /// An edge to run: a strand at one of its depths, from its start or from its end.
 #[derive(Clone, Copy)]
-struct Run {
-    strand: usize,
-    edge: usize,
-    is_backwards: bool,
+pub(crate) struct Run {
+    pub(crate) strand: usize,
+    pub(crate) edge: usize,
+    pub(crate) is_backwards: bool,
 }
 
 impl<P: Parts> Fold<'_, P> {
@@ -67,12 +68,11 @@ impl<P: Parts> Fold<'_, P> {
 
     /// Edges in the order of the nearest end, each after the one above it.
     fn pass_by_pass(&mut self, place: &Place<'_>, strands: &[Strand<'_>]) {
-        let mut done = vec![0; strands.len()];
+        let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
         let mut last_pass = None;
-        while let Some(run) = nearest(strands, &done, tip) {
+        while let Some(run) = open.take_nearest(tip) {
             self.checkpoint();
-            done[run.strand] += 1;
             let strand = &strands[run.strand];
             let z = strand.depths[run.edge];
             if last_pass != Some(run.edge) {
@@ -175,20 +175,4 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
         depths.push(bottom);
     }
     depths
-}
-
-/// The next edge: of those whose edge above is done, the one with an end nearest to the tip; the first on a tie.
-fn nearest(strands: &[Strand<'_>], done: &[usize], tip: Tip) -> Option<Run> {
-    let mut best: Option<(f64, Run)> = None;
-    for (index, strand) in strands.iter().enumerate() {
-        let Some(z) = strand.depths.get(done[index]) else { continue };
-        let to = |at| distance(tip, Tip { at, z: *z });
-        let (to_start, to_end) = (to(strand.curve.start()), to(strand.curve.end()));
-        let is_backwards = !above(to_end, to_start);
-        let least = if is_backwards { to_end } else { to_start };
-        if best.is_none_or(|(nearest, _)| above(nearest, least)) {
-            best = Some((least, Run { strand: index, edge: done[index], is_backwards }));
-        }
-    }
-    best.map(|(_, run)| run)
 }

@@ -10,6 +10,7 @@ mod cost;
 mod fold;
 mod helix;
 mod mill;
+mod nearest;
 mod pieces;
 mod probes;
 mod program;

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind};
 use pathbuild_dxf::{MText, Text};
 
 use super::collect::{Owner, candidate_word};
-use crate::assign::{Candidate, find, nearest_miss};
+use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, shown};
 use crate::raw::RawPath;
 use crate::text::{ParameterText, without_percent_codes};
@@ -23,6 +23,8 @@ pub(crate) struct Texts {
 struct LayerTexts {
     name: Box<str>,
     candidates: Vec<Candidate>,
+    /// Where they lie, once all are there.
+    boxes: Boxes,
     owners: Vec<Owner>,
     texts: Vec<FoundText>,
 }
@@ -115,12 +117,13 @@ impl LayerTexts {
 
     /// All TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
     fn matched(&mut self) -> Vec<(FoundText, Vec<usize>)> {
+        self.boxes = Boxes::new(&self.candidates);
         let mut texts = std::mem::take(&mut self.texts);
         texts.sort_by_key(|text| text.origin.entity == EntityKind::MText);
         let mut matched = Vec::with_capacity(texts.len());
         for text in texts {
-            let owners =
-                find(&text.circle, &self.candidates).map_or_else(Vec::new, |index| self.parts(index));
+            let owners = find(&text.circle, &self.candidates, &self.boxes)
+                .map_or_else(Vec::new, |index| self.parts(index));
             for owner in &owners {
                 self.candidates[*owner].is_taken = true;
             }
@@ -134,7 +137,10 @@ impl LayerTexts {
         match self.candidates[index].group {
             None => vec![index],
             group => {
-                (0..self.candidates.len()).filter(|other| self.candidates[*other].group == group).collect()
+                // They were read one after the other.
+                let is_part = |other: &usize| self.candidates[*other].group == group;
+                let before = (0..index).rev().take_while(is_part).last().unwrap_or(index);
+                (before..self.candidates.len()).take_while(is_part).collect()
             }
         }
     }
@@ -166,7 +172,7 @@ impl LayerTexts {
             .with("centre", shown(text.circle.centre))
             .with("diameter", 2.0 * text.circle.radius)
             .with_text(ParameterText::new(&text.string).whole());
-        if let Some(miss) = nearest_miss(&text.circle, &self.candidates) {
+        if let Some(miss) = nearest_miss(&text.circle, &self.candidates, &self.boxes) {
             let shape = &self.candidates[miss.candidate].shape;
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,
@@ -182,7 +188,7 @@ impl LayerTexts {
 
     /// Notes that a text would have found its element, had it been on this layer.
     fn would_take(&self, text: &FoundText, diagnostic: Diagnostic) -> Diagnostic {
-        let Some(index) = find(&text.circle, &self.candidates) else { return diagnostic };
+        let Some(index) = find(&text.circle, &self.candidates, &self.boxes) else { return diagnostic };
         let shape = &self.candidates[index].shape;
         diagnostic.note(
             &messages::ELEMENT_ON_OTHER_LAYER,

@@ -75,8 +75,10 @@ impl Walk<'_> {
 
     /// A segment drawn twice is left over, and looks just like the one that was traversed.
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
+        let segments = &self.path.segments;
         let duplicate = self.open().find(|open| {
-            self.steps.iter().any(|step| is_same_curve(open, &self.path.segments[step.segment]))
+            let mut beside = self.ends.near(open.start(), segments);
+            beside.any(|other| self.is_traversed[other] && is_same_curve(open, &segments[other]))
         });
         let Some(segment) = duplicate else { return problem };
         problem.note(

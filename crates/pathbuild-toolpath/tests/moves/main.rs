@@ -10,6 +10,7 @@ mod chains;
 mod helices;
 mod holes;
 mod merging;
+mod nearest;
 mod probes;
 mod statistics;
 mod subpaths;
