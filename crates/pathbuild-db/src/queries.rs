@@ -18,17 +18,19 @@ mod raw;
 mod reach;
 mod report;
 mod texts;
+mod traces;
 
 pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
 pub use joined::program;
-pub use lookup::{Found, files_for, find_path, holders, name_table};
+pub use lookup::{Found, drawing_names, files_for, find_path, holders, name_table};
 pub use q_projects::{QProject, QProjectLine, q_project, q_project_findings};
 pub use raw::{NameKey, PathPlace, content_hash, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
 pub use texts::assigned_texts;
+pub use traces::{Sought, Trace, trace};
 
 pub(crate) use raw::internal_error;

@@ -57,6 +57,11 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     NameTable { names, ranges: RangeTable::new(ranges) }
 }
 
+/// The names of the drawings in a directory, as its name ranges were read from them.
+pub fn drawing_names(db: &dyn Db, directory: Directory) -> &[Box<str>] {
+    &name_table(db, directory).names
+}
+
 /// The files of a directory that may hold a path by their names: unchanged by files that cannot.
 #[salsa::tracked]
 pub fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {

@@ -83,7 +83,6 @@ pub enum Command {
     /// Write a Q-project: a drawing that embeds every path of another
     QProject(QProjectArgs),
     /// Manage the results kept between runs
-    #[command(hide = true)]
     Cache(CacheArgs),
     /// Print the page on a diagnostic code; without a code, list them
     Explain(ExplainArgs),

@@ -1,6 +1,7 @@
 //! One module for each command: `run(&Context, &Args) -> ExitStatus`.
 
 pub mod adjust;
+pub mod cache;
 pub mod check;
 pub(crate) mod compat;
 pub mod completions;
@@ -47,6 +48,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Where(args) => locate::run(context, args),
         Command::Texts(args) => texts::run(context, args),
         Command::QProject(args) => q_project::run(context, args),
+        Command::Cache(args) => cache::run(context, args),
         Command::Init => init::run(context),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),

@@ -3,6 +3,7 @@
 mod combinations;
 mod elsewhere;
 mod graph;
+mod keeper;
 mod library;
 mod outputs;
 mod provenance;
@@ -21,8 +22,10 @@ use pathbuild_db::{Database, Db, SourceFile};
 use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
+pub use keeper::{BUILD, DrawingResult, Keeper, Made, Programs};
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
+pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Wanted, WantedPath};
 pub use work::{CheckedTarget, Emitted};
 
@@ -31,6 +34,8 @@ pub use work::{CheckedTarget, Emitted};
 pub struct Session<'a> {
     db: Database,
     context: &'a Context,
+    /// Whether it is noted what targets were made from.
+    is_traced: bool,
 }
 
 impl<'a> Session<'a> {
@@ -44,6 +49,11 @@ impl<'a> Session<'a> {
         Self::over(context, true, Arc::new(OsSystem))
     }
 
+    /// A session whose results may be kept for later runs: what they were made from is noted.
+    pub fn traced(context: &'a Context) -> Self {
+        Self { is_traced: true, ..Self::over(context, true, Arc::new(OsSystem)) }
+    }
+
     /// A session in which a drawing is there that has not been written yet.
     pub fn with_drawing(context: &'a Context, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
@@ -53,7 +63,7 @@ impl<'a> Session<'a> {
     fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
-        Self { db, context }
+        Self { db, context, is_traced: false }
     }
 
     /// The database.

@@ -66,6 +66,30 @@ impl Session<'_> {
         wanted
     }
 
+    /// The drawings that arguments mean, if all of them are directories; without arguments, those of the library.
+    pub fn directories_only(&self, inputs: &Inputs) -> Option<Vec<Utf8PathBuf>> {
+        let directory = |input| match input {
+            Input::Place(place) if self.is_directory(place) && !library::is_drawing(place) => {
+                Some(self.normal(place))
+            }
+            _ => None,
+        };
+        let directories: Vec<Utf8PathBuf> = if inputs.inputs.is_empty() {
+            self.context
+                .settings
+                .general
+                .library
+                .value
+                .iter()
+                .map(|directory| self.normal(directory))
+                .collect()
+        } else {
+            inputs.iter().map(directory).collect::<Option<_>>()?
+        };
+        let drawings = directories.iter().flat_map(|directory| library::drawings(directory));
+        Some(drawings.map(|drawing| self.normal(&drawing)).collect())
+    }
+
     /// Whether the configuration says what to do without arguments.
     pub fn has_library(&self) -> bool {
         !self.context.settings.general.library.value.is_empty()

@@ -1,7 +1,8 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
 use pathbuild_db::{
-    Closure, Database, MissingOption, Reached, Role, SourceFile, Target, closure, locate, path, path_names,
+    Closure, Database, MissingOption, Reached, Role, SourceFile, Target, Trace, closure, locate, path,
+    path_names, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use rayon::prelude::*;
@@ -22,6 +23,8 @@ pub struct CheckedTarget {
     pub missing_options: Vec<MissingOption>,
     /// What it becomes, where nothing is wrong.
     pub emitted: Option<Emitted>,
+    /// Everything that it was made from, in a session that notes it.
+    pub trace: Option<Trace>,
 }
 
 /// What is known of a program before it is made.
@@ -59,7 +62,8 @@ impl Session<'_> {
 
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        let results = self.guarded(targets, |db, target| check(db, *target));
+        let is_traced = self.is_traced;
+        let results = self.guarded(targets, |db, target| check(db, *target, is_traced));
         let given_up = |(result, target): (Result<_, Box<Diagnostic>>, &Target)| {
             result.unwrap_or_else(|problem| given_up(&self.db, *target, *problem))
         };
@@ -115,10 +119,11 @@ fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget
         files: vec![file],
         missing_options: Vec::new(),
         emitted: None,
+        trace: None,
     }
 }
 
-fn check(db: &Database, target: Target) -> CheckedTarget {
+fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {
     let reached = closure(db, target);
     let located = reached.diagnostics.iter().map(|diagnostic| locate(db, diagnostic.clone()));
     CheckedTarget {
@@ -127,6 +132,7 @@ fn check(db: &Database, target: Target) -> CheckedTarget {
         files: reached.files(db),
         missing_options: reached.missing_options.clone(),
         emitted: emitted(db, reached),
+        trace: is_traced.then(|| trace(db, target).clone()),
     }
 }
 

@@ -1,5 +1,7 @@
 //! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
 
+mod kept;
+
 use std::collections::{HashMap, HashSet};
 use std::time::Instant;
 
@@ -10,16 +12,38 @@ use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
-use crate::session::{CheckedTarget, Session, Wanted};
+use crate::session::{CheckedTarget, Keeper, Session, Wanted};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
-    let session = Session::new(context);
+    let session = Session::traced(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("check");
     }
-    let mut checked = check(&session, session.wanted(&args.inputs), args.all_bindings);
+    if let Some(drawings) = session.directories_only(&args.inputs)
+        && let Some(keeper) = Keeper::open(context, &session, &question(args))
+    {
+        let checked = kept::check(context, &session, &keeper, drawings, args.all_bindings);
+        return finish(context, args, &session, checked, begun);
+    }
+    let session = Session::new(context);
+    let checked = check(&session, session.wanted(&args.inputs), args.all_bindings);
+    finish(context, args, &session, checked, begun)
+}
+
+/// What is asked of the drawings, for telling results of other runs apart.
+fn question(args: &CheckArgs) -> String {
+    format!("check {} {:?}", args.all_bindings, args.inputs.inputs)
+}
+
+fn finish(
+    context: &Context,
+    args: &CheckArgs,
+    session: &Session<'_>,
+    mut checked: Checked,
+    begun: Instant,
+) -> ExitStatus {
     checked.diagnostics = session.with_elsewhere(checked.diagnostics);
     checked.time = begun.elapsed();
     conclude(context, args, checked)

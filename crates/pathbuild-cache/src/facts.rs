@@ -1,0 +1,88 @@
+//! What a kept result was made from.
+
+use camino::Utf8PathBuf;
+
+use crate::stamp::Stamp;
+
+/// Results with everything that they were made from. Files and directories that several were made from are in it once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Catalogue {
+    /// Every file that was read.
+    pub files: Vec<FileFact>,
+    /// Every directory that was listed.
+    pub directories: Vec<DirectoryFact>,
+    /// The results.
+    pub records: Vec<Record>,
+}
+
+/// A file as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileFact {
+    /// As the run spelt it.
+    pub path: Utf8PathBuf,
+    /// What the system said of it.
+    pub stamp: Stamp,
+    /// The blake3 hash of its bytes; `None` where it could not be read.
+    pub hash: Option<[u8; 32]>,
+}
+
+/// A directory as it was listed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectoryFact {
+    /// As the run spelt it.
+    pub path: Utf8PathBuf,
+    /// Which of its names count.
+    pub kind: ListingKind,
+    /// Those names, sorted.
+    pub names: Vec<Box<str>>,
+    /// Where it really is, relative to the configuration where it lies below it: links on the way to it decide whether two files are one.
+    pub canonical: Box<str>,
+    /// Whether what is asked of it is asked again in any case: there are links among the names, or they changed while they were read.
+    pub is_doubtful: bool,
+}
+
+/// Which names of a directory count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ListingKind {
+    /// Those of drawings.
+    Drawings,
+    /// Those of programs.
+    Programs,
+}
+
+/// A result.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// What it is of: a drawing, mostly. No two are of the same.
+    pub of: Box<str>,
+    /// The files that it was made from, by their numbers.
+    pub files: Vec<u32>,
+    /// What was looked for.
+    pub lookups: Vec<Lookup>,
+    /// The result itself, which only its maker can read.
+    pub payload: Vec<u8>,
+}
+
+/// A question to a directory: which of its names may hold this path?
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Lookup {
+    /// The directory's number.
+    pub directory: u32,
+    /// The path's name; empty for all names that count.
+    pub name: Box<str>,
+}
+
+impl ListingKind {
+    /// Whether a name counts.
+    pub fn counts(self, name: &str) -> bool {
+        let extension = match self {
+            Self::Drawings => "dxf",
+            Self::Programs => "gcode",
+        };
+        let stem = name.len().checked_sub(extension.len() + 1).filter(|stem| *stem > 0);
+        stem.is_some_and(|stem| {
+            let bytes = name.as_bytes();
+            bytes[stem] == b'.' && bytes[stem + 1..].eq_ignore_ascii_case(extension.as_bytes())
+        })
+    }
+}

@@ -1,0 +1,22 @@
+//! Results that outlive a process. A result is kept with everything that it was made from: the files that were read, and the names that were
+//! looked for in directories, found or not. A later run takes it if all of that is as it was (a *verifying trace*), and makes it anew
+//! otherwise. Whether a file is as it was is told by its stamp, as Git does it; only where that is in doubt is the file read and hashed.
+//!
+//! Rules: a kept result may be missing, but never wrong. What is damaged, of another build or of another format is not used, and replaced. A run
+//! never fails because of the cache. Everything in it can be deleted at any time. (spec/06-configuration.md: no configuration, no cache)
+
+mod codec;
+mod facts;
+mod findings;
+mod format;
+mod place;
+mod stamp;
+mod verify;
+
+pub use codec::{Corrupt, Decoder, Encoder};
+pub use facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
+pub use findings::{decode_diagnostic, encode_diagnostic};
+pub use format::{Key, Unusable};
+pub use place::{Entry, Place};
+pub use stamp::{Clock, Stamp};
+pub use verify::{Covers, FileState, Verdict, verify};

@@ -1,0 +1,67 @@
+//! What a target was made from: by which a driver knows after an edit which targets to ask again, and a cache whether a result still holds.
+
+use camino::Utf8PathBuf;
+use pathbuild_path::{PathName, SegmentKind, SubpathName};
+
+use super::instance::{Instance, path};
+use super::lookup::find_path;
+use super::raw::NameKey;
+use super::reach::closure;
+use crate::database::Db;
+use crate::inputs::{SourceFile, Target};
+
+/// Everything outside that a target depends on, besides the settings.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// The drawings that were read, its own first: those that it reaches, and those that were searched in vain.
+    pub files: Vec<SourceFile>,
+    /// The paths that were looked for by name, each with the directories that were asked for files that may hold it.
+    pub lookups: Vec<Sought>,
+}
+
+/// A path that was looked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sought {
+    /// The path.
+    pub name: PathName,
+    /// The directories.
+    pub directories: Vec<Utf8PathBuf>,
+}
+
+/// The trace of a target. An edit outside it does not change what comes of the target.
+#[salsa::tracked]
+pub fn trace(db: &dyn Db, target: Target) -> Trace {
+    let mut trace = Trace { files: vec![target.file(db)], lookups: Vec::new() };
+    for reached in &closure(db, target).reached {
+        trace.add(db, reached.instance);
+    }
+    trace
+}
+
+impl Trace {
+    fn add(&mut self, db: &dyn Db, instance: Instance<'_>) {
+        let from = instance.file(db);
+        self.add_file(from);
+        let Some(path) = &path(db, instance).path else { return };
+        for segment in &path.segments {
+            let SegmentKind::Subpath(subpath) = &segment.kind else { continue };
+            let SubpathName::Found { name, .. } = &subpath.name else { continue };
+            let found = find_path(db, from, NameKey::of(db, name));
+            for file in &found.searched {
+                self.add_file(*file);
+            }
+            if !found.directories.is_empty() {
+                let sought = Sought { name: name.clone(), directories: found.directories.clone() };
+                if !self.lookups.contains(&sought) {
+                    self.lookups.push(sought);
+                }
+            }
+        }
+    }
+
+    fn add_file(&mut self, file: SourceFile) {
+        if !self.files.contains(&file) {
+            self.files.push(file);
+        }
+    }
+}

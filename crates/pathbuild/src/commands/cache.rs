@@ -1,0 +1,71 @@
+//! `pathbuild cache`: what is kept between runs. (spec/06-configuration.md)
+
+use std::io;
+
+use pathbuild_cache::{Entry, Key, Place, Unusable};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files;
+
+use crate::args::{CacheArgs, CacheCommand};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::session::BUILD;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
+    let Some(directory) = context.settings.directory() else {
+        return context.usage("there is no pathbuild.toml here or above, and without one nothing is kept");
+    };
+    let place = Place::beside(directory);
+    let build = Key::new(BUILD, "");
+    match args.command {
+        CacheCommand::Dir => context.printer.result(format_args!("{}\n", place.directory())),
+        CacheCommand::Size => {
+            let size: u64 = place.entries(&build).iter().map(|entry| entry.size).sum();
+            context.printer.result(format_args!("{size} {}\n", context.choose("bytes", "Bytes")));
+        }
+        CacheCommand::Prune => return report(context, &place, place.prune(&build)),
+        CacheCommand::Clean => {
+            let cleaned = place.clean().map(usize::from);
+            return report(context, &place, cleaned);
+        }
+        CacheCommand::Verify => return verify(context, &place.entries(&build)),
+    }
+    ExitStatus::Success
+}
+
+/// Says how much was removed.
+fn report(context: &Context, place: &Place, removed: io::Result<usize>) -> ExitStatus {
+    match removed {
+        Ok(count) => {
+            context.printer.status(format_args!("{}: {count}", context.choose("removed", "entfernt")));
+            ExitStatus::Success
+        }
+        Err(reason) => {
+            let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", place.directory().as_str());
+            context.fail(vec![problem.with("reason", reason.to_string())])
+        }
+    }
+}
+
+/// Says of each file whether it is whole. One of another build is: it is only not for this one.
+fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
+    let mut is_whole = true;
+    for Entry { path, size, fault } in entries {
+        let state = match fault {
+            None => context.choose("whole", "unversehrt"),
+            Some(Unusable::Foreign) => {
+                context.choose("of another build", "von einer anderen Programmfassung")
+            }
+            Some(Unusable::Damaged) => {
+                is_whole = false;
+                context.choose("damaged", "beschädigt")
+            }
+        };
+        let name = path.file_name().unwrap_or_default();
+        context
+            .printer
+            .result(format_args!("{name}: {state}, {size} {}\n", context.choose("bytes", "Bytes")));
+    }
+    if is_whole { ExitStatus::Success } else { ExitStatus::Errors }
+}

@@ -1,0 +1,147 @@
+//! Checking directories with what earlier runs found: only drawings whose results no longer hold are checked.
+
+use std::collections::HashMap;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{Db, Role, SourceFile, Target, Trace, check_file, path_names};
+use pathbuild_diagnostic::Diagnostic;
+
+use crate::context::Context;
+use crate::report::{Checked, CheckedFile, CheckedPath};
+use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, q_project_pairs};
+
+/// Checks drawings, and keeps what is found.
+pub(super) fn check(
+    context: &Context,
+    session: &Session<'_>,
+    keeper: &Keeper,
+    mut drawings: Vec<Utf8PathBuf>,
+    with_all_values: bool,
+) -> Checked {
+    drawings.sort();
+    drawings.dedup();
+    let mut results: Vec<Option<DrawingResult>> =
+        drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();
+    let open: Vec<usize> = (0..drawings.len()).filter(|index| results[*index].is_none()).collect();
+    let phrase =
+        context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
+    context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
+    let files: Vec<SourceFile> = open.iter().map(|index| session.db().file(&drawings[*index])).collect();
+    let mut made = Vec::new();
+    for ((result, traces), index) in check_drawings(session, &files, with_all_values).into_iter().zip(open) {
+        made.push(new(drawings[index].as_str(), traces, &result));
+        results[index] = Some(result);
+    }
+    let q_projects = q_projects(session, keeper, &drawings, &mut made);
+    let asked = drawings.iter().map(|drawing| drawing.as_str());
+    let asked: Vec<&str> = asked.chain(q_projects.iter().map(|(of, _)| &**of)).collect();
+    keeper.keep(session, &asked, &made);
+    let mut checked = Checked::default();
+    for (drawing, result) in drawings.into_iter().zip(results.into_iter().flatten()) {
+        let paths = result.names.into_iter().map(|name| CheckedPath { name, time: None });
+        checked.files.push(CheckedFile { file: drawing, paths: paths.collect() });
+        checked.diagnostics.extend(result.diagnostics);
+    }
+    checked.diagnostics.extend(q_projects.into_iter().flat_map(|(_, found)| found));
+    checked
+}
+
+fn kept(keeper: &Keeper, of: &str) -> Option<DrawingResult> {
+    keeper.payload(of).and_then(|payload| DrawingResult::decode(payload).ok())
+}
+
+fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
+    Made { of: of.into(), traces, payload: result.encode(), ..Made::default() }
+}
+
+/// What is found in drawings, each with what it was found from.
+fn check_drawings(
+    session: &Session<'_>,
+    files: &[SourceFile],
+    with_all_values: bool,
+) -> Vec<(DrawingResult, Vec<Trace>)> {
+    let db = session.db();
+    session.read_ahead(files);
+    let mut targets: Vec<Target> = Vec::new();
+    let mut ends = Vec::with_capacity(files.len());
+    let mut warnings: HashMap<SourceFile, Vec<Diagnostic>> = HashMap::new();
+    for file in files {
+        if with_all_values {
+            for name in path_names(db, *file) {
+                let (combined, warning) = session.combined_targets(*file, name);
+                targets.extend(combined);
+                warnings.entry(*file).or_default().extend(warning);
+            }
+        } else {
+            targets.extend(session.targets(*file, &Role::Checked));
+        }
+        ends.push(targets.len());
+    }
+    let mut results = session.check(&targets).into_iter();
+    let mut begin = 0;
+    let mut of_drawing = |(file, end): (&SourceFile, usize)| {
+        let checked: Vec<CheckedTarget> = results.by_ref().take(end - begin).collect();
+        begin = end;
+        let warnings = warnings.remove(file).unwrap_or_default();
+        result(session, *file, checked, warnings, with_all_values)
+    };
+    files.iter().zip(ends).map(&mut of_drawing).collect()
+}
+
+fn result(
+    session: &Session<'_>,
+    file: SourceFile,
+    checked: Vec<CheckedTarget>,
+    warnings: Vec<Diagnostic>,
+    with_all_values: bool,
+) -> (DrawingResult, Vec<Trace>) {
+    let db = session.db();
+    let mut diagnostics = warnings;
+    if with_all_values {
+        // Those of a path stand together.
+        for of_path in checked.chunk_by(|a, b| a.target.name(db) == b.target.name(db)) {
+            diagnostics.extend(session.merged(of_path));
+        }
+    } else {
+        diagnostics.extend(checked.iter().flat_map(|checked| &checked.diagnostics).cloned());
+    }
+    let mut reached = vec![file];
+    reached.extend(checked.iter().flat_map(|checked| &checked.files).copied());
+    reached.sort_by(|a, b| a.path(db).cmp(b.path(db)));
+    reached.dedup();
+    diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
+    let names = path_names(db, file).iter().map(|name| name.as_str().into()).collect();
+    let own = Trace { files: vec![file], lookups: Vec::new() };
+    let traces =
+        std::iter::once(own).chain(checked.into_iter().filter_map(|checked| checked.trace)).collect();
+    (DrawingResult { names, diagnostics }, traces)
+}
+
+/// What Q-projects and their drawings say against each other, each pair by its name among the results.
+fn q_projects(
+    session: &Session<'_>,
+    keeper: &Keeper,
+    drawings: &[Utf8PathBuf],
+    made: &mut Vec<Made>,
+) -> Vec<(Box<str>, Vec<Diagnostic>)> {
+    let paths: Vec<&Utf8Path> = drawings.iter().map(Utf8PathBuf::as_path).collect();
+    let mut found = Vec::new();
+    let (mut open, mut names): (Vec<Pair>, Vec<Box<str>>) = (Vec::new(), Vec::new());
+    for pair in q_project_pairs(&paths) {
+        let [drawing, q_project] = pair.map(|index| paths[index]);
+        let of: Box<str> = format!("{drawing}\0{q_project}").into();
+        if let Some(result) = kept(keeper, &of) {
+            found.push((of, result.diagnostics));
+        } else {
+            open.push([drawing, q_project].map(|path| session.db().file(path)));
+            names.push(of);
+        }
+    }
+    for ((diagnostics, of), pair) in session.judge_q_projects(&open).into_iter().zip(names).zip(&open) {
+        let result = DrawingResult { names: Vec::new(), diagnostics };
+        let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
+        made.push(new(&of, vec![trace], &result));
+        found.push((of, result.diagnostics));
+    }
+    found
+}

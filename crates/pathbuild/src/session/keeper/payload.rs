@@ -1,0 +1,49 @@
+//! Results as bytes.
+
+use pathbuild_cache::{Corrupt, Decoder, Encoder, decode_diagnostic, encode_diagnostic};
+use pathbuild_diagnostic::{Code, Diagnostic, Value};
+
+/// What is known of a drawing whose paths were checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrawingResult {
+    /// Its paths.
+    pub names: Vec<Box<str>>,
+    /// What is wrong with it, with its paths, and with what they embed.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl DrawingResult {
+    /// As bytes; `None` where another run may find something else.
+    pub fn encode(&self) -> Option<Vec<u8>> {
+        if self.diagnostics.iter().any(is_passing) {
+            return None;
+        }
+        let mut encoder = Encoder::default();
+        encoder.list(self.names.iter(), |encoder, name| encoder.text(name));
+        encoder.list(self.diagnostics.iter(), encode_diagnostic);
+        Some(encoder.finish())
+    }
+
+    /// From bytes.
+    ///
+    /// # Errors
+    /// When they are of something else.
+    pub fn decode(payload: &[u8]) -> Result<Self, Corrupt> {
+        let mut decoder = Decoder::new(payload);
+        let names = decoder.list(|decoder| Ok(decoder.text()?.into()))?;
+        let diagnostics = decoder.list(decode_diagnostic)?;
+        if decoder.is_at_end() { Ok(Self { names, diagnostics }) } else { Err(Corrupt) }
+    }
+}
+
+/// Whether a finding may pass though nothing changes: a file that somebody else had open, a machine that was busy, a bug.
+pub(super) fn is_passing(diagnostic: &Diagnostic) -> bool {
+    match diagnostic.code() {
+        Code::UnreadableFile | Code::InternalError => true,
+        Code::LimitReached => {
+            let seconds = ("key", Value::from("seconds-per-path"));
+            diagnostic.arguments.contains(&seconds)
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,65 @@
+//! What a run asks, as a text: everything that a result depends on and that is in no drawing.
+
+use std::fmt::Write;
+
+use pathbuild_path::{FilePattern, PathKey, PathPattern};
+
+use crate::context::Context;
+use crate::session::Session;
+
+/// Which build of the program this is.
+pub const BUILD: &str = env!("PATHBUILD_BUILD");
+
+/// The question with the settings that results depend on. Directories are told as the run spells them, so that a tree that is moved as a whole
+/// keeps its results.
+pub(super) fn whole_question(context: &Context, session: &Session<'_>, question: &str) -> String {
+    let general = &context.settings.general;
+    let limits = &context.settings.limits;
+    let directories = |directories: &[camino::Utf8PathBuf]| -> Vec<_> {
+        directories.iter().map(|directory| session.normal(directory)).collect()
+    };
+    let mut text = question.to_owned();
+    let mut add = |value: &dyn std::fmt::Debug| _ = write!(text, "\n{value:?}");
+    add(&(directories(&general.library.value), directories(&general.search.value)));
+    add(&(&general.path_pattern.value, &general.file_pattern.value, &general.restrict.value));
+    add(&(general.units.value, general.approximate_curves.value, general.join_tolerance.value));
+    add(&(general.feed.value, general.rapid.value, general.sweep_height.value, general.probe_feed.value));
+    add(&(general.support_bars.value, general.z_model.value, context.settings.z_split()));
+    add(&(general.lang.value, general.charset.value, &general.post.value, general.cycles.value));
+    add(&general.out_dir.value.as_ref().map(|directory| session.normal(directory)));
+    add(&(limits.file_size.value, limits.entities.value, limits.text_length.value));
+    add(&(limits.embedding_moves.value, limits.seconds_per_path.value));
+    add(&(&context.settings.tables.line_types.value, &context.settings.emit.targets.value));
+    add(&place_of(context));
+    text
+}
+
+/// Where the run is, seen from the configuration: names in results are relative to it.
+fn place_of(context: &Context) -> &str {
+    let directory = &context.working_directory;
+    let base = context.settings.directory();
+    base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
+}
+
+/// Which file names may hold which paths.
+pub(super) struct Coverage {
+    paths: PathPattern,
+    files: FilePattern,
+}
+
+impl Coverage {
+    pub(super) fn new(context: &Context) -> Self {
+        let general = &context.settings.general;
+        Self {
+            paths: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
+            files: FilePattern::new(&general.file_pattern.value).unwrap_or_default(),
+        }
+    }
+
+    /// Whether a drawing of this name may hold the path of that name.
+    pub(super) fn may_hold(&self, file: &str, path: &str) -> bool {
+        let Some(key) = PathKey::new(path, &self.paths) else { return false };
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        self.files.ranges(stem).iter().any(|range| range.holds(&key))
+    }
+}

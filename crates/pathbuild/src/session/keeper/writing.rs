@@ -1,0 +1,195 @@
+//! Putting together what is kept: results that still hold with what was known of their files, new ones with what is known now.
+
+use std::collections::{BTreeSet, HashMap};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::{
+    Catalogue, Clock, DirectoryFact, FileFact, FileState, ListingKind, Lookup, Record, Stamp,
+};
+use pathbuild_db::{Db, SourceFile, content_hash, drawing_names};
+
+use super::{Keeper, Made};
+use crate::session::Session;
+
+/// A catalogue while it is put together.
+pub(super) struct Writing<'a> {
+    keeper: &'a Keeper,
+    session: &'a Session<'a>,
+    begun: Clock,
+    catalogue: Catalogue,
+    files: HashMap<Utf8PathBuf, u32>,
+    directories: HashMap<(ListingKind, Utf8PathBuf), u32>,
+    /// The new number of each kept file and directory.
+    kept_files: Vec<Option<u32>>,
+    kept_directories: Vec<Option<u32>>,
+    /// The kept files and directories by name.
+    known_files: HashMap<&'a Utf8Path, usize>,
+    /// The drawings that this run read, with what it read.
+    read: HashMap<Utf8PathBuf, Option<[u8; 32]>>,
+}
+
+impl<'a> Writing<'a> {
+    pub(super) fn new(keeper: &'a Keeper, session: &'a Session<'a>, begun: Clock, made: &[Made]) -> Self {
+        let kept = &keeper.kept;
+        let db = session.db();
+        let read = made.iter().flat_map(|made| &made.traces).flat_map(|trace| &trace.files);
+        Self {
+            keeper,
+            session,
+            begun,
+            catalogue: Catalogue::default(),
+            files: HashMap::new(),
+            directories: HashMap::new(),
+            kept_files: vec![None; kept.files.len()],
+            kept_directories: vec![None; kept.directories.len()],
+            known_files: kept
+                .files
+                .iter()
+                .zip(0..)
+                .map(|(file, number)| (file.path.as_path(), number))
+                .collect(),
+            read: read.map(|file| (file.path(db).clone(), content_hash(db, *file))).collect(),
+        }
+    }
+
+    pub(super) fn finish(self) -> Catalogue {
+        self.catalogue
+    }
+
+    /// Takes over a record that still holds.
+    pub(super) fn add_kept(&mut self, number: usize) {
+        let record = &self.keeper.kept.records[number];
+        let files = record.files.iter().map(|file| self.kept_file(*file as usize)).collect();
+        let lookup = |lookup: &Lookup| Lookup {
+            directory: self.kept_directory(lookup.directory as usize),
+            name: lookup.name.clone(),
+        };
+        let lookups = record.lookups.iter().map(lookup).collect();
+        let (of, payload) = (record.of.clone(), record.payload.clone());
+        self.catalogue.records.push(Record { of, files, lookups, payload });
+    }
+
+    /// Adds a record that was made now.
+    pub(super) fn add_made(&mut self, made: &Made) {
+        let Some(payload) = &made.payload else { return };
+        let mut files = BTreeSet::new();
+        let mut lookups = BTreeSet::new();
+        for trace in &made.traces {
+            files.extend(trace.files.iter().map(|file| self.drawing(*file)));
+            for sought in &trace.lookups {
+                for directory in &sought.directories {
+                    let directory = self.directory(directory, ListingKind::Drawings);
+                    lookups.insert(Lookup { directory, name: sought.name.as_str().into() });
+                }
+            }
+        }
+        files.extend(made.programs.files.iter().map(|file| self.program(file)));
+        for directory in &made.programs.directories {
+            let directory = self.directory(directory, ListingKind::Programs);
+            lookups.insert(Lookup { directory, name: "".into() });
+        }
+        self.catalogue.records.push(Record {
+            of: made.of.clone(),
+            files: files.into_iter().collect(),
+            lookups: lookups.into_iter().collect(),
+            payload: payload.clone(),
+        });
+    }
+
+    fn kept_file(&mut self, number: usize) -> u32 {
+        if let Some(new) = self.kept_files[number] {
+            return new;
+        }
+        let mut fact = self.keeper.kept.files[number].clone();
+        if self.keeper.verdict.files[number] != FileState::Resting {
+            fact.stamp = Stamp::settled(&fact.path, self.begun);
+        }
+        // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
+        if self.read.get(&fact.path).is_some_and(|hash| *hash != fact.hash) {
+            (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
+        }
+        let new = self.push_file(fact);
+        self.kept_files[number] = Some(new);
+        new
+    }
+
+    /// A drawing that was read now.
+    fn drawing(&mut self, file: SourceFile) -> u32 {
+        let db = self.session.db();
+        let path = file.path(db);
+        let hash = content_hash(db, file);
+        let known = self.known_files.get(path.as_path()).copied();
+        match known.filter(|number| self.keeper.verdict.files[*number] != FileState::Changed) {
+            Some(number) => self.kept_file(number),
+            None => self.new_file(path, hash),
+        }
+    }
+
+    /// A program that was looked at now.
+    fn program(&mut self, path: &Utf8Path) -> u32 {
+        self.new_file(path, None)
+    }
+
+    fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> u32 {
+        if let Some(known) = self.files.get(path) {
+            return *known;
+        }
+        self.push_file(FileFact { path: path.to_owned(), stamp: Stamp::settled(path, self.begun), hash })
+    }
+
+    fn push_file(&mut self, fact: FileFact) -> u32 {
+        if let Some(known) = self.files.get(&fact.path) {
+            return *known;
+        }
+        let number = number(self.catalogue.files.len());
+        self.files.insert(fact.path.clone(), number);
+        self.catalogue.files.push(fact);
+        number
+    }
+
+    fn kept_directory(&mut self, number: usize) -> u32 {
+        if let Some(new) = self.kept_directories[number] {
+            return new;
+        }
+        let fact = self.keeper.verdict.directories[number].clone();
+        let new = self.push_directory(fact);
+        self.kept_directories[number] = Some(new);
+        new
+    }
+
+    /// A directory that was listed now, with the names that the database saw in it.
+    fn directory(&mut self, path: &Utf8Path, kind: ListingKind) -> u32 {
+        if let Some(known) = self.directories.get(&(kind, path.to_owned())) {
+            return *known;
+        }
+        let fact = DirectoryFact::now(path, kind, &self.keeper.base);
+        self.push_directory(fact)
+    }
+
+    fn push_directory(&mut self, mut fact: DirectoryFact) -> u32 {
+        let place = (fact.kind, fact.path.clone());
+        if let Some(known) = self.directories.get(&place) {
+            return *known;
+        }
+        fact.is_doubtful |= !self.is_what_was_seen(&fact);
+        let number = number(self.catalogue.directories.len());
+        self.directories.insert(place, number);
+        self.catalogue.directories.push(fact);
+        number
+    }
+
+    /// Whether the database found the same names, if it looked. That it looks now does no harm: then there is nothing that could differ.
+    fn is_what_was_seen(&self, fact: &DirectoryFact) -> bool {
+        if fact.kind == ListingKind::Programs {
+            return true;
+        }
+        let db = self.session.db();
+        let mut seen = drawing_names(db, db.directory(&fact.path)).to_vec();
+        seen.sort_unstable();
+        seen == fact.names
+    }
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).expect("fewer than 2^32 files and directories")
+}
