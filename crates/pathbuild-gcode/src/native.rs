@@ -5,6 +5,7 @@ mod correction;
 mod number;
 mod probing;
 mod program;
+mod read_back;
 mod statistics;
 
 pub(crate) use comment::transliterated;
@@ -12,3 +13,4 @@ pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};
 pub use program::{Header, WriteOptions, program};
+pub use read_back::{read_back, read_probing_back};

@@ -124,3 +124,63 @@ fn a_written_program_is_recognised() {
         interpret(text.as_bytes(), LinuxCnc, &Options::default()).problems.iter().any(Diagnostic::is_error)
     );
 }
+
+/// A line, an arc and a hole.
+fn small() -> Program {
+    program(&[
+        Sketch::Lift(5.0),
+        Sketch::Drill(1.0),
+        Sketch::Line(10.0, 20.0, 1.0, 120.0),
+        Sketch::Arc(4.0, 0.5, 2.0, true, 0.5, 130.0),
+    ])
+}
+
+#[test]
+fn what_is_not_what_the_program_says_is_found_when_read_back() {
+    let program = small();
+    let text = text_of(&program);
+    native::read_back(&text, &program).expect("as written");
+    let head = text.find("G00 X0.000 Y0.000").expect("the head") + 18;
+    let digits = text.char_indices().filter(|(at, c)| *at > head && c.is_ascii_digit()).map(|(at, _)| at);
+    let end = text.find("(Milling").expect("the statistics");
+    let mut changed = 0;
+    for at in digits.filter(|at| *at < end) {
+        let digit = if &text[at..=at] == "9" { "7" } else { "9" };
+        let other = format!("{}{digit}{}", &text[..at], &text[at + 1..]);
+        // The last digit of a centre moves an arc by less than its ends are rounded; `G90 Z5` goes on as before.
+        let may_be_the_same =
+            text[..at].rsplit([' ', '\n']).next().is_some_and(|word| word.starts_with(['G', 'I', 'J']));
+        if !may_be_the_same {
+            let problem = native::read_back(&other, &program).expect_err(&other);
+            assert_eq!(problem.code().to_string(), "PB006");
+            changed += 1;
+        }
+    }
+    assert!(changed > 50, "{changed}");
+    let (without, _) = text.split_once("G02").expect("an arc");
+    assert!(native::read_back(without, &program).is_err(), "cut off");
+}
+
+#[test]
+fn a_probing_run_is_read_back() {
+    use pathbuild_toolpath::ProbePoint;
+    let probe = |x: f64| ProbePoint {
+        at: Xy::new(x, 3.0),
+        drawn_at: Xy::new(0.0, 0.0),
+        height: 5.0,
+        feed: None,
+        label: None,
+    };
+    let program = Program { probes: vec![probe(0.0), probe(7.0)], ..small() };
+    let options = WriteOptions {
+        lang: Lang::En,
+        charset: Charset::Ascii,
+        rapid: 1000.0,
+        correction: pathbuild_toolpath::Correction::default(),
+    };
+    let text = native::probing_program(&program, &Header::default(), 40.0, &options);
+    native::read_probing_back(&text, &program.probes).expect("as written");
+    let elsewhere = text.replace("G00 X7.000 Y3.000", "G00 X7.001 Y3.000");
+    assert!(elsewhere != text && native::read_probing_back(&elsewhere, &program.probes).is_err());
+    assert!(native::read_probing_back(&text, &program.probes[..1]).is_err());
+}

@@ -191,4 +191,4 @@ fn no_full_circle(from: Xy, to: Xy, centre: Xy, clockwise: bool, length: f64) ->
 }
 
 /// One unit of the last printed digit, in mm.
-const LAST_DIGIT: f64 = 0.001;
+pub(super) const LAST_DIGIT: f64 = 0.001;

@@ -1,5 +1,7 @@
 //! Finished programs as a job: embedded paths become operations, drilled holes become holes.
 
+use std::borrow::Borrow;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::approx::{at_least, near};
 use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep, Xy};
@@ -18,17 +20,23 @@ impl Job {
     /// tools is returned beside the job.
     pub fn from_programs(
         name: &str,
-        programs: &[Program],
+        programs: &[impl Borrow<Program>],
         tools: &ToolTable,
         pecks: bool,
     ) -> (Self, Vec<Diagnostic>) {
         let mut fitter = Fitter::new(tools);
-        let operations = programs.iter().flat_map(|program| {
+        let operations = programs.iter().map(Borrow::borrow).flat_map(|program| {
             let fitted = fitter.fit(&program.path, program.tool);
             Builder::new(program, fitted, pecks).run()
         });
-        let operations = operations.collect();
-        let drawing = programs.first().map_or("", |program| &program.drawing);
+        let mut operations: Vec<Operation> = operations.collect();
+        // On the way from one program to the next the tool is above everything that either is.
+        let clearance =
+            operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
+        for operation in &mut operations {
+            operation.clearance = clearance;
+        }
+        let drawing = programs.first().map_or("", |program| &program.borrow().drawing);
         (Self { name: name.into(), drawing: drawing.into(), operations, ..Self::default() }, fitter.warnings)
     }
 }

@@ -20,10 +20,10 @@ pub struct EmitArgs {
     #[arg(long)]
     pub force: bool,
     /// Write for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST", hide = true)]
+    #[arg(long, value_name = "POST")]
     pub post: Option<String>,
-    /// Make one program of several paths
-    #[arg(long, value_name = "NAME", hide = true)]
+    /// Make one program of several paths, in their order, with tool changes where O differs
+    #[arg(long, value_name = "NAME")]
     pub join: Option<String>,
     /// Write what the files were made from, for make and ninja
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
@@ -35,14 +35,14 @@ pub struct EmitArgs {
     /// Remove G-code that pathbuild wrote earlier and nothing would write now
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
-    /// Dialect in which a post's output is read back
-    #[arg(long, value_name = "DIALECT", hide = true)]
+    /// Dialect in which the post's output is checked and read back, where the post names none
+    #[arg(long, value_name = "DIALECT")]
     pub dialect: Option<String>,
-    /// Date that a post may write
-    #[arg(long, value_name = "DATE", hide = true)]
+    /// Date that the post may write
+    #[arg(long, value_name = "DATE")]
     pub date: Option<String>,
-    /// Run the command that a post names
-    #[arg(long, hide = true)]
+    /// Run the command that the post names
+    #[arg(long, conflicts_with_all = ["check", "output"])]
     pub run_post_build: bool,
 }
 

@@ -1,14 +1,13 @@
 //! Options that are declared and not built yet: they are hidden from the help, and refused, since a run that took no notice of them
 //! would give something else than was asked for. Whoever builds one takes it off here and shows it.
 
-use super::{CheckArgs, Command, EmitArgs};
+use super::{CheckArgs, Command};
 
 impl Command {
     /// The first option on the command line that is not built yet.
     pub fn unbuilt_option(&self) -> Option<&'static str> {
         let options = match self {
             Self::Check(args) => check(args),
-            Self::Emit(args) => emit(args),
             _ => Vec::new(),
         };
         options.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
@@ -20,15 +19,5 @@ fn check(args: &CheckArgs) -> Vec<(&'static str, bool)> {
         ("--changed-since", args.changed_since.is_some()),
         ("--timings", args.timings),
         ("--pictures", args.pictures.is_some()),
-    ]
-}
-
-fn emit(args: &EmitArgs) -> Vec<(&'static str, bool)> {
-    vec![
-        ("--post", args.post.is_some()),
-        ("--join", args.join.is_some()),
-        ("--dialect", args.dialect.is_some()),
-        ("--date", args.date.is_some()),
-        ("--run-post-build", args.run_post_build),
     ]
 }

@@ -124,7 +124,7 @@ fn output(program: &Program, poster: &Poster, to: Option<&Utf8Path>) -> Result<O
 }
 
 /// Says what a post notes about its output.
-pub(super) fn say(context: &Context, notes: &[Note]) {
+fn say(context: &Context, notes: &[Note]) {
     for note in notes {
         context.printer.status(format_args!("{}", note.text(context.lang())));
     }

@@ -115,8 +115,8 @@ impl Poster {
         self.post.extension()
     }
 
-    /// The dialect in which its output is read back, if that is known.
-    pub fn reader(&self) -> Option<Dialect> {
+    /// The dialect in which its output is read back, if that is known, and whether it is the target's own.
+    pub fn reader(&self) -> Option<(Dialect, bool)> {
         self.post.reader(self.wishes.dialect.as_deref())
     }
 
@@ -154,13 +154,15 @@ impl Poster {
 
     /// Makes the head of a job's text, or its first remark, tell these things.
     pub fn say(&self, job: &mut Job, lines: &[String]) {
+        // Braces begin macros.
+        let lines = lines.iter().map(|line| line.replace('{', "[").replace('}', "]"));
         match self.post.language() {
             Language::CamBam => {
-                let comments = lines.iter().map(|line| format!("{{$comment}}{line}{{$endcomment}}"));
+                let comments = lines.map(|line| format!("{{$comment}}{line}{{$endcomment}}"));
                 job.texts.header = comments.collect::<Vec<_>>().join("\n").into();
             }
             Language::Cad6 | Language::Native => {
-                let comments = lines.iter().map(|line| Step::Comment(line.as_str().into()));
+                let comments = lines.map(|line| Step::Comment(line.as_str().into()));
                 if let Some(first) = job.operations.first_mut() {
                     first.steps.splice(0..0, comments);
                 }
@@ -171,9 +173,9 @@ impl Poster {
     /// Everything that a program's text depends on beside drawings and general options, for its provenance. Files that control texts
     /// insert are not in it.
     pub fn identity(&self) -> Vec<u8> {
-        let Self { definition, tools, macros, wishes, .. } = self;
+        let Self { definition, tools, macros, wishes, cycles, .. } = self;
         let mut identity = definition.clone();
-        identity.extend(format!("{:?}", (tools, macros, &wishes.date, &wishes.dialect)).into_bytes());
+        identity.extend(format!("{:?}", (tools, macros, cycles, &wishes.date, &wishes.dialect)).into_bytes());
         identity
     }
 }

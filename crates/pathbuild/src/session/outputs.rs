@@ -1,5 +1,6 @@
 //! The files that a program becomes. (spec/60-gcode.md, "Files")
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_toolpath::Program;
 
@@ -40,6 +41,18 @@ impl OutputKind {
             Self::Clean => "_Clean.gcode",
             Self::Probing => "_Probing.gcode",
             Self::Values => "_Z.txt",
+        }
+    }
+
+    /// Whether a text, read back, makes the machine do what the program says.
+    ///
+    /// # Errors
+    /// PB006: where it does not.
+    pub fn read_back(self, text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
+        match self {
+            Self::Milling | Self::Clean => native::read_back(text, program),
+            Self::Probing => native::read_probing_back(text, &program.probes),
+            Self::Values => Ok(()),
         }
     }
 

@@ -11,6 +11,7 @@ use pathbuild_db::{Database, SourceFile, content_hash};
 use pathbuild_gcode::native::{Charset, comment};
 
 use crate::config::Settings;
+use crate::posting::Poster;
 
 /// The provenance of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,8 +25,14 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// That of a path made from these drawings, its own first, with these settings.
-    pub fn new(db: &Database, path: &str, files: &[SourceFile], settings: &Settings) -> Self {
+    /// That of a path made from these drawings, its own first, with these settings, through this post.
+    pub fn new(
+        db: &Database,
+        path: &str,
+        files: &[SourceFile],
+        settings: &Settings,
+        poster: Option<&Poster>,
+    ) -> Self {
         let mut drawings = Hasher::new();
         part(&mut drawings, path.as_bytes());
         for file in files {
@@ -34,22 +41,30 @@ impl Provenance {
         Self {
             version: VERSION.into(),
             drawings: short(&drawings, 16),
-            options: short(&options(settings), 8),
+            options: short(&options(settings, poster), 8),
         }
     }
 
-    /// That of a program on disk, by its first bytes; `None` where it is not pathbuild's.
+    /// That of a program on disk and its title, by its first bytes; `None` where it is not pathbuild's. They are the second and third line
+    /// of a native program, and comments near the beginning of what a post wrote.
     pub fn of_program(head: &[u8]) -> Option<(Self, Box<str>)> {
         let text = String::from_utf8_lossy(head);
-        let mut lines = text.lines().map(str::trim);
-        if lines.next()? != "%" {
-            return None;
-        }
-        let mut comment = || lines.next()?.strip_prefix('(')?.strip_suffix(')');
-        let provenance = comment()?.parse().ok()?;
-        Some((provenance, comment()?.into()))
+        let mut lines = text.lines().take(HEAD_LINES).map(remark);
+        // Some posts write capitals only.
+        let provenance = lines.find_map(|line| line.to_lowercase().parse().ok())?;
+        Some((provenance, lines.next()?.into()))
     }
 }
+
+/// A line without the marks of a comment.
+fn remark(line: &str) -> &str {
+    let line = line.trim().trim_start_matches([';', '/', ' ']);
+    let inner = line.strip_prefix('(').and_then(|line| line.strip_suffix(')'));
+    inner.unwrap_or(line).trim()
+}
+
+/// Among so many lines a post's remarks are looked for.
+const HEAD_LINES: usize = 40;
 
 /// How much of a program its provenance and title are in, however long the drawing's name is.
 pub const HEAD: usize = 4096;
@@ -86,7 +101,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Everything in the configuration that a program's text depends on. Where drawings are looked for, and what is forbidden, is not in it: that
 /// decides which drawings there are, and those are hashed themselves.
-fn options(settings: &Settings) -> Hasher {
+fn options(settings: &Settings, poster: Option<&Poster>) -> Hasher {
     let general = &settings.general;
     let mut hasher = Hasher::new();
     let mut add = |value: &dyn fmt::Debug| part(&mut hasher, format!("{value:?}").as_bytes());
@@ -94,7 +109,10 @@ fn options(settings: &Settings) -> Hasher {
     add(&(&general.path_pattern.value, general.units.value, &settings.tables.line_types.value));
     add(&(general.approximate_curves.value, general.join_tolerance.value, general.support_bars.value));
     add(&(general.z_model.value, settings.z_split()));
-    add(&(general.lang.value, general.charset.value, &general.post.value, general.cycles.value));
+    add(&(general.lang.value, general.charset.value));
+    if let Some(poster) = poster {
+        part(&mut hasher, &poster.identity());
+    }
     hasher
 }
 

@@ -48,6 +48,26 @@ impl Asked {
     }
 }
 
+impl Asked {
+    /// The same with the paths in the order of the arguments, which decides what is milled first.
+    pub(super) fn in_order(
+        context: &Context,
+        session: &Session<'_>,
+        inputs: &Inputs,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
+        let mut all = Self { targets: Vec::new(), covered: Vec::new(), directories: Vec::new() };
+        if inputs.inputs.is_empty() {
+            return Self::new(context, session, inputs, diagnostics);
+        }
+        for input in &inputs.inputs {
+            let input = Inputs { inputs: vec![input.clone()] };
+            all.targets.extend(Self::new(context, session, &input, diagnostics)?.targets);
+        }
+        Some(all)
+    }
+}
+
 struct Asking<'a> {
     context: &'a Context,
     session: &'a Session<'a>,

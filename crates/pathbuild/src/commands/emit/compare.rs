@@ -4,51 +4,74 @@ use pathbuild_db::system::ReadError;
 use pathbuild_db::{Database, Db};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Interpretation, interpret};
+use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
 use super::deliver::{Output, State, has_same_probes};
+use crate::posting::Poster;
 use crate::session::OutputKind;
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
 /// of another program. Comes with where the moves part, or why they cannot be read.
-pub(super) fn compare(db: &Database, output: &Output, moves_only: bool) -> (State, Vec<Diagnostic>) {
+pub(super) fn compare(
+    db: &Database,
+    output: &Output,
+    moves_only: bool,
+    poster: Option<&Poster>,
+) -> (State, Vec<Diagnostic>) {
     let present = match db.system().read(&output.path, u64::MAX) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing) => return (State::Missing, Vec::new()),
         Err(_) => return (State::Outdated, Vec::new()),
     };
-    let is_same =
-        present == output.text.as_bytes() || output.kind == OutputKind::Values && has_same_probes(db, output);
+    let is_same = present == output.text || output.kind == OutputKind::Values && has_same_probes(db, output);
     if is_same {
         return (State::Current, Vec::new());
     }
     if !moves_only {
         return (State::Outdated, Vec::new());
     }
-    let problems = difference(&present, &output.text);
+    // What cannot be read can only be compared byte for byte.
+    let Some(reading) = Reading::of(poster) else { return (State::Outdated, Vec::new()) };
+    let problems = difference(&present, &output.text, &reading);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
     (if problems.is_empty() { State::Current } else { State::Outdated }, problems)
+}
+
+/// How programs are read to be compared.
+struct Reading {
+    dialect: Dialect,
+    /// The dialect is the program's own; else what it does not understand is no mistake.
+    is_exact: bool,
+    tolerance: Tolerance,
+}
+
+impl Reading {
+    fn of(poster: Option<&Poster>) -> Option<Self> {
+        let Some(poster) = poster else {
+            return Some(Self { dialect: Dialect::Native, is_exact: true, tolerance: TOLERANCE });
+        };
+        let (dialect, is_exact) = poster.reader()?;
+        Some(Self { dialect, is_exact, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
+    }
 }
 
 /// What keeps a program on disk from being read, else where its moves differ first. Numbers that are equal to one unit of their last digit
 /// are equal, whatever an interpreter makes of them: an arc so short that it ends, rounded, where it begins is a circle to it. What is
 /// written in other lines is compared by what it does.
-fn difference(present: &[u8], expected: &str) -> Vec<Diagnostic> {
-    if verify::same_move_lines(&String::from_utf8_lossy(present), expected) {
+fn difference(present: &[u8], expected: &[u8], reading: &Reading) -> Vec<Diagnostic> {
+    let [found, wanted] = [present, expected].map(String::from_utf8_lossy);
+    if verify::same_move_lines(&found, &wanted) {
         return Vec::new();
     }
+    let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
     let found = read(present);
     let errors: Vec<Diagnostic> = found.problems.iter().filter(|it| it.is_error()).cloned().collect();
-    if !errors.is_empty() {
+    if reading.is_exact && !errors.is_empty() {
         return errors;
     }
-    let difference = verify::compare(&found.moves(), &read(expected.as_bytes()).moves(), &TOLERANCE);
+    let difference = verify::compare(&found.moves(), &read(expected).moves(), &reading.tolerance);
     difference.iter().map(verify::Difference::diagnostic).collect()
-}
-
-fn read(text: &[u8]) -> Interpretation {
-    interpret(text, Dialect::Native, &interpret::Options::default())
 }
 
 /// One unit of the last printed digit: two programs may have rounded what lies between two numbers differently.

@@ -1,15 +1,19 @@
 //! Making the files of one path, and writing, comparing or printing them. It runs on many threads and prints nothing.
 
+use std::sync::Arc;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Database, Db, program};
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_toolpath::{Outside, Program, Statistics};
+use pathbuild_diagnostic::{Diagnostic, Note, Point};
+use pathbuild_gcode::post;
+use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
 use super::compare;
 use super::job::Job;
 use crate::args::EmitArgs;
+use crate::posting::Poster;
 use crate::session::{OutputKind, Writing};
 
 /// What is done with the files.
@@ -34,6 +38,20 @@ pub(super) struct Delivered {
     pub(super) minutes: f64,
     /// What went wrong, or where moves differ.
     pub(super) problems: Vec<Diagnostic>,
+    /// What a post notes.
+    pub(super) notes: Vec<Note>,
+    /// The command that a post wants to be run, and the file that it is for.
+    pub(super) post_build: Option<(Vec<String>, Utf8PathBuf)>,
+    /// Files that a post put in.
+    pub(super) inserted: Vec<Box<str>>,
+}
+
+impl Delivered {
+    /// Whether a file lies on disk now as it should be.
+    pub(super) fn has_written(&self, file: &Utf8Path) -> bool {
+        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
+        self.files.iter().any(|(path, state)| path == file && is_there(state))
+    }
 }
 
 /// What became of a file.
@@ -49,7 +67,7 @@ pub(super) enum State {
     /// There is nothing on disk.
     Missing,
     /// Its text, to be printed.
-    Printed(String),
+    Printed(Vec<u8>),
 }
 
 impl Task {
@@ -69,29 +87,44 @@ impl Task {
     }
 }
 
+/// How programs are written: natively, or through a post.
+pub(super) struct Means<'a> {
+    pub(super) writing: Writing,
+    pub(super) poster: Option<&'a Poster>,
+}
+
 /// Does a job. Nothing of a path is written when something keeps one of its files from being written.
-pub(super) fn deliver(db: &Database, job: &Job, task: Task, writing: &Writing) -> Delivered {
-    let Some(program) = program(db, job.target).clone() else { return Delivered::default() };
-    let sum = Statistics::of(&program, writing.options.rapid).sum();
-    let mut delivered = Delivered { length: sum.length, minutes: sum.minutes(), ..Delivered::default() };
-    let correction = writing.options.correction;
-    let at = |diagnostic: Diagnostic| diagnostic.in_file(job.target.file(db).path(db)).in_path(&program.path);
-    let count = correction.count(&program);
-    if count > writing.most_moves {
-        delivered.problems.push(at(too_many_pieces(count, writing.most_moves)));
-        return delivered;
+pub(super) fn deliver(db: &Database, job: &Job, task: Task, means: &Means<'_>) -> Delivered {
+    let programs = job.targets.iter().map(|target| program(db, *target).clone());
+    let Some(programs) = programs.collect::<Option<Vec<Arc<Program>>>>() else {
+        return Delivered::default();
+    };
+    let mut delivered = Delivered::default();
+    let mut time = Total::default();
+    for program in &programs {
+        let sum = Statistics::of(program, means.writing.options.rapid).sum();
+        time.length += sum.length;
+        time.time += sum.time;
     }
-    delivered.problems.extend(correction.outside(&program).map(|outside| at(outside_probes(&outside))));
-    let outputs = outputs(job, &program, writing);
+    (delivered.length, delivered.minutes) = (time.length, time.minutes());
+    match outputs(db, job, &programs, means, &mut delivered) {
+        Ok(outputs) => finish(db, outputs, task, means, &mut delivered),
+        Err(problems) => delivered.problems.extend(problems),
+    }
+    delivered
+}
+
+/// Writes, compares or prints what a job becomes.
+fn finish(db: &Database, outputs: Vec<Output>, task: Task, means: &Means<'_>, delivered: &mut Delivered) {
     match task {
         Task::Write { force } => {
-            if let Err(problem) = write(db, &outputs, force, &mut delivered) {
+            if let Err(problem) = write(db, &outputs, force, delivered) {
                 delivered.problems.push(*problem);
             }
         }
         Task::Compare { moves_only } => {
             for output in outputs.iter().filter(|output| !moves_only || output.kind != OutputKind::Values) {
-                let (state, problems) = compare::compare(db, output, moves_only);
+                let (state, problems) = compare::compare(db, output, moves_only, means.poster);
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
             }
@@ -101,7 +134,6 @@ pub(super) fn deliver(db: &Database, job: &Job, task: Task, writing: &Writing) -
                 outputs.into_iter().map(|output| (output.path, State::Printed(output.text))).collect();
         }
     }
-    delivered
 }
 
 /// PB005: what comes of cutting moves is limited like the moves themselves.
@@ -122,17 +154,76 @@ fn outside_probes(outside: &Outside) -> Diagnostic {
 pub(super) struct Output {
     pub(super) kind: OutputKind,
     pub(super) path: Utf8PathBuf,
-    pub(super) text: String,
+    pub(super) text: Vec<u8>,
 }
 
-fn outputs(job: &Job, program: &Program, writing: &Writing) -> Vec<Output> {
+/// The files of a job, each read back and compared with the program. (spec/90-gcode-import.md, "verify")
+fn outputs(
+    db: &Database,
+    job: &Job,
+    programs: &[Arc<Program>],
+    means: &Means<'_>,
+    delivered: &mut Delivered,
+) -> Result<Vec<Output>, Vec<Diagnostic>> {
+    let drawing = job.drawing(db).path(db);
+    let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
+    match (means.poster, programs) {
+        (Some(poster), programs) => posted(job, programs, poster, at, delivered).map(|output| vec![output]),
+        (None, [program]) => native(job, program, means, at, delivered).map_err(|problem| vec![*problem]),
+        // Paths are joined through a post only.
+        (None, _) => Ok(Vec::new()),
+    }
+}
+
+fn native(
+    job: &Job,
+    program: &Program,
+    means: &Means<'_>,
+    at: impl Fn(Diagnostic) -> Diagnostic,
+    delivered: &mut Delivered,
+) -> Result<Vec<Output>, Box<Diagnostic>> {
+    let correction = means.writing.options.correction;
+    let count = correction.count(program);
+    if count > means.writing.most_moves {
+        return Err(Box::new(at(too_many_pieces(count, means.writing.most_moves))));
+    }
+    delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
     let provenance = job.provenance.to_string();
-    let output = |(kind, path): &(OutputKind, Utf8PathBuf)| Output {
-        kind: *kind,
-        path: path.clone(),
-        text: kind.text(program, &provenance, writing),
+    let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
+        let text = kind.text(program, &provenance, &means.writing);
+        kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
+        Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
     };
     job.files.iter().map(output).collect()
+}
+
+/// What the post makes of programs; it reads that back itself.
+fn posted(
+    job: &Job,
+    programs: &[Arc<Program>],
+    poster: &Poster,
+    at: impl Fn(Diagnostic) -> Diagnostic,
+    delivered: &mut Delivered,
+) -> Result<Output, Vec<Diagnostic>> {
+    let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
+    let (mut program, warnings) =
+        post::Job::from_programs(&job.path, programs, poster.tools(), poster.cycles());
+    let title = format!("{}: {}", program.drawing, job.path);
+    poster.say(&mut program, &[job.provenance.to_string(), title]);
+    let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
+    let output = poster.write(&program, Some(path));
+    let output =
+        output.map_err(|problems| problems.into_iter().map(|it| in_job(it, job)).collect::<Vec<_>>())?;
+    delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
+    delivered.notes.extend(output.notes);
+    delivered.inserted = output.inserted;
+    delivered.post_build = output.post_build.map(|command| (command, path.clone()));
+    Ok(Output { kind: *kind, path: path.clone(), text: output.text })
+}
+
+/// A problem of a post with the path that it was met in.
+fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
+    if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }
 
 fn write(
@@ -150,11 +241,8 @@ fn write(
     }
     for output in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(db, output);
-        let written = if is_kept {
-            Ok(Written::Unchanged)
-        } else {
-            db.system().write(&output.path, output.text.as_bytes())
-        };
+        let written =
+            if is_kept { Ok(Written::Unchanged) } else { db.system().write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), &reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
         delivered.files.push((output.path.clone(), state));
@@ -166,12 +254,13 @@ fn write(
 fn would_lose_values(db: &Database, output: &Output) -> bool {
     let Some(present) = present(db, &output.path) else { return false };
     let probes = without_values(&present);
-    probes != without_values(&output.text) && probes != present.trim_end()
+    probes != without_values(&String::from_utf8_lossy(&output.text)) && probes != present.trim_end()
 }
 
 /// Whether a file of values is there and is for these probes.
 pub(super) fn has_same_probes(db: &Database, output: &Output) -> bool {
-    present(db, &output.path).is_some_and(|present| without_values(&present) == without_values(&output.text))
+    let text = String::from_utf8_lossy(&output.text);
+    present(db, &output.path).is_some_and(|present| without_values(&present) == without_values(&text))
 }
 
 fn present(db: &Database, path: &Utf8Path) -> Option<String> {

@@ -9,24 +9,33 @@ use pathbuild_diagnostic::Diagnostic;
 use super::deliver::cannot_write;
 use super::job::Job;
 use crate::context::Context;
+use crate::posting::Poster;
 use crate::session::Session;
 
-/// Writes the file: for each path a rule of the files that it becomes, and the drawings and the configuration that they are made from.
+/// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
+/// from. `inserted`: of each job what the post put in, relative to the post's directory.
 pub(super) fn write(
     context: &Context,
     session: &Session<'_>,
     file: &Utf8Path,
     jobs: &[Job],
+    poster: Option<&Poster>,
+    inserted: &[Vec<Box<str>>],
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = context.settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
-    for job in jobs {
+    let post = poster.and_then(Poster::file).map(|file| session.normal(file));
+    let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
+    for (job, inserted) in jobs.iter().zip(inserted) {
         let outputs: Vec<String> = job.files.iter().map(|(_, path)| escaped(path)).collect();
         _ = write!(text, "{}:", outputs.join(" "));
         let sources = job.sources.iter().map(|source| source.path(db).as_path());
-        for source in sources.chain(configuration.as_deref()) {
+        for source in sources.chain(configuration.as_deref()).chain(post.as_deref()) {
             _ = write!(text, " {}", escaped(source));
+        }
+        for name in inserted {
+            _ = write!(text, " {}", escaped(&session.normal(&beside.join(&**name))));
         }
         text.push('\n');
     }

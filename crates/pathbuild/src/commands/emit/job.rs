@@ -3,21 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{SourceFile, Target, path_names};
+use pathbuild_db::{Database, SourceFile, Target, path_names};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_diagnostic::messages::{outputs as messages, posts};
 
 use super::deliver::{Delivered, cannot_write};
 use crate::context::Context;
+use crate::posting::Poster;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
 
-/// A path without errors, and the files that it becomes.
+/// A path without errors, or several that become one program, and the files that come of it.
 pub(super) struct Job {
-    /// The path.
-    pub(super) target: Target,
-    /// The drawings that it is made from, its own first.
+    /// The paths, in the order in which they are milled. There is one at least.
+    pub(super) targets: Vec<Target>,
+    /// The drawings that they are made from, the first path's own first.
     pub(super) sources: Vec<SourceFile>,
-    /// The path's name, as the drawing spells it.
+    /// The path's name, as the drawing spells it; of joined paths the name that they were given.
     pub(super) path: Box<str>,
     /// The name of its files without what tells them apart, with the directory.
     pub(super) stem: Utf8PathBuf,
@@ -28,68 +29,141 @@ pub(super) struct Job {
 }
 
 impl Job {
+    /// The drawing of the first path.
+    pub(super) fn drawing(&self, db: &Database) -> SourceFile {
+        self.targets[0].file(db)
+    }
+
     /// The path and its drawing, for messages.
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
-        format!("{} ({})", self.path, self.target.file(db).path(db))
+        format!("{} ({})", self.path, self.drawing(db).path(db))
     }
 
     /// What came of it when it was not finished.
     pub(super) fn given_up(&self, session: &Session<'_>, problem: Diagnostic) -> Delivered {
-        let problem = problem.in_file(self.target.file(session.db()).path(session.db())).in_path(&self.path);
+        let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
         Delivered { problems: vec![problem], ..Delivered::default() }
     }
 }
 
-/// The jobs for the paths that are right. Two that would write the same file are both refused (PB514).
-pub(super) fn jobs(
-    context: &Context,
-    session: &Session<'_>,
-    checked: &[CheckedTarget],
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Job> {
-    let mut jobs = Vec::new();
-    for checked in checked {
-        let Some(emitted) = &checked.emitted else { continue };
-        match job(context, session, checked, emitted) {
-            Ok(job) => jobs.push(job),
-            Err(problem) => diagnostics.push(*problem),
-        }
-    }
-    let refused = clashes(session, &jobs, diagnostics);
-    let mut index = 0..;
-    jobs.retain(|_| index.next().is_none_or(|index| !refused.contains(&index)));
-    jobs
+/// What makes jobs of paths.
+pub(super) struct Maker<'a> {
+    pub(super) context: &'a Context,
+    pub(super) session: &'a Session<'a>,
+    /// The post that programs are written through.
+    pub(super) poster: Option<&'a Poster>,
 }
 
-fn job(
-    context: &Context,
-    session: &Session<'_>,
-    checked: &CheckedTarget,
-    emitted: &Emitted,
-) -> Result<Job, Box<Diagnostic>> {
-    let db = session.db();
-    let file = checked.target.file(db);
-    let is_alone = path_names(db, file).len() == 1;
-    let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
-    let name = format!("{name}{}", emitted.suffix);
-    if stem_fault(&name) {
-        let reason = context.choose(
-            "R holds a character that cannot be in a file's name",
-            "R enthält ein Zeichen, das in keinem Dateinamen stehen kann",
-        );
-        return Err(Box::new(cannot_write(&name, reason).in_file(file.path(db)).in_path(&emitted.path)));
+impl Maker<'_> {
+    /// The jobs for the paths that are right. Two that would write the same file are both refused (PB514).
+    pub(super) fn jobs(&self, checked: &[CheckedTarget], diagnostics: &mut Vec<Diagnostic>) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for checked in checked {
+            let Some(emitted) = &checked.emitted else { continue };
+            match self.job(checked, emitted) {
+                Ok(job) => jobs.push(job),
+                Err(problem) => diagnostics.push(*problem),
+            }
+        }
+        let refused = clashes(self.session, &jobs, diagnostics);
+        let mut index = 0..;
+        jobs.retain(|_| index.next().is_none_or(|index| !refused.contains(&index)));
+        jobs
     }
-    let stem = output_directory(context, session, file).join(name);
-    let files = OutputKind::of(emitted.has_probes).iter();
-    Ok(Job {
-        target: checked.target,
-        sources: checked.files.clone(),
-        path: emitted.path.clone(),
-        files: files.map(|kind| (*kind, Utf8PathBuf::from(format!("{stem}{}", kind.suffix())))).collect(),
-        stem,
-        provenance: Provenance::new(db, &emitted.path, &checked.files, &context.settings),
-    })
+
+    /// The one job for all paths, if all are right.
+    pub(super) fn joined(
+        &self,
+        name: &str,
+        checked: &[CheckedTarget],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Job> {
+        let mut is_right = true;
+        for checked in checked {
+            match &checked.emitted {
+                Some(emitted) => {
+                    if let Err(problem) = self.refuse_probes(checked, emitted) {
+                        diagnostics.push(*problem);
+                        is_right = false;
+                    }
+                }
+                None => is_right = false,
+            }
+        }
+        let first = checked.first().filter(|_| is_right)?;
+        let mut sources: Vec<SourceFile> = Vec::new();
+        for file in checked.iter().flat_map(|checked| &checked.files) {
+            if !sources.contains(file) {
+                sources.push(*file);
+            }
+        }
+        let directory = output_directory(self.context, self.session, first.target.file(self.session.db()));
+        match self.named(name, &directory) {
+            Ok(stem) => Some(self.with_files(stem, name, sources, checked, &[OutputKind::Milling])),
+            Err(problem) => {
+                diagnostics.push(*problem);
+                None
+            }
+        }
+    }
+
+    fn job(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
+        let db = self.session.db();
+        let file = checked.target.file(db);
+        let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
+        let is_alone = path_names(db, file).len() == 1;
+        let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
+        let directory = output_directory(self.context, self.session, file);
+        let stem = self.named(&format!("{name}{}", emitted.suffix), &directory).map_err(at)?;
+        self.refuse_probes(checked, emitted)?;
+        let kinds = OutputKind::of(emitted.has_probes);
+        Ok(self.with_files(stem, &emitted.path, checked.files.clone(), std::slice::from_ref(checked), kinds))
+    }
+
+    /// A post's text has no formulas: probes would be measured for nothing.
+    fn refuse_probes(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<(), Box<Diagnostic>> {
+        if self.poster.is_none() || !emitted.has_probes {
+            return Ok(());
+        }
+        let db = self.session.db();
+        let problem = Diagnostic::new(&posts::POST_WITH_PROBES).in_path(&emitted.path);
+        Err(Box::new(problem.in_file(checked.target.file(db).path(db))))
+    }
+
+    fn named(&self, name: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
+        if stem_fault(name) {
+            let reason = self.context.choose(
+                "the name, of which R is a part, holds a character that cannot be in a file's name",
+                "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann",
+            );
+            return Err(Box::new(cannot_write(name, reason)));
+        }
+        Ok(directory.join(name))
+    }
+
+    fn with_files(
+        &self,
+        stem: Utf8PathBuf,
+        path: &str,
+        sources: Vec<SourceFile>,
+        checked: &[CheckedTarget],
+        kinds: &[OutputKind],
+    ) -> Job {
+        let name = |kind: &OutputKind| match self.poster {
+            Some(poster) => Utf8PathBuf::from(format!("{stem}_Milling.{}", poster.extension())),
+            None => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
+        };
+        let db = self.session.db();
+        Job {
+            targets: checked.iter().map(|checked| checked.target).collect(),
+            path: path.into(),
+            files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
+            provenance: Provenance::new(db, path, &sources, &self.context.settings, self.poster),
+            stem,
+            sources,
+        }
+    }
 }
 
 /// Where the files of a drawing's paths go: beside it, or where the configuration says.
@@ -117,7 +191,7 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
                 .with("name", path.file_name().unwrap_or_default())
                 .with("first", jobs[owners[0]].name(session))
                 .with("second", jobs[owners[1]].name(session))
-                .in_file(jobs[owners[0]].target.file(db).path(db));
+                .in_file(jobs[owners[0]].drawing(db).path(db));
             diagnostics.push(problem);
         }
         refused.extend(owners);

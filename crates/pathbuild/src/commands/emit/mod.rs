@@ -8,25 +8,57 @@ mod job;
 mod options;
 mod stale;
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, Note};
 
 use crate::args::EmitArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::posting::{Poster, Wishes, run_post_build};
 use crate::session::{CheckedTarget, Session};
 
 use asked::Asked;
-use deliver::{Delivered, State, Task, deliver};
+use deliver::{Delivered, Means, State, Task, deliver};
+use job::Maker;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
+    let wishes = Wishes {
+        date: args.date.as_deref().map(Into::into),
+        dialect: args.dialect.as_deref().map(Into::into),
+        run_post_build: args.run_post_build,
+    };
+    match Poster::of_run(context, args.post.as_deref(), wishes) {
+        Ok(poster) => match refusal(args, poster.as_ref()) {
+            Some(refusal) => context.usage(refusal),
+            None => emit(context, args, poster.as_ref()),
+        },
+        Err(problems) => context.fail(problems),
+    }
+}
+
+/// Options that mean something only where programs are written through a post.
+fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
+    let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
+    match poster {
+        None if args.join.is_some() => Some(
+            "--join needs --post (or `post` in pathbuild.toml): the native program has one path and no tool changes",
+        ),
+        None if is_for_posts => Some(
+            "--date, --dialect and --run-post-build are for posts: give --post, or set `post` in pathbuild.toml",
+        ),
+        _ => None,
+    }
+}
+
+fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStatus {
     let session = Session::with_hashes(context);
     let mut diagnostics = Vec::new();
-    let Some(asked) = Asked::new(context, &session, &args.inputs, &mut diagnostics) else {
+    let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
+    let Some(asked) = ask(context, &session, &args.inputs, &mut diagnostics) else {
         return context.usage(NOTHING_TO_EMIT);
     };
     let task = Task::new(args);
-    if task == Task::Print && asked.targets.len() > 1 {
+    if task == Task::Print && args.join.is_none() && asked.targets.len() > 1 {
         return context.usage("`-o -` takes one path: it would be several programs");
     }
     let checked = session.check(&asked.targets);
@@ -34,25 +66,50 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
         return context.usage(&refusal);
     }
     diagnostics.extend(found(&session, &checked));
-    let jobs = job::jobs(context, &session, &checked, &mut diagnostics);
+    let maker = Maker { context, session: &session, poster };
+    let jobs = match &args.join {
+        Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
+        None => maker.jobs(&checked, &mut diagnostics),
+    };
     if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
         return context.usage("`-o -` takes one program: this path has Z-probes and becomes several files");
     }
-    let writing = options::writing(context);
-    let delivered = session.guarded(&jobs, |db, job| deliver(db, job, task, &writing));
-    let mut is_current = true;
-    for (delivered, job) in delivered.into_iter().zip(&jobs) {
-        let delivered = delivered.unwrap_or_else(|problem| job.given_up(&session, *problem));
-        is_current &= show(context, &delivered);
-        diagnostics.extend(delivered.problems);
-    }
+    let means = Means { writing: options::writing(context), poster };
+    let delivered = session.guarded(&jobs, |db, job| deliver(db, job, task, &means));
+    let delivered = delivered.into_iter().zip(&jobs);
+    let delivered: Vec<Delivered> = delivered
+        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(&session, *problem)))
+        .collect();
+    let is_current = show_all(context, &delivered, &mut diagnostics);
     if let Some(file) = &args.deps {
-        diagnostics.extend(deps::write(context, &session, file, &jobs));
+        let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
+        diagnostics.extend(deps::write(context, &session, file, &jobs, poster, &inserted));
     }
-    diagnostics.extend(stale::deal_with(context, &session, &asked, &jobs, args.remove_stale));
+    diagnostics.extend(stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale));
     let findings = context.findings(session.with_elsewhere(diagnostics));
     context.show(&findings);
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// Says what became of all files, runs what posts want to be run on them, and collects what went wrong; whether all files are as they
+/// should be.
+fn show_all(context: &Context, delivered: &[Delivered], diagnostics: &mut Vec<Diagnostic>) -> bool {
+    let mut is_current = true;
+    let mut notes: Vec<&Note> = Vec::new();
+    for delivered in delivered {
+        is_current &= show(context, delivered);
+        diagnostics.extend(delivered.problems.iter().cloned());
+        if let Some((command, file)) =
+            delivered.post_build.as_ref().filter(|(_, file)| delivered.has_written(file))
+        {
+            diagnostics.extend(run_post_build(command, file).err().map(|failure| *failure));
+        }
+        notes.extend(delivered.notes.iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+    }
+    for note in notes {
+        context.printer.status(format_args!("{}", note.text(context.lang())));
+    }
+    is_current
 }
 
 const NOTHING_TO_EMIT: &str = "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml";
@@ -85,7 +142,7 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
                     context.printer.status(format_args!("{path}: {state}"));
                 }
             }
-            State::Printed(text) => context.printer.result(text),
+            State::Printed(text) => context.printer.result_bytes(text),
             State::Current => {
                 context.printer.result(format_args!("{path}: {}\n", phrase("current", "aktuell")));
             }

@@ -14,6 +14,7 @@ use pathbuild_gcode::native::{Charset, comment};
 use super::asked::Asked;
 use super::job::{Job, output_directory};
 use crate::context::Context;
+use crate::posting::Poster;
 use crate::session::{HEAD, OutputKind, Provenance, Session, title};
 
 /// Reports what is stale, or removes it.
@@ -22,9 +23,10 @@ pub(super) fn deal_with(
     session: &Session<'_>,
     asked: &Asked,
     jobs: &[Job],
+    poster: Option<&Poster>,
     is_removed: bool,
 ) -> Vec<Diagnostic> {
-    let stale = stale(context, session, asked, jobs);
+    let stale = stale(context, session, asked, jobs, poster);
     let deal_with = |path: Utf8PathBuf| {
         let name = path.file_name().unwrap_or_default();
         if !is_removed {
@@ -45,11 +47,17 @@ pub(super) fn deal_with(
     stale.into_iter().filter_map(deal_with).collect()
 }
 
-fn stale(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Vec<Utf8PathBuf> {
+fn stale(
+    context: &Context,
+    session: &Session<'_>,
+    asked: &Asked,
+    jobs: &[Job],
+    poster: Option<&Poster>,
+) -> Vec<Utf8PathBuf> {
     if asked.covered.is_empty() && asked.directories.is_empty() {
         return Vec::new();
     }
-    let writers = Writers::new(context, session, asked, jobs);
+    let writers = Writers::new(context, session, asked, jobs, poster.is_none());
     let directories = match &context.settings.general.out_dir.value {
         Some(directory) => vec![session.normal(directory)],
         None => session.directories_below(&asked.directories),
@@ -65,7 +73,7 @@ fn stale(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) 
             .map(|entry| entry.name.into())
             .collect();
         names.sort_unstable();
-        for name in names.iter().filter(|name| is_gcode(name)) {
+        for name in names.iter().filter(|name| is_gcode(name, poster)) {
             let path = directory.join(name);
             let head = system.head(&path, HEAD).unwrap_or_default();
             let title = Provenance::of_program(&head).map(|(_, title)| title);
@@ -77,8 +85,11 @@ fn stale(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) 
     stale
 }
 
-fn is_gcode(name: &str) -> bool {
-    Utf8Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gcode"))
+fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
+    let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
+    Utf8Path::new(name).extension().is_some_and(|extension| {
+        is_like(extension, "gcode") || poster.is_some_and(|poster| is_like(extension, poster.extension()))
+    })
 }
 
 /// What writes files.
@@ -96,26 +107,33 @@ struct Writers {
     knows_all: bool,
 }
 
-/// Where programs are written, and what they say they are made from.
+/// Some posts write capitals only.
+fn without_case(title: &str) -> String {
+    title.to_lowercase()
+}
+
+/// Where programs are written, and what they say they are made from, without case.
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
+    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job], is_native: bool) -> Self {
         let db = session.db();
         let place = |file: SourceFile| output_directory(context, session, file);
         let name = |file: SourceFile| file.path(db).file_name().unwrap_or_default();
-        let drawing = |file: SourceFile| (place(file), comment(name(file), Charset::Ascii));
+        let drawing = |file: SourceFile| (place(file), without_case(&comment(name(file), Charset::Ascii)));
         let made: BTreeSet<Title> = jobs
             .iter()
-            .map(|job| (place(job.target.file(db)), title(name(job.target.file(db)), &job.path)))
+            .map(|job| (place(job.drawing(db)), without_case(&title(name(job.drawing(db)), &job.path))))
             .collect();
         let of_covered = asked.covered.iter().flat_map(|file| {
-            path_names(db, *file).iter().map(|path| (place(*file), title(name(*file), path.as_str())))
+            path_names(db, *file)
+                .iter()
+                .map(|path| (place(*file), without_case(&title(name(*file), path.as_str()))))
         });
         let has_library = session.has_library();
         let library = if has_library { session.everything() } else { Vec::new() };
         Self {
-            outputs: jobs.iter().flat_map(outputs).collect(),
+            outputs: jobs.iter().flat_map(|job| outputs(job, is_native)).collect(),
             idle: of_covered.filter(|title| !made.contains(title)).collect(),
             covered: asked.covered.iter().map(|file| drawing(*file)).collect(),
             others: library.into_iter().filter(|file| !asked.covered.contains(file)).map(drawing).collect(),
@@ -125,11 +143,11 @@ impl Writers {
 
     /// Whether nothing would write a program now. `beside`: what lies in its directory.
     fn have_left(&self, directory: &Utf8Path, path: &Utf8Path, title: &str, beside: &[String]) -> bool {
-        let title = comment(title, Charset::Ascii);
+        let title = without_case(&comment(title, Charset::Ascii));
         let Some((drawing, _)) = title[1..].rsplit_once(": ") else { return false };
         let named = |text: String| (directory.to_owned(), text);
         let drawing = named(format!("({drawing})"));
-        let is_beside = beside.iter().any(|name| comment(name, Charset::Ascii) == drawing.1);
+        let is_beside = beside.iter().any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
         if self.outputs.contains(path)
             || self.idle.contains(&named(title.clone()))
             || self.others.contains(&drawing)
@@ -141,9 +159,11 @@ impl Writers {
     }
 }
 
-/// The files of a job, and what `adjust` makes of them.
-fn outputs(job: &Job) -> Vec<Utf8PathBuf> {
+/// The files of a job, and what `adjust` makes of native ones.
+fn outputs(job: &Job, is_native: bool) -> Vec<Utf8PathBuf> {
     let mut outputs: Vec<Utf8PathBuf> = job.files.iter().map(|(_, path)| path.clone()).collect();
-    outputs.push(format!("{}{}", job.stem, OutputKind::Milling.suffix()).into());
+    if is_native {
+        outputs.push(format!("{}{}", job.stem, OutputKind::Milling.suffix()).into());
+    }
     outputs
 }

@@ -1,0 +1,79 @@
+//! Reading a native text back, and comparing its moves with the program it was made from. (spec/90-gcode-import.md, "verify")
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files;
+use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
+
+use super::program::LAST_DIGIT;
+use crate::dialect::Dialect;
+use crate::interpret::{Heights, Interpretation, Options, Pace, interpret, moves_of};
+use crate::verify::{Difference, Tolerance, compare};
+
+/// Digits behind the point.
+const DECIMALS: i32 = 3;
+
+/// Whether a program's text makes the machine do what the program says; heights are those before correction.
+///
+/// # Errors
+/// PB006: where it does not. It is a bug.
+pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
+    let read = read(text)?;
+    let (found, expected) = (read.moves(), moves_of(program));
+    let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
+    let exactly = Tolerance::of_decimals(DECIMALS);
+    match difference(&exactly) {
+        Some(_) if has_longer_arcs(program) => {
+            let place = exactly.place + LAST_DIGIT;
+            difference(&Tolerance { place, ..exactly }).map_or(Ok(()), |found| Err(differs(&found)))
+        }
+        found => found.map_or(Ok(()), |found| Err(differs(&found))),
+    }
+}
+
+/// Whether the text of a probing run probes where the program's probes are, in their order.
+///
+/// # Errors
+/// PB006: where it does not. It is a bug.
+pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
+    let slack = Tolerance::of_decimals(DECIMALS).place;
+    let found: Vec<_> =
+        read(text)?.moves().into_iter().filter(|(_, it)| matches!(it.pace, Pace::Probe { .. })).collect();
+    let is_at = |((_, it), probe): (&(u32, crate::interpret::Move), &ProbePoint)| {
+        (it.to.x() - probe.at.x).abs() <= slack && (it.to.y() - probe.at.y).abs() <= slack
+    };
+    let is_same = found.len() == probes.len() && found.iter().zip(probes).all(is_at);
+    if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
+}
+
+fn read(text: &str) -> Result<Interpretation, Box<Diagnostic>> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let read = interpret(text.as_bytes(), Dialect::Native, &options);
+    match read.problems.iter().find(|problem| problem.is_error()) {
+        Some(problem) => Err(told(problem)),
+        None => Ok(read),
+    }
+}
+
+/// Whether the writer makes some arc longer than it is, lest it be a full circle.
+fn has_longer_arcs(program: &Program) -> bool {
+    let is_short = |step: &Step| match step {
+        Step::Move { to: Move::Arc { .. }, count } => count.length < 2.0 * LAST_DIGIT,
+        _ => false,
+    };
+    program.steps.iter().any(is_short)
+}
+
+fn differs(found: &Difference) -> Box<Diagnostic> {
+    told(&found.diagnostic())
+}
+
+/// A problem of the text as one of pathbuild.
+fn told(problem: &Diagnostic) -> Box<Diagnostic> {
+    let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
+    let said = problem.text(pathbuild_diagnostic::Lang::En);
+    internal(&format!("the program, read back, is not what it was made from: {said}{line}"))
+}
+
+fn internal(reason: &str) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(&files::INTERNAL).with("reason", reason))
+}
