@@ -442,3 +442,42 @@ fn a_missing_subpath_that_the_library_has_says_where() {
     let check = place.run_in("projects", &["check", "8002.dxf"]);
     assert!(check.stderr.contains("add components to `search`"), "{check}");
 }
+
+/// What is joined is milled through, without leaving the groove; what is farther apart is a gap.
+#[test]
+fn ends_within_the_tolerance_are_milled_through() {
+    let place = |gap: &str| {
+        Place::of(&format!(
+            "
+== pathbuild.toml ==
+feed = 150
+rapid = 1000
+sweep-height = 20
+join-tolerance = 0.01
+== 1234.1P.dxf ==
+layer 1234.1P
+start 0,0 \"T5 O3 I5 B0\"
+mill 0,0 20,0
+mill {gap},0 40,0
+end 40,0.01
+"
+        ))
+    };
+    let joined = place("20.01");
+    assert_snapshot!(joined.run("emit 1234.1P.dxf --format concise"));
+    let program = joined.read("1234.1P_Milling.gcode");
+    let moves: Vec<&str> = program.lines().filter(|line| line.starts_with('G') && line.contains('Z')).collect();
+    assert_eq!(
+        moves,
+        [
+            "G00 Z20.000",
+            "G00 Z5.000",
+            "G01 Z0.000",
+            "G01 F150.000 X20.000 Y0.000 Z0.000",
+            "G01 F150.000 X40.000 Y0.000 Z0.000",
+            "G00 Z20.000",
+            "G00 Z20.000"
+        ]
+    );
+    assert_snapshot!("farther apart is a gap", place("20.011").run("emit 1234.1P.dxf"));
+}

@@ -191,6 +191,7 @@ impl Printer {
 
 fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: impl Display) {
     if failed.is_none() {
-        *failed = write!(stream, "{text}").and_then(|()| stream.flush()).err();
+        // In one piece: standard error has no buffer, and lines of programs side by side must not mix.
+        *failed = stream.write_all(text.to_string().as_bytes()).and_then(|()| stream.flush()).err();
     }
 }

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use super::Walk;
+use crate::approx::{above, at_least};
 use crate::element::Origin;
 
 impl Walk<'_> {
@@ -19,7 +20,7 @@ impl Walk<'_> {
         });
         let (nearest, distance) =
             distances.reduce(|best, other| if other.1 < best.1 { other } else { best })?;
-        if distance > self.join_tolerance {
+        if above(distance, self.join_tolerance) {
             return None;
         }
         self.report_join(&self.path.segments[nearest].origin, distance);
@@ -29,7 +30,7 @@ impl Walk<'_> {
     /// Whether the end marker is within the tolerance; the last end is then taken for it, with a warning.
     pub(super) fn joins_end(&mut self) -> bool {
         let distance = (self.path.end - self.at).norm();
-        let is_near = self.join_tolerance > 0.0 && distance <= self.join_tolerance;
+        let is_near = self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
         if is_near {
             self.report_join(&self.path.end_origin, distance);
         }

@@ -38,7 +38,7 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
     let element = place::element(diagnostic, view);
     let text = [
         Some(diagnostic.text(view.lang)),
-        diagnostic.help(view.lang),
+        view.help(diagnostic),
         (!element.is_empty()).then_some(element),
     ];
     let text = text.into_iter().flatten().collect::<Vec<_>>().join("\n");

@@ -48,7 +48,7 @@ fn line(diagnostic: &Diagnostic, view: &View) -> String {
         name: diagnostic.code().name(),
         severity: severity(diagnostic.severity),
         message: diagnostic.text(view.lang),
-        help: diagnostic.help(view.lang),
+        help: view.help(diagnostic),
         file: view.file(diagnostic).map(Into::into),
         line: place.line,
         path: diagnostic.path.as_deref(),

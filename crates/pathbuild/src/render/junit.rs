@@ -93,8 +93,17 @@ fn write_case(text: &mut String, name: &str, file: &str, case: &Case<'_>, view: 
 }
 
 fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
-    let lines: String = diagnostics.iter().map(|diagnostic| concise::line(diagnostic, view)).collect();
+    let lines: String = diagnostics.iter().map(|diagnostic| body(diagnostic, view)).collect();
     escaped(lines.trim_end()).into_owned()
+}
+
+/// A line as in a log, and below it what to do.
+fn body(diagnostic: &Diagnostic, view: &View) -> String {
+    let mut body = concise::line(diagnostic, view);
+    for line in view.help(diagnostic).iter().flat_map(|help| help.lines()) {
+        _ = writeln!(body, "  {line}");
+    }
+    body
 }
 
 /// Text in XML 1.0, which has no way to write most control characters.

@@ -91,7 +91,7 @@ fn message(diagnostic: &Diagnostic, view: &View) -> String {
     let element = place::element(diagnostic, view);
     let parts = [
         Some(diagnostic.text(view.lang)),
-        diagnostic.help(view.lang),
+        view.help(diagnostic),
         (!element.is_empty()).then_some(element),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join("\n")

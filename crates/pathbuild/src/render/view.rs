@@ -28,6 +28,13 @@ impl View {
         diagnostic.file.as_deref().map(|file| self.name(file))
     }
 
+    /// What to do about it, and what helps to see it, a line each.
+    pub fn help(&self, diagnostic: &Diagnostic) -> Option<String> {
+        let notes = diagnostic.notes.iter().map(|note| note.text(self.lang));
+        let lines: Vec<String> = diagnostic.help(self.lang).into_iter().chain(notes).collect();
+        (!lines.is_empty()).then(|| lines.join("\n"))
+    }
+
     /// One of two phrases.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
         match self.lang {
