@@ -13,6 +13,10 @@ use super::tools::{Fitted, Fitter, ToolTable};
 /// F before any move has one, mm/min. (spec/60-gcode.md)
 const FIRST_FEED: f64 = 150.0;
 
+/// An arc that is shorter, in mm, may end, as a post prints it, where it begins: that would be a full circle, which cuts off the support
+/// bars beside it. As a line it is the same but for less than any machine can tell.
+const SHORTEST_ARC: f64 = 0.002;
+
 impl Job {
     /// The programs one after the other, as one. Where O differs, or the tool table says so, the tool is changed in between.
     ///
@@ -67,8 +71,8 @@ impl<'a> Builder<'a> {
         while let Some((step, after)) = rest.split_first() {
             rest = match step {
                 ProgramStep::Comment(comment) => self.comment(comment, after),
-                ProgramStep::Move { to, .. } => {
-                    self.go(to);
+                ProgramStep::Move { to, count } => {
+                    self.go(to, count.length);
                     after
                 }
             };
@@ -141,7 +145,8 @@ impl<'a> Builder<'a> {
         Some(rest)
     }
 
-    fn go(&mut self, to: &Move) {
+    /// Makes a move that is so long in mm.
+    fn go(&mut self, to: &Move, length: f64) {
         let from = self.at;
         let step = match *to {
             Move::Sweep { to } => return self.rapid([to.x, to.y, from[2]]),
@@ -151,6 +156,10 @@ impl<'a> Builder<'a> {
                 Step::Feed { to: self.at.into(), feed: Some(self.feed) }
             }
             Move::Line { feed, to, z } => {
+                self.cut(feed, to, z.z);
+                Step::Feed { to: self.at.into(), feed: Some(feed) }
+            }
+            Move::Arc { feed, to, z, .. } if length < SHORTEST_ARC => {
                 self.cut(feed, to, z.z);
                 Step::Feed { to: self.at.into(), feed: Some(feed) }
             }

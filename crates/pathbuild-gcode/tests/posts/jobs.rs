@@ -73,6 +73,27 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     );
 }
 
+/// Such arcs stand between support bars that are as far apart as the cutter is wide.
+#[test]
+fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
+    let arc = |length: f64| {
+        let to = Move::Arc {
+            feed: 100.0,
+            clockwise: true,
+            centre: Xy::new(5.0, 0.0),
+            to: Xy::new(0.0, length),
+            z: height(1.0),
+            is_spiral: false,
+        };
+        let count = Count { class: Class::Milling, length, feed: Some(100.0) };
+        job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0].clone()
+    };
+    for length in [0.0, 1e-9, 0.0019] {
+        assert_eq!(arc(length), Step::Feed { to: [0.0, length, 1.0].into(), feed: Some(100.0) }, "{length}");
+    }
+    assert!(matches!(arc(0.002), Step::Arc(_)));
+}
+
 #[test]
 fn a_plunge_runs_at_the_feed_last_set() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);

@@ -133,8 +133,9 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
+/// A move that is long enough to be one; nothing else of its length is asked for.
 fn go(to: Move) -> ProgramStep {
-    ProgramStep::Move { to, count: Count { class: Class::Milling, length: 0.0, feed: None } }
+    ProgramStep::Move { to, count: Count { class: Class::Milling, length: 99.0, feed: None } }
 }
 
 fn height(z: f64) -> Height {

@@ -1,0 +1,190 @@
+//! LinuxCNC's own interpreter, `rs274`, as an oracle: what it makes of a program, and what ours does.
+//!
+//! `tests/tools/fetch-rs274.sh DIR` unpacks it; `PATHBUILD_RS274=DIR` says where. Without it these tests skip with a message, unless
+//! `PATHBUILD_REQUIRE` contains `rs274`.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pathbuild_gcode::dialect::Dialect::LinuxCnc;
+use pathbuild_gcode::interpret::{self, Action, Options, Pace, interpret};
+
+/// Both print, or compute, in doubles; rs274 shows four decimals.
+const PRINTED: f64 = 0.000_051;
+
+/// One canonical call that moves or waits.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Call {
+    Rapid([f64; 3]),
+    Feed([f64; 3], f64),
+    /// Ends, centre in the plane, signed number of turns begun, feed.
+    Arc([f64; 3], [f64; 2], i64, f64),
+    Probe([f64; 3], f64),
+    Dwell(f64),
+    Tool(i64),
+}
+
+/// What rs274 makes of a program.
+pub(crate) struct Oracle {
+    pub(crate) calls: Vec<Call>,
+    /// What it printed when it refused.
+    pub(crate) refusal: Option<String>,
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    clippy::print_stderr,
+    reason = "tests ask the environment where their oracles are"
+)]
+pub(crate) fn rs274() -> Option<PathBuf> {
+    let found = std::env::var("PATHBUILD_RS274").ok().map(|dir| Path::new(&dir).join("rs274"));
+    let required =
+        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "rs274"));
+    match found {
+        Some(program) => {
+            assert!(program.is_file(), "{} is missing", program.display());
+            Some(program)
+        }
+        None if required => {
+            panic!("PATHBUILD_REQUIRE has rs274, and PATHBUILD_RS274 is not set (tests/tools/fetch-rs274.sh)")
+        }
+        None => {
+            eprintln!("skipped: PATHBUILD_RS274 is not set (tests/tools/fetch-rs274.sh)");
+            None
+        }
+    }
+}
+
+pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
+    let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
+    std::io::Write::write_all(&mut file.as_file(), text.as_bytes()).expect("it can be written");
+    let output = Command::new(program).arg(file.path()).output().expect("rs274 runs");
+    let refusal = (!output.status.success()).then(|| String::from_utf8_lossy(&output.stderr).into_owned());
+    Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
+}
+
+/// Reads rs274's canonical calls; lengths become millimetres in the coordinates of the first move.
+fn calls_of(output: &str) -> Vec<Call> {
+    let mut unit = 1.0;
+    let (mut system, mut origin) = ([0.0; 3], [0.0; 3]);
+    let mut base: Option<[f64; 3]> = None;
+    let (mut feed, mut plane) = (0.0, [0, 1, 2]);
+    let mut calls = Vec::new();
+    for line in output.lines() {
+        // `   12 N..... STRAIGHT_FEED(1.0000, ...)`, with the block number where there is one.
+        let Some((front, arguments)) = line.split_once('(') else { continue };
+        let name = front.rsplit(' ').next().unwrap_or_default();
+        let words: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
+        let numbers: Vec<f64> = words.iter().map(|word| word.parse().unwrap_or(f64::NAN)).collect();
+        let mut place = |at: [f64; 3]| {
+            let sum: [f64; 3] = std::array::from_fn(|axis| system[axis] + origin[axis]);
+            let base = *base.get_or_insert(sum);
+            std::array::from_fn::<f64, 3, _>(|axis| at[axis] * unit + sum[axis] - base[axis])
+        };
+        match name {
+            "USE_LENGTH_UNITS" => unit = if words[0].ends_with("INCHES") { 25.4 } else { 1.0 },
+            "SET_G5X_OFFSET" => system = [numbers[1], numbers[2], numbers[3]].map(|offset| offset * unit),
+            "SET_G92_OFFSET" => origin = [numbers[0], numbers[1], numbers[2]].map(|offset| offset * unit),
+            "SET_FEED_RATE" => feed = numbers[0] * unit,
+            "SELECT_PLANE" => {
+                plane = match words[0] {
+                    "CANON_PLANE_XZ" => [2, 0, 1],
+                    "CANON_PLANE_YZ" => [1, 2, 0],
+                    _ => [0, 1, 2],
+                }
+            }
+            "STRAIGHT_TRAVERSE" => calls.push(Call::Rapid(place([numbers[0], numbers[1], numbers[2]]))),
+            "STRAIGHT_FEED" => calls.push(Call::Feed(place([numbers[0], numbers[1], numbers[2]]), feed)),
+            "STRAIGHT_PROBE" => calls.push(Call::Probe(place([numbers[0], numbers[1], numbers[2]]), feed)),
+            "ARC_FEED" => {
+                let mut end = [0.0; 3];
+                let mut middle = [0.0; 3];
+                for (slot, (to, centre)) in [(0, 2), (1, 3), (5, 5)].into_iter().enumerate() {
+                    end[plane[slot]] = numbers[to];
+                    middle[plane[slot]] = numbers[centre];
+                }
+                let middle = place(middle);
+                #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
+                let turns = numbers[4] as i64;
+                calls.push(Call::Arc(place(end), [middle[plane[0]], middle[plane[1]]], turns, feed));
+            }
+            "DWELL" => calls.push(Call::Dwell(numbers[0])),
+            #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
+            "CHANGE_TOOL" => calls.push(Call::Tool(numbers[0] as i64)),
+            _ => {}
+        }
+    }
+    without_standing(calls)
+}
+
+/// Our steps as calls.
+pub(crate) fn our_calls(text: &str) -> Vec<Call> {
+    let result = interpret(text.as_bytes(), LinuxCnc, &Options::default());
+    let calls = result.steps.iter().filter_map(|step| match &step.action {
+        Action::Move(it) => Some(match (it.pace, it.path) {
+            (Pace::Rapid, _) => Call::Rapid(it.to.at),
+            (Pace::Probe { feed, .. }, _) => Call::Probe(it.to.at, feed),
+            (Pace::Feed(feed), interpret::Path::Line) => Call::Feed(it.to.at, feed),
+            (Pace::Feed(feed), interpret::Path::Arc(arc)) => {
+                let turns = i64::from(arc.extra_turns) + 1;
+                Call::Arc(it.to.at, arc.centre, if arc.clockwise { -turns } else { turns }, feed)
+            }
+        }),
+        Action::Dwell(seconds) => Some(Call::Dwell(*seconds)),
+        Action::ChangeTool(tool) => Some(Call::Tool(i64::from(*tool))),
+        _ => None,
+    });
+    without_standing(calls.collect())
+}
+
+/// Leaves out straight moves to where the tool is: some of them rs274 prints, and some it does not.
+fn without_standing(calls: Vec<Call>) -> Vec<Call> {
+    let mut here = [0.0; 3];
+    calls
+        .into_iter()
+        .filter(|call| match call {
+            Call::Rapid(to) | Call::Feed(to, _) => {
+                let before = std::mem::replace(&mut here, *to);
+                before.iter().zip(to).any(|(a, b)| (a - b).abs() > PRINTED)
+            }
+            Call::Arc(to, ..) | Call::Probe(to, _) => {
+                here = *to;
+                true
+            }
+            Call::Dwell(_) | Call::Tool(_) => true,
+        })
+        .collect()
+}
+
+fn agree(theirs: &Call, ours: &Call) -> bool {
+    let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < PRINTED * 26.0);
+    match (theirs, ours) {
+        (Call::Rapid(a), Call::Rapid(b)) => close(a, b),
+        (Call::Feed(a, f), Call::Feed(b, g)) | (Call::Probe(a, f), Call::Probe(b, g)) => {
+            close(a, b) && (f - g).abs() < 0.01
+        }
+        (Call::Arc(a, c, n, f), Call::Arc(b, d, m, g)) => {
+            close(a, b) && close(c, d) && n == m && (f - g).abs() < 0.01
+        }
+        (Call::Dwell(a), Call::Dwell(b)) => close(&[*a], &[*b]),
+        (a, b) => a == b,
+    }
+}
+
+/// Where the two part on a program; `None` if they agree, and it moves at all.
+pub(crate) fn difference(program: &Path, text: &str) -> Option<String> {
+    let oracle = ask(program, text);
+    if let Some(refusal) = oracle.refusal {
+        return Some(format!("rs274 refuses it: {refusal}"));
+    }
+    let ours = our_calls(text);
+    for (index, (theirs, ours)) in oracle.calls.iter().zip(&ours).enumerate() {
+        if !agree(theirs, ours) {
+            return Some(format!("move {index}: rs274 {theirs:?}, ours {ours:?}"));
+        }
+    }
+    if oracle.calls.len() != ours.len() {
+        return Some(format!("{} moves, ours {}: {:?}", oracle.calls.len(), ours.len(), ours.last()));
+    }
+    ours.is_empty().then(|| "it has no moves".to_owned())
+}
