@@ -39,7 +39,7 @@ impl Text {
 pub struct Message {
     /// The code that it is said under. A note's is that of the diagnostics it usually goes with.
     pub code: Code,
-    /// Unique name, the static's own: stable within a version, for caches and tests.
+    /// Unique name, the static's own with its module: stable within a version, for caches and tests.
     pub key: &'static str,
     /// What is wrong.
     pub text: Text,

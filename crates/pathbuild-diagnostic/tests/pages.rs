@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Code, Lang, example, page};
 
 /// Codes whose example would need a bug, files that were written earlier, or a judgement on measured values.
-const WITHOUT_EXAMPLE: [Code; 3] = [Code::InternalError, Code::StaleOutput, Code::OddProbe];
+const WITHOUT_EXAMPLE: [Code; 1] = [Code::InternalError];
 
 fn codes() -> impl Iterator<Item = Code> {
     Code::ALL.iter().copied().filter(|code| code.number() < 700)

@@ -8,7 +8,7 @@ macro_rules! messages {
     })*) => {
         $($(#[$doc])* pub static $key: crate::Message = crate::Message {
             code: crate::Code::$code,
-            key: stringify!($key),
+            key: concat!(module_path!(), "::", stringify!($key)),
             text: crate::Text { en: $en, de: $de },
             help: crate::Text { en: concat!($($help_en)?), de: concat!($($help_de)?) },
         };)*
