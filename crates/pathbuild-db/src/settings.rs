@@ -72,6 +72,8 @@ pub struct Restriction {
 pub struct Limits {
     /// Most moves of a program.
     pub moves: u64,
+    /// Most paths in a program that differ in their drawings or values: each costs memory, however little it mills.
+    pub paths: u64,
 }
 
 impl Restriction {
@@ -109,6 +111,6 @@ impl Default for Reading {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { moves: 50_000_000 }
+        Self { moves: 50_000_000, paths: 100_000 }
     }
 }

@@ -1,5 +1,7 @@
 //! The finished program. (spec/60-gcode.md)
 
+use std::collections::HashMap;
+
 use pathbuild_path::Xy;
 
 /// A finished program: what the machine does, step by step, before any dialect writes it down.
@@ -150,20 +152,25 @@ pub struct NameId(u32);
 
 /// Texts that steps refer to by number, so that a step is small and can be copied.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Names(Vec<Box<str>>);
+pub struct Names {
+    texts: Vec<Box<str>>,
+    numbers: HashMap<Box<str>, NameId>,
+}
 
 impl Names {
     /// The number of a text, adding it if it is new.
     pub fn intern(&mut self, text: &str) -> NameId {
-        let index = self.0.iter().position(|known| **known == *text).unwrap_or_else(|| {
-            self.0.push(text.into());
-            self.0.len() - 1
-        });
-        NameId(u32::try_from(index).expect("a program has fewer than 2^32 names"))
+        if let Some(number) = self.numbers.get(text) {
+            return *number;
+        }
+        let number = NameId(u32::try_from(self.texts.len()).expect("a program has fewer than 2^32 names"));
+        self.texts.push(text.into());
+        self.numbers.insert(text.into(), number);
+        number
     }
 
     /// The text of a number that [`intern`](Self::intern) of the same table gave.
     pub fn get(&self, id: NameId) -> &str {
-        &self.0[id.0 as usize]
+        &self.texts[id.0 as usize]
     }
 }

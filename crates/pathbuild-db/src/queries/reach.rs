@@ -2,6 +2,7 @@
 //! dependencies all come from here.
 
 use std::collections::{HashMap, HashSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
@@ -14,7 +15,7 @@ use super::instance::{Instance, chains, path};
 use super::raw::{NameKey, raw_path};
 use crate::database::Db;
 use crate::inputs::{Role, SourceFile, Target};
-use crate::settings::Settings;
+use crate::settings::{Limits, Settings};
 
 /// What a target reaches, itself included.
 #[derive(Clone, Debug, Default, PartialEq, salsa::SalsaValue)]
@@ -51,9 +52,6 @@ pub struct Reached<'db> {
 
 /// How deep embedding may be below the emitted path.
 const DEEPEST: u32 = 10;
-
-/// What a distinct embedded path counts for against the limit of moves: it costs that much to keep, however little it mills.
-const MOVES_PER_PATH: u64 = 500;
 
 /// Walks what a target embeds.
 #[salsa::tracked]
@@ -109,9 +107,11 @@ struct Walk<'db> {
     is_emitted: bool,
     options: FoldOptions,
     missing_options: Vec<MissingOption>,
-    limit: u64,
+    limits: Limits,
     reached: Vec<Reached<'db>>,
     diagnostics: Vec<Diagnostic>,
+    /// Hashes of what makes them different from each other.
+    known: HashMap<u64, Vec<usize>>,
     moves: u64,
     /// Whether a path at a depth has errors, itself or below: the depth counts since it may be too deep there.
     visited: HashMap<(Instance<'db>, u32), bool>,
@@ -135,9 +135,10 @@ impl<'db> Walk<'db> {
             is_emitted: *role == Role::Emitted,
             options: settings.fold(db),
             missing_options: Vec::new(),
-            limit: settings.limits(db).moves,
+            limits: settings.limits(db),
             reached: Vec::new(),
             diagnostics: Vec::new(),
+            known: HashMap::new(),
             moves: 0,
             visited: HashMap::new(),
             seen: HashSet::new(),
@@ -287,15 +288,9 @@ impl<'db> Walk<'db> {
         let has_errors = found.iter().any(Diagnostic::is_error);
         for mut diagnostic in found {
             diagnostic.file.get_or_insert_with(|| instance.file(self.db).path(self.db).clone());
-            let is_same = |known: &Diagnostic| {
-                known.message == diagnostic.message
-                    && known.place == diagnostic.place
-                    && known.path == diagnostic.path
-                    && known.file == diagnostic.file
-                    && known.arguments == diagnostic.arguments
-                    && known.text == diagnostic.text
-            };
-            if !self.diagnostics.iter().any(is_same) {
+            let same = self.known.entry(hash(&identity(&diagnostic))).or_default();
+            if !same.iter().any(|index| identity(&self.diagnostics[*index]) == identity(&diagnostic)) {
+                same.push(self.diagnostics.len());
                 diagnostic.trace = self.trace();
                 self.diagnostics.push(diagnostic);
             }
@@ -314,11 +309,13 @@ impl<'db> Walk<'db> {
 
     /// Whether there are more distinct paths than can be meant; said once.
     fn is_crowded(&mut self, instance: Instance<'db>) -> bool {
-        if (self.reached.len() as u64).saturating_mul(MOVES_PER_PATH) <= self.limit {
+        let Limits { paths, .. } = self.limits;
+        if self.reached.len() as u64 <= paths {
             return false;
         }
         if !std::mem::replace(&mut self.is_full, true) {
-            self.report_limit(instance, "the number of embedded paths");
+            let problem = Diagnostic::new(&files::TOO_MANY_PATHS).with("key", "embedded-paths");
+            self.report_limit(instance, problem.with("limit", paths));
         }
         true
     }
@@ -329,8 +326,10 @@ impl<'db> Walk<'db> {
             return;
         }
         self.moves = self.moves_of(root, &mut HashMap::new());
-        if self.moves > self.limit {
-            self.report_limit(root, "the number of moves that this path comes to");
+        let Limits { moves, .. } = self.limits;
+        if self.moves > moves {
+            let problem = Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves");
+            self.report_limit(root, problem.with("count", self.moves).with("limit", moves));
         }
     }
 
@@ -351,14 +350,22 @@ impl<'db> Walk<'db> {
         moves
     }
 
-    fn report_limit(&mut self, instance: Instance<'db>, what: &'static str) {
-        let mut problem = Diagnostic::new(&files::LIMIT)
-            .with("what", what)
-            .with("limit", self.limit)
-            .with("key", "embedding-moves");
+    fn report_limit(&mut self, instance: Instance<'db>, mut problem: Diagnostic) {
         if let Some(path) = &path(self.db, instance).path {
             problem = path.start_origin.at(problem.in_path(path.name.as_str()));
         }
         self.report_all(instance, vec![problem]);
     }
+}
+
+/// What makes two diagnostics the same: everything but how they were come by.
+fn identity(diagnostic: &Diagnostic) -> impl Hash + PartialEq + '_ {
+    let Diagnostic { message, place, path, file, arguments, text, .. } = diagnostic;
+    (message, place, path, file, arguments, text)
+}
+
+fn hash(value: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
 }

@@ -57,6 +57,27 @@ messages! {
         help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// A program that is too long.
+    TOO_MANY_MOVES: LimitReached {
+        en: "this path comes to {count} moves, which exceeds the limit of {limit}",
+        de: "dieser Pfad ergibt {count} Bewegungen, das überschreitet die Grenze von {limit}",
+        help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
+    /// Too many paths in one program.
+    TOO_MANY_PATHS: LimitReached {
+        en: "the number of different paths (each with its values) that are embedded exceeds the limit of {limit}",
+        de: "die Zahl verschiedener Pfade (jeder mit seinen Werten), die eingebettet sind, überschreitet die Grenze von {limit}",
+        help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
+    /// A directory with too much below it.
+    TOO_MANY_ENTRIES: LimitReached {
+        en: "there are more than {limit} files and directories below {directory}: nothing there is looked at",
+        de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: nichts davon wird angesehen",
+        help_en: "name a directory further down; or list what is no part of the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "ein Verzeichnis weiter unten nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
     /// Removing failed.
     CANNOT_REMOVE: CannotWrite {
         en: "cannot remove {name}: {reason}",

@@ -98,20 +98,42 @@ impl Session<'_> {
     /// The drawings of the configured library.
     pub fn library(&self) -> Vec<Utf8PathBuf> {
         let directories = self.context.settings.general.library.value.iter();
-        directories.flat_map(|directory| library::drawings(&self.normal(directory))).collect()
+        directories.flat_map(|directory| self.drawings_below(&self.normal(directory))).collect()
     }
 
     /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below.
     pub fn everything(&self) -> Vec<SourceFile> {
-        let drawings =
-            if self.has_library() { self.library() } else { library::drawings(&Utf8PathBuf::new()) };
+        let drawings = if self.has_library() {
+            self.library()
+        } else {
+            self.drawings_below(Utf8Path::new("")).collect()
+        };
         drawings.iter().map(|drawing| self.file(drawing)).collect()
     }
 
     /// These directories and all below them, each once.
     pub fn directories_below(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
-        let below = directories.iter().flat_map(|directory| library::directories(directory));
+        let limit = self.context.settings.limits.library_entries.value;
+        let below = directories.iter().flat_map(|directory| library::directories(directory, limit));
         distinct(below.map(|directory| self.normal(&directory)))
+    }
+
+    fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
+        self.walked(directory).into_iter()
+    }
+
+    fn walked(&self, directory: &Utf8Path) -> library::Walked {
+        library::drawings(directory, self.context.settings.limits.library_entries.value)
+    }
+
+    /// What keeps the library, or without one the working directory, from being looked through.
+    pub fn library_problems(&self) -> Vec<Diagnostic> {
+        let library = &self.context.settings.general.library.value;
+        let working_directory = Utf8PathBuf::new();
+        let directories =
+            if self.has_library() { library.as_slice() } else { std::slice::from_ref(&working_directory) };
+        let problem = |directory: &Utf8PathBuf| self.walked(&self.normal(directory)).problem;
+        directories.iter().filter_map(problem).map(|problem| *problem).collect()
     }
 
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
@@ -124,7 +146,9 @@ impl Session<'_> {
     }
 
     fn add_directory(&self, directory: Utf8PathBuf, wanted: &mut Wanted) {
-        for drawing in library::drawings(&directory) {
+        let walked = self.walked(&directory);
+        wanted.problems.extend(walked.problem.as_deref().cloned());
+        for drawing in walked {
             wanted.add_drawing(self.file(&drawing), false);
         }
         wanted.directories.push(directory);
@@ -140,7 +164,10 @@ impl Session<'_> {
                 Some(drawing) => wanted.add_drawing(drawing, true),
                 // `check components` is what people type; nothing else of that name was meant.
                 None if self.is_directory(Utf8Path::new(name)) => self.add_place(Utf8Path::new(name), wanted),
-                None => wanted.problems.push(nowhere(name, directories)),
+                None => {
+                    wanted.problems.extend(self.library_problems());
+                    wanted.problems.push(nowhere(name, directories));
+                }
             },
             [file] => {
                 let spelt = path_names(&self.db, *file).iter().find(|known| **known == PathName::new(name));

@@ -49,7 +49,7 @@ pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
             types::SupportBars::Solid => SupportBars::Solid,
         },
     };
-    let limits = Limits { moves: limits.embedding_moves.value };
+    let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };
     _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
 }
 

@@ -88,8 +88,9 @@ impl Asked {
     }
 
     /// The targets that were asked for, and all that may embed them.
-    fn and_everything(&self, session: &Session<'_>) -> Vec<Target> {
+    fn and_everything(&mut self, session: &Session<'_>) -> Vec<Target> {
         let files = session.everything();
+        self.problems.extend(session.library_problems());
         session.read_ahead(&files);
         let others = files.into_iter().filter(|file| !self.files.contains(file));
         let others = others.flat_map(|file| session.targets(file, &Role::Checked));

@@ -15,6 +15,10 @@ section! {
     entities: u64 = "entities", COUNT, 2_000_000, "2_000_000";
     /// most moves of a program, with everything that it embeds
     embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000";
+    /// most different paths, each with its values, in a program
+    embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000";
+    /// most files and directories below one that is searched for drawings
+    library_entries: u64 = "library-entries", COUNT, 200_000, "200_000";
     /// characters: longest parameter text
     text_length: u64 = "text-length", COUNT, 65_536, "65_536";
     /// longest time for one path

@@ -19,8 +19,11 @@ impl Session<'_> {
         for part in &parts {
             merged.asked(part);
         }
-        for part in parts {
-            merged.add(part);
+        for part in &parts {
+            merged.add(part, Reach::Whole);
+        }
+        for part in &parts {
+            merged.add(part, Reach::Cut);
         }
         merged.graph
     }
@@ -31,6 +34,26 @@ struct Part {
     /// The first is the target.
     nodes: Vec<Node>,
     embeddings: Vec<(usize, End)>,
+}
+
+impl Part {
+    /// The nodes of which something is left out because the target embeds it too deep.
+    fn cut(&self) -> HashSet<usize> {
+        let cut = |(from, to): &(usize, End)| match to {
+            End::Nowhere(_, Code::NestingTooDeep) => Some(*from),
+            _ => None,
+        };
+        self.embeddings.iter().filter_map(cut).collect()
+    }
+}
+
+/// Whether all that a path embeds is seen.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// It is.
+    Whole,
+    /// Some of it is too deep below the target. Another target may have shown it whole before.
+    Cut,
 }
 
 fn part(db: &Database, target: Target) -> Part {
@@ -89,17 +112,20 @@ impl Merged {
         }
     }
 
-    fn add(&mut self, part: Part) {
-        let numbers: Vec<usize> = part.nodes.into_iter().map(|node| self.node(node)).collect();
+    /// Adds what those nodes of a part embed of which it shows everything, or not.
+    fn add(&mut self, part: &Part, reach: Reach) {
+        let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
+        let cut = part.cut();
+        let is_asked = |from: &usize| cut.contains(from) == (reach == Reach::Cut);
         let mut added: HashMap<(usize, End), usize> = HashMap::new();
-        for (from, to) in part.embeddings {
-            let from = numbers[from];
+        for (from, to) in part.embeddings.iter().filter(|(from, _)| is_asked(from)) {
+            let from = numbers[*from];
             if self.complete.contains(&from) {
                 continue;
             }
             let to = match to {
-                End::Node(to) => End::Node(numbers[to]),
-                nowhere @ End::Nowhere(..) => nowhere,
+                End::Node(to) => End::Node(numbers[*to]),
+                nowhere @ End::Nowhere(..) => nowhere.clone(),
             };
             let embeddings = &mut self.graph.embeddings;
             let index = *added.entry((from, to.clone())).or_insert(embeddings.len());
@@ -108,7 +134,7 @@ impl Merged {
                 None => embeddings.push(Embedding { from, to, count: 1 }),
             }
         }
-        self.complete.extend(numbers);
+        self.complete.extend((0..numbers.len()).filter(is_asked).map(|node| numbers[node]));
     }
 
     fn node(&mut self, node: Node) -> usize {
