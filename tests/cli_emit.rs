@@ -466,7 +466,8 @@ end 40,0.01
     let joined = place("20.01");
     assert_snapshot!(joined.run("emit 1234.1P.dxf --format concise"));
     let program = joined.read("1234.1P_Milling.gcode");
-    let moves: Vec<&str> = program.lines().filter(|line| line.starts_with('G') && line.contains('Z')).collect();
+    let moves: Vec<&str> =
+        program.lines().filter(|line| line.starts_with('G') && line.contains('Z')).collect();
     assert_eq!(
         moves,
         [

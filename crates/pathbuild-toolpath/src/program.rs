@@ -1,6 +1,6 @@
 //! The finished program. (spec/60-gcode.md)
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use pathbuild_path::Xy;
 
@@ -154,7 +154,7 @@ pub struct NameId(u32);
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     texts: Vec<Box<str>>,
-    numbers: HashMap<Box<str>, NameId>,
+    numbers: BTreeMap<Box<str>, NameId>,
 }
 
 impl Names {

@@ -89,11 +89,8 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
 /// The message, its help, and the place, which no reader of SARIF shows otherwise.
 fn message(diagnostic: &Diagnostic, view: &View) -> String {
     let element = place::element(diagnostic, view);
-    let parts = [
-        Some(diagnostic.text(view.lang)),
-        view.help(diagnostic),
-        (!element.is_empty()).then_some(element),
-    ];
+    let parts =
+        [Some(diagnostic.text(view.lang)), view.help(diagnostic), (!element.is_empty()).then_some(element)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 

@@ -66,7 +66,8 @@ impl Session<'_> {
         wanted
     }
 
-    /// The drawings that arguments mean, if all of them are directories; without arguments, those of the library.
+    /// The drawings that arguments mean, if all of them are directories that can be walked through; without arguments, those of the
+    /// library.
     pub fn directories_only(&self, inputs: &Inputs) -> Option<Vec<Utf8PathBuf>> {
         let directory = |input| match input {
             Input::Place(place) if self.is_directory(place) && !library::is_drawing(place) => {
@@ -86,8 +87,15 @@ impl Session<'_> {
         } else {
             inputs.iter().map(directory).collect::<Option<_>>()?
         };
-        let drawings = directories.iter().flat_map(|directory| library::drawings(directory));
-        Some(drawings.map(|drawing| self.normal(&drawing)).collect())
+        let mut drawings = Vec::new();
+        for directory in &directories {
+            let walked = self.walked(directory);
+            if walked.problem.is_some() {
+                return None;
+            }
+            drawings.extend(walked.into_iter().map(|drawing| self.normal(&drawing)));
+        }
+        Some(drawings)
     }
 
     /// Whether the configuration says what to do without arguments.
