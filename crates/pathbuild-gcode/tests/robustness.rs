@@ -90,6 +90,41 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Nor whether a formula does.
+    #[test]
+    fn blanks_in_formulas_change_nothing(
+        pieces in proptest::collection::vec(
+            proptest::sample::select(vec!["1.000", "-2.5", "+", "-", "*", "/", "[", "]", "#51", "(", ")", "=", "0.441*[#51-2.000]", "+0.395*[#52-2.000]", "a"]),
+            0..12,
+        ),
+        is_whole in any::<bool>(),
+    ) {
+        let formula = if is_whole { "1.000+0.441*[#51-2.000]".to_owned() } else { pieces.concat() };
+        let rest = if is_whole { pieces.concat() } else { ")".to_owned() };
+        let read = |blank: &str| {
+            let text = format!("G1\nX1 Z1.023{blank}(={formula}{rest}) Y2\nX3\n");
+            let mut reader = Reader::new(text.as_bytes(), Dialect::Native.rules());
+            let mut blocks = Vec::new();
+            while let Some(block) = reader.next_block() {
+                let words: Vec<_> = block.words.iter().map(|word| (word.letter, word.value)).collect();
+                let formulas: Vec<_> = block
+                    .formulas
+                    .iter()
+                    .map(|it| (it.word, it.applied, block.code(it.code).to_vec()))
+                    .collect();
+                blocks.push((block.line, words, formulas));
+            }
+            let codes: Vec<_> = reader.into_problems().into_diagnostics().iter().map(Diagnostic::code).collect();
+            (blocks, codes)
+        };
+        // With a blank in front it is read as any expression.
+        prop_assert_eq!(read(""), read(" "));
+    }
+}
+
 #[test]
 fn one_line_cannot_fill_the_memory() {
     let huge = format!(

@@ -6,6 +6,7 @@
 mod block;
 mod comment;
 mod expression;
+mod formula;
 mod line;
 mod number;
 mod problems;

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
 use super::block::{Block, Comment, CommentStyle, Span};
+use super::formula::plain_formula;
 use super::line::{Line, Parts, plain_words};
 use super::problems::{At, Problems};
 use super::real_time;
@@ -141,19 +142,29 @@ impl<'t> Reader<'t> {
             return None;
         }
         let rest = &self.text[self.at.min(self.text.len())..];
-        let length = plain_words(&rest[..rest.len().min(LONGEST_LINE)], 0, &mut self.parts.words);
+        let length = self.plain_length(&rest[..rest.len().min(LONGEST_LINE)]);
         let end = match rest.get(length..)? {
             [b'\n', ..] => 1,
             [b'\r', b'\n', ..] => 2,
             _ => 0,
         };
         if end == 0 || self.parts.words.is_empty() || length > self.surely_short_enough() {
-            self.parts.words.clear();
+            self.parts.clear();
             return None;
         }
         self.at += length + end;
         self.line = self.line.saturating_add(1);
         Some(&rest[..length])
+    }
+
+    /// Reads words, and formulas where there are any, as far as they are plain.
+    fn plain_length(&mut self, line: &[u8]) -> usize {
+        let mut at = plain_words(line, 0, &mut self.parts.words);
+        while self.rules.spelling.formulas && line.get(at) == Some(&b'(') {
+            let Some(end) = plain_formula(line, at, &mut self.parts) else { break };
+            at = plain_words(line, end, &mut self.parts.words);
+        }
+        at
     }
 
     /// A length that no limit forbids.
