@@ -28,7 +28,7 @@ pub(super) fn whole_question(context: &Context, session: &Session<'_>, question:
     add(&(general.lang.value, general.charset.value, &general.post.value, general.cycles.value));
     add(&general.out_dir.value.as_ref().map(|directory| session.normal(directory)));
     add(&(limits.file_size.value, limits.entities.value, limits.text_length.value));
-    add(&(limits.embedding_moves.value, limits.seconds_per_path.value));
+    add(&(limits.embedding_moves.value, limits.embedded_paths.value, limits.seconds_per_path.value));
     add(&(&context.settings.tables.line_types.value, &context.settings.emit.targets.value));
     add(&place_of(context));
     text
