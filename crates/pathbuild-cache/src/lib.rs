@@ -10,6 +10,7 @@ mod facts;
 mod findings;
 mod format;
 mod place;
+mod reasons;
 mod stamp;
 mod verify;
 
@@ -18,5 +19,6 @@ pub use facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record}
 pub use findings::{decode_diagnostic, encode_diagnostic};
 pub use format::{Key, Unusable};
 pub use place::{Entry, Place};
+pub use reasons::{Reason, reasons};
 pub use stamp::{Clock, Stamp};
 pub use verify::{Covers, FileState, Verdict, verify};

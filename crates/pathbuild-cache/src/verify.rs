@@ -83,7 +83,7 @@ fn state(file: &FileFact) -> FileState {
 }
 
 /// What became of a directory.
-enum DirectoryChange {
+pub(crate) enum DirectoryChange {
     /// Nothing.
     None,
     /// These names came or went.
@@ -116,7 +116,7 @@ impl DirectoryFact {
 }
 
 impl DirectoryChange {
-    fn of(before: &DirectoryFact, now: &DirectoryFact) -> Self {
+    pub(crate) fn of(before: &DirectoryFact, now: &DirectoryFact) -> Self {
         if before.is_doubtful || now.is_doubtful || before.canonical != now.canonical {
             return Self::Links;
         }

@@ -77,8 +77,7 @@ pub enum Command {
     Rdeps(GraphArgs),
     /// Show where a path is defined
     Where(GraphArgs),
-    /// Show why a path was compiled again
-    #[command(hide = true)]
+    /// Show why drawings would be compiled again: what has changed since the last `check` of the library
     Why(GraphArgs),
     /// Write a Q-project: a drawing that embeds every path of another
     QProject(QProjectArgs),

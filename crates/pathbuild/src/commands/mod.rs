@@ -18,6 +18,7 @@ mod program;
 pub mod q_project;
 pub mod texts;
 pub mod verify;
+pub mod why;
 
 use crate::args::{Command, Format};
 use crate::context::Context;
@@ -46,6 +47,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Deps(args) => graph::deps(context, args),
         Command::Rdeps(args) => graph::rdeps(context, args),
         Command::Where(args) => locate::run(context, args),
+        Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),

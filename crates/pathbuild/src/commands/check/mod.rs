@@ -33,7 +33,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
 }
 
 /// What is asked of the drawings, for telling results of other runs apart.
-fn question(args: &CheckArgs) -> String {
+pub(super) fn question(args: &CheckArgs) -> String {
     format!("check {} {:?}", args.all_bindings, args.inputs.inputs)
 }
 

@@ -9,7 +9,7 @@ mod writing;
 use std::collections::HashMap;
 
 use camino::Utf8PathBuf;
-use pathbuild_cache::{Catalogue, Clock, Key, Place, Unusable, Verdict, verify};
+use pathbuild_cache::{Catalogue, Clock, Key, Place, Reason, Unusable, Verdict, reasons, verify};
 use pathbuild_db::Trace;
 
 use super::Session;
@@ -82,6 +82,13 @@ impl Keeper {
     pub fn payload(&self, of: &str) -> Option<&[u8]> {
         let number = *self.records.get(of)?;
         self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
+    }
+
+    /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
+    pub fn why(&self, context: &Context, of: &str) -> Option<Vec<Reason>> {
+        let coverage = Coverage::new(context);
+        let number = *self.records.get(of)?;
+        Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
     }
 
     /// Keeps results: of all that was asked for what still holds, and what was made now. Nothing is written where nothing changed.

@@ -1,0 +1,82 @@
+//! Why a kept result no longer holds, for people.
+
+use camino::Utf8PathBuf;
+
+use crate::facts::{Catalogue, Lookup};
+use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
+
+/// Something that a result was made from and that is not as it was.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// A file has other bytes, or is gone.
+    File {
+        /// As the run spelt it.
+        path: Utf8PathBuf,
+        /// Whether it is gone.
+        is_gone: bool,
+    },
+    /// A file came or went that may hold a path which was looked for.
+    Name {
+        /// Where.
+        file: Utf8PathBuf,
+        /// The path; empty where every name counts.
+        path: Box<str>,
+        /// Whether it went.
+        is_gone: bool,
+    },
+    /// A directory has links in it, or on the way to it: what was looked for there is always looked for again.
+    Links {
+        /// The directory.
+        directory: Utf8PathBuf,
+    },
+}
+
+/// Why a record does not hold, each reason once; nothing where it does.
+pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
+    let record = &catalogue.records[record];
+    let changed = record.files.iter().filter(|file| verdict.files[**file as usize] == FileState::Changed);
+    let mut reasons: Vec<Reason> = changed
+        .map(|file| {
+            let path = catalogue.files[*file as usize].path.clone();
+            Reason::File { is_gone: !path.exists(), path }
+        })
+        .collect();
+    for lookup in &record.lookups {
+        reasons.extend(of_lookup(catalogue, verdict, lookup, covers));
+    }
+    reasons.sort();
+    reasons.dedup();
+    // Of a file that was read and is gone, one line says enough.
+    let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::gone_file).cloned().collect();
+    reasons.retain(|reason| !matches!(reason, Reason::Name { file, .. } if gone.contains(file)));
+    reasons
+}
+
+impl Reason {
+    fn gone_file(&self) -> Option<&Utf8PathBuf> {
+        match self {
+            Self::File { path, is_gone: true } => Some(path),
+            _ => None,
+        }
+    }
+}
+
+fn of_lookup(catalogue: &Catalogue, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
+    let number = lookup.directory as usize;
+    let (before, now) = (&catalogue.directories[number], &verdict.directories[number]);
+    let directory = &before.path;
+    match DirectoryChange::of(before, now) {
+        DirectoryChange::None => Vec::new(),
+        DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],
+        DirectoryChange::Names(names) => {
+            let names = names.iter().map(|name| &**name);
+            let asked = names.filter(|name| lookup.name.is_empty() || covers(name, &lookup.name));
+            let reason = |name: &str| Reason::Name {
+                file: directory.join(name),
+                path: lookup.name.clone(),
+                is_gone: !now.names.iter().any(|there| **there == *name),
+            };
+            asked.map(reason).collect()
+        }
+    }
+}

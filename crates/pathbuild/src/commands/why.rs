@@ -1,0 +1,142 @@
+//! `pathbuild why`: why drawings would be compiled again. (spec/05-command-line.md)
+
+use camino::Utf8PathBuf;
+use pathbuild_cache::Reason;
+use pathbuild_db::SourceFile;
+use serde::Serialize;
+
+use super::check::question;
+use crate::args::{CheckArgs, Format, GraphArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::session::{Keeper, Session};
+
+/// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
+/// that is not as it was.
+pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.nothing_named("explain");
+    }
+    let Some(keeper) = Keeper::open(context, &session, &question(&CheckArgs::default())) else {
+        return context
+            .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
+    };
+    let wanted = session.wanted(&args.inputs);
+    let drawings = wanted.drawings.iter().map(|drawing| drawing.file);
+    let mut files: Vec<SourceFile> = Vec::new();
+    for file in drawings.chain(wanted.paths.iter().map(|path| path.file)) {
+        if !files.contains(&file) {
+            files.push(file);
+        }
+    }
+    for file in files {
+        let drawing = file.path(session.db());
+        let answer = Answer { drawing, reasons: keeper.why(context, drawing.as_str()) };
+        context.printer.result(match context.format {
+            Format::Json => answer.json(),
+            _ => answer.text(context),
+        });
+    }
+    let findings = context.findings(wanted.problems);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// What is known of a drawing's results.
+struct Answer<'a> {
+    drawing: &'a Utf8PathBuf,
+    /// Why they do not hold; `None` where there are none.
+    reasons: Option<Vec<Reason>>,
+}
+
+impl Answer<'_> {
+    fn text(&self, context: &Context) -> String {
+        let (lines, state) = match self.reasons.as_deref() {
+            None => (
+                &[][..],
+                context.choose(
+                    "would be compiled: no result is kept of it, made by this build of pathbuild with these settings",
+                    "würde übersetzt: es gibt kein Ergebnis dieser Programmfassung mit diesen Einstellungen",
+                ),
+            ),
+            Some([]) => (
+                &[][..],
+                context.choose(
+                    "what was found still holds: nothing that it was made from has changed",
+                    "das Ergebnis gilt noch: nichts, woraus es gemacht wurde, hat sich geändert",
+                ),
+            ),
+            Some(reasons) => (reasons, context.choose("would be compiled again", "würde neu übersetzt")),
+        };
+        let lines = lines.iter().map(|reason| format!("  {}\n", said(context, reason)));
+        format!("{}: {state}\n", self.drawing) + &lines.collect::<String>()
+    }
+
+    fn json(&self) -> String {
+        let reasons = self.reasons.as_deref().unwrap_or_default().iter().map(object).collect();
+        let holds = self.reasons.as_ref().map(Vec::is_empty);
+        let object = Object { file: self.drawing.as_str(), holds, reasons };
+        // Only maps with keys that are no text can fail to become JSON.
+        format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+    }
+}
+
+fn said(context: &Context, reason: &Reason) -> String {
+    match reason {
+        Reason::File { path, is_gone: false } => {
+            format!("{path} {}", context.choose("has changed", "hat sich geändert"))
+        }
+        Reason::File { path, is_gone: true } => format!("{path} {}", context.choose("is gone", "ist weg")),
+        Reason::Name { file, path, is_gone } => {
+            let state = match is_gone {
+                true => context.choose("is gone, and may have held", "ist weg, und könnte enthalten haben:"),
+                false => context.choose("is new, and may hold", "ist neu, und könnte enthalten:"),
+            };
+            format!("{file} {state} {path}")
+        }
+        Reason::Links { directory } => {
+            let directory = if directory.as_str().is_empty() { "." } else { directory.as_str() };
+            format!(
+                "{directory} {}",
+                context.choose(
+                    "has links in it or on the way to it: it is always looked through again",
+                    "hat Verknüpfungen in sich oder auf dem Weg dorthin: es wird immer neu durchgesehen",
+                )
+            )
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    file: &'a str,
+    /// `null`: nothing is kept of it.
+    holds: Option<bool>,
+    reasons: Vec<ReasonObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct ReasonObject<'a> {
+    file: &'a str,
+    /// `changed`, `gone`, `new` or `links`.
+    change: &'static str,
+    /// The path that the file may hold or have held.
+    path: Option<&'a str>,
+}
+
+fn object(reason: &Reason) -> ReasonObject<'_> {
+    match reason {
+        Reason::File { path, is_gone } => ReasonObject {
+            file: path.as_str(),
+            change: if *is_gone { "gone" } else { "changed" },
+            path: None,
+        },
+        Reason::Name { file, path, is_gone } => ReasonObject {
+            file: file.as_str(),
+            change: if *is_gone { "gone" } else { "new" },
+            path: Some(path),
+        },
+        Reason::Links { directory } => ReasonObject { file: directory.as_str(), change: "links", path: None },
+    }
+}
