@@ -153,6 +153,19 @@ fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
     assert_says(&one_error(&place, NAME), "PB001", "cannot read");
 }
 
+/// Five million passes, begun and given up.
+#[test]
+fn what_takes_too_long_is_given_up() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I0.000001 B0\"\nmill 0,0 40,0\nend 40,0";
+    let place = Place::new()
+        .file("pathbuild.toml", "[limits]\nseconds-per-path = 0.3\n")
+        .file(NAME, Sheet::parse(drawn).unwrap().to_dxf());
+    let start = Instant::now();
+    let run = place.run_with(&[&["emit", NAME], OPTIONS].concat());
+    assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
+    assert_says(&errors(&run).join("\n"), "PB005", "the time that this path takes");
+}
+
 /// In a library with all of them each is told, and what is right is checked.
 #[test]
 fn bad_files_hide_nothing() {

@@ -3,6 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use globset::{Glob, GlobBuilder, GlobMatcher};
 use pathbuild_diagnostic::{Code, Lang, Severity};
+use pathbuild_path::LineType;
 
 /// Declares a choice: what can be written, and what it means.
 macro_rules! choice {
@@ -23,11 +24,8 @@ pub(crate) trait Choice: Copy + PartialEq + 'static {
     const ALL: &[(&str, Self)];
 }
 
-impl LineType {
-    /// The usual name.
-    pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(_, it)| *it == self).map_or("", |(name, _)| name)
-    }
+impl Choice for LineType {
+    const ALL: &[(&str, Self)] = &Self::NAMES;
 }
 
 impl Choice for Lang {
@@ -75,22 +73,6 @@ choice! {
         Plane = "plane",
         /// A triangulation.
         Tin = "tin",
-    }
-}
-
-choice! {
-    /// One of the line types that mean something. (spec/10-drawing.md)
-    #[expect(missing_docs, reason = "the drawing's names say it")]
-    LineType {
-        Continuous = "CONTINUOUS",
-        Divide = "DIVIDE",
-        Border = "BORDER",
-        Center = "CENTER",
-        Dashed = "DASHED",
-        Hidden = "HIDDEN",
-        DashDot = "DASHDOT",
-        Dot = "DOT",
-        Phantom = "PHANTOM",
     }
 }
 

@@ -13,12 +13,13 @@ mod settings;
 mod watchdog;
 mod work;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
 use pathbuild_db::{Database, Db, SourceFile};
 
+use self::watchdog::Watchdog;
 use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
@@ -36,6 +37,8 @@ pub struct Session<'a> {
     context: &'a Context,
     /// Whether it is noted what targets were made from.
     is_traced: bool,
+    /// Started when there is something to watch.
+    watchdog: OnceLock<Watchdog>,
 }
 
 impl<'a> Session<'a> {
@@ -63,7 +66,7 @@ impl<'a> Session<'a> {
     fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
-        Self { db, context, is_traced: false }
+        Self { db, context, is_traced: false, watchdog: OnceLock::new() }
     }
 
     /// The database.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, LineType, LineTypeAliases, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
 use pathbuild_toolpath::{FoldOptions, SupportBars};
 
 use super::normal;
@@ -56,10 +56,7 @@ pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
 fn aliases(context: &Context) -> LineTypeAliases {
     let mut aliases = LineTypeAliases::default();
     for alias in &context.settings.tables.line_types.value {
-        let name = types::LineType::name(alias.means);
-        if let Some((_, line_type)) = LineType::NAMES.iter().find(|(known, _)| *known == name) {
-            aliases.insert(&alias.name, *line_type);
-        }
+        aliases.insert(&alias.name, alias.means);
     }
     aliases
 }

@@ -1,18 +1,23 @@
 //! Gives up paths that take longer than `seconds-per-path`. (spec/06-configuration.md, `[limits]`)
 
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 use pathbuild_db::{Database, Underway};
 
-/// What is being worked on, for a thread that looks at it now and then.
-pub(super) struct Watchdog {
+/// A thread that looks at what is being worked on now and then, until this is dropped. It is not waited for: a run that is over ends.
+#[derive(Debug)]
+pub(super) struct Watchdog(Arc<Shared>);
+
+#[derive(Debug)]
+struct Shared {
     limit: Duration,
     state: Mutex<State>,
     changed: Condvar,
 }
 
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct State {
     underway: Vec<Option<Underway>>,
     is_over: bool,
@@ -25,23 +30,16 @@ pub(super) struct Watched<'a> {
 }
 
 impl Watchdog {
-    pub(super) fn new(limit: Duration) -> Self {
-        Self { limit, state: Mutex::default(), changed: Condvar::new() }
-    }
-
-    /// Runs some work while a thread watches what it begins.
-    pub(super) fn during<R>(&self, work: impl FnOnce() -> R) -> R {
-        std::thread::scope(|scope| {
-            scope.spawn(|| self.watch());
-            let over = Over(self);
-            let result = work();
-            drop(over);
-            result
-        })
+    /// Begins to watch. Where the system has no thread left, work takes as long as it takes.
+    pub(super) fn start(limit: Duration) -> Self {
+        let shared = Arc::new(Shared { limit, state: Mutex::default(), changed: Condvar::new() });
+        let watching = Arc::clone(&shared);
+        _ = thread::Builder::new().name("watchdog".into()).spawn(move || watching.watch());
+        Self(shared)
     }
 
     pub(super) fn begin(&self, db: &Database) -> Watched<'_> {
-        let mut state = self.state();
+        let mut state = self.0.state();
         let free = state.underway.iter().position(Option::is_none);
         let place = free.unwrap_or_else(|| {
             state.underway.push(None);
@@ -50,7 +48,22 @@ impl Watchdog {
         state.underway[place] = Some(db.underway());
         Watched { watchdog: self, place }
     }
+}
 
+impl Drop for Watchdog {
+    fn drop(&mut self) {
+        self.0.state().is_over = true;
+        self.0.changed.notify_all();
+    }
+}
+
+impl Drop for Watched<'_> {
+    fn drop(&mut self) {
+        self.watchdog.0.state().underway[self.place] = None;
+    }
+}
+
+impl Shared {
     fn watch(&self) {
         // Seldom enough to cost nothing, often enough for limits of a second.
         let pause = (self.limit / 4).clamp(Duration::from_millis(10), Duration::from_millis(500));
@@ -67,21 +80,5 @@ impl Watchdog {
     fn state(&self) -> MutexGuard<'_, State> {
         // The list is whole whenever the lock is free: nothing panics in between.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Drop for Watched<'_> {
-    fn drop(&mut self) {
-        self.watchdog.state().underway[self.place] = None;
-    }
-}
-
-/// Tells the watching thread that the work is over, also when it panics.
-struct Over<'a>(&'a Watchdog);
-
-impl Drop for Over<'_> {
-    fn drop(&mut self) {
-        self.0.state().is_over = true;
-        self.0.changed.notify_all();
     }
 }

@@ -78,12 +78,12 @@ impl Session<'_> {
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<Result<R, Box<Diagnostic>>> {
         let limit = self.context.settings.limits.seconds_per_path.value;
-        let watchdog = Watchdog::new(limit);
+        let watchdog = self.watchdog.get_or_init(|| Watchdog::start(limit));
         let work = |db: &Database, item: &T| {
             let _watched = watchdog.begin(db);
             db.guarded(limit, || work(db, item))
         };
-        watchdog.during(|| self.spread(items, work))
+        self.spread(items, work)
     }
 
     /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes

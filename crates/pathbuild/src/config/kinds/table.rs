@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Code, Severity, Value};
+use pathbuild_path::LineType;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -12,7 +13,7 @@ use super::text::{choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::kind::Kind;
 use crate::config::nearest::nearest;
 use crate::config::reader::{Reader, Table};
-use crate::config::types::{Coolant, Direction, Level, LineType, LineTypeAlias, Macro, SeveritiesIn, Tool};
+use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
 
 /// Names of line types, each with what it stands for.
 pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
