@@ -1,5 +1,11 @@
 //! Kept results: the same as without, whatever changed in between; never trusted when they are not whole.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
+
 mod support;
 
 use std::collections::BTreeMap;
@@ -127,8 +133,9 @@ fn after_any_edits_results_are_those_without_the_cache() {
                 format!("renaming {} to {}", file.display(), to.display())
             }
             7 => {
-                let mut mended = drawings();
-                mended.iter_mut().for_each(|(file, paths)| _ = write(&place.path().join(file), paths));
+                for (file, paths) in &drawings() {
+                    write(&place.path().join(file), paths);
+                }
                 "mending".to_owned()
             }
             _ => {
@@ -244,7 +251,9 @@ fn several_processes_at_once_do_each_other_no_harm() {
         let run = || (0..6).map(|_| said(&place.run("check --format json"))).collect::<Vec<_>>();
         let threads: Vec<_> = (0..4).map(|_| scope.spawn(run)).collect();
         for thread in threads {
-            thread.join().unwrap().into_iter().for_each(|found| assert_eq!(found, expected));
+            for found in thread.join().unwrap() {
+                assert_eq!(found, expected);
+            }
         }
     });
     assert_eq!(results(&place).len(), 1);

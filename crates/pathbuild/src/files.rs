@@ -3,7 +3,7 @@
 #![expect(clippy::disallowed_methods, reason = "see above")]
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ReadError;
@@ -18,6 +18,16 @@ pub(crate) fn is_file(file: &Utf8Path) -> bool {
 /// The text of a file, in UTF-8.
 pub(crate) fn read(file: &Utf8Path) -> io::Result<String> {
     fs::read_to_string(file)
+}
+
+/// The last bytes of a file, at most so many; `None` where there is none.
+pub(crate) fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
+    let mut open = fs::File::open(file).ok()?;
+    let size = open.metadata().ok()?.len();
+    open.seek(SeekFrom::Start(size.saturating_sub(length))).ok()?;
+    let mut tail = Vec::new();
+    open.take(length).read_to_end(&mut tail).ok()?;
+    Some(tail)
 }
 
 /// Writes a file that must not be there yet.

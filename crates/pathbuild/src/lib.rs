@@ -24,8 +24,9 @@ use pathbuild_diagnostic::Diagnostic;
 pub use context::Context;
 pub use exit::ExitStatus;
 
-use args::{Cli, Command, CommonArgs, CompatArgs};
+use args::{Cli, Command, CommonArgs, CompatArgs, WatchArgs};
 use commands::compat::{self, Translated};
+use commands::watch::Ended;
 use printer::{ColorChoice, Printer};
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
@@ -61,6 +62,9 @@ fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
 }
 
 fn execute(cli: &Cli) -> ExitStatus {
+    if let Command::Watch(args) = &cli.command {
+        return watch(cli, args);
+    }
     let (context, faults) = context(cli);
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
@@ -68,6 +72,22 @@ fn execute(cli: &Cli) -> ExitStatus {
         context.refuse(faults)
     };
     context.printer.finish(status)
+}
+
+/// Watches, from the beginning again whenever the configuration changes.
+fn watch(cli: &Cli, args: &WatchArgs) -> ExitStatus {
+    loop {
+        let (context, faults) = context(cli);
+        if !faults.is_empty() {
+            return context.printer.finish(context.refuse(faults));
+        }
+        match commands::watch::run(&context, args) {
+            Ended::With(status) => return context.printer.finish(status),
+            Ended::ConfigurationChanged => context
+                .printer
+                .status(context.choose("the configuration changed", "die Konfiguration wurde geändert")),
+        }
+    }
 }
 
 /// The surroundings, and what is wrong with the configuration.

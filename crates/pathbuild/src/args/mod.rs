@@ -53,7 +53,6 @@ pub enum Command {
     /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
     Adjust(AdjustArgs),
     /// Keep checking as drawings change
-    #[command(hide = true)]
     Watch(WatchArgs),
     /// Show which element each parameter text belongs to
     Texts(TextsArgs),

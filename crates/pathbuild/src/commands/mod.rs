@@ -18,6 +18,7 @@ mod program;
 pub mod q_project;
 pub mod texts;
 pub mod verify;
+pub mod watch;
 pub mod why;
 
 use crate::args::{Command, Format};

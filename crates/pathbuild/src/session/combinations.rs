@@ -16,7 +16,7 @@ impl Session<'_> {
     /// The targets that check a path with each combination of values, and a warning where there are too many. Of a path without variables
     /// that is one target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
-        let target = |role| Target::new(self.db(), file, name.as_str().into(), role);
+        let target = |role| self.target_in(file, name, role);
         match combinations(self.db(), file, name, MOST_COMBINATIONS) {
             None => (vec![target(Role::Checked)], None),
             Some((values, warning)) => {

@@ -13,17 +13,19 @@ mod settings;
 mod watchdog;
 mod work;
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
-use pathbuild_db::{Database, Db, SourceFile};
+use pathbuild_db::{Database, Db, Role, SourceFile, Target};
 
 use self::watchdog::Watchdog;
 use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{BUILD, DrawingResult, Keeper, Made, Programs};
+pub use keeper::{BUILD, Coverage, DrawingResult, Keeper, Made, Programs};
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
@@ -39,7 +41,11 @@ pub struct Session<'a> {
     is_traced: bool,
     /// Started when there is something to watch.
     watchdog: OnceLock<Watchdog>,
+    /// The targets that were asked for, in a session that asks again: each is an input of the database, which stays for ever.
+    targets: Option<RefCell<Targets>>,
 }
+
+type Targets = HashMap<(SourceFile, Box<str>, Role), Target>;
 
 impl<'a> Session<'a> {
     /// A session over the files of the operating system.
@@ -57,6 +63,21 @@ impl<'a> Session<'a> {
         Self { is_traced: true, ..Self::over(context, true, Arc::new(OsSystem)) }
     }
 
+    /// A session that goes on while drawings change.
+    pub fn watching(context: &'a Context) -> Self {
+        Self { targets: Some(RefCell::default()), ..Self::traced(context) }
+    }
+
+    /// Tells that a drawing may have changed, appeared or gone.
+    pub fn touch_file(&mut self, path: &Utf8Path) {
+        self.db.touch_file(path);
+    }
+
+    /// Tells that there may be other names in a directory.
+    pub fn touch_directory(&mut self, path: &Utf8Path) {
+        self.db.touch_directory(path);
+    }
+
     /// A session in which a drawing is there that has not been written yet.
     pub fn with_drawing(context: &'a Context, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
@@ -66,7 +87,7 @@ impl<'a> Session<'a> {
     fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
-        Self { db, context, is_traced: false, watchdog: OnceLock::new() }
+        Self { db, context, is_traced: false, watchdog: OnceLock::new(), targets: None }
     }
 
     /// The database.

@@ -66,6 +66,11 @@ impl Session<'_> {
         wanted
     }
 
+    /// Whether a name is a drawing's.
+    pub fn is_drawing(path: &Utf8Path) -> bool {
+        library::is_drawing(path)
+    }
+
     /// The drawings that arguments mean, if all of them are directories that can be walked through; without arguments, those of the
     /// library.
     pub fn directories_only(&self, inputs: &Inputs) -> Option<Vec<Utf8PathBuf>> {
@@ -126,7 +131,8 @@ impl Session<'_> {
         distinct(below.map(|directory| self.normal(&directory)))
     }
 
-    fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
+    /// The drawings in a directory and below.
+    pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
         self.walked(directory).into_iter()
     }
 
@@ -162,7 +168,8 @@ impl Session<'_> {
         wanted.directories.push(directory);
     }
 
-    fn is_directory(&self, place: &Utf8Path) -> bool {
+    /// Whether a place is a directory.
+    pub fn is_directory(&self, place: &Utf8Path) -> bool {
         self.db.system().kind(&self.normal(place)) == Kind::Directory
     }
 

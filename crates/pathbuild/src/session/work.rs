@@ -5,6 +5,7 @@ use pathbuild_db::{
     path_names, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
 use rayon::prelude::*;
 
 use super::watchdog::Watchdog;
@@ -45,12 +46,24 @@ impl Session<'_> {
     /// A target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
         let names = path_names(&self.db, file).iter();
-        names.map(|name| Target::new(&self.db, file, name.as_str().into(), role.clone())).collect()
+        names.map(|name| self.target_in(file, name, role.clone())).collect()
     }
 
     /// The target for a path that was named.
     pub fn target(&self, path: &WantedPath, role: Role) -> Target {
-        Target::new(&self.db, path.file, path.name.as_str().into(), role)
+        self.target_in(path.file, &path.name, role)
+    }
+
+    /// The target for a path of a drawing: the same again, in a session that asks again.
+    pub fn target_in(&self, file: SourceFile, name: &PathName, role: Role) -> Target {
+        let new = |role| Target::new(&self.db, file, name.as_str().into(), role);
+        match &self.targets {
+            None => new(role),
+            Some(known) => {
+                let key = (file, name.as_str().into(), role.clone());
+                *known.borrow_mut().entry(key).or_insert_with(|| new(role))
+            }
+        }
     }
 
     /// Reads files ahead, on all cores.

@@ -55,7 +55,7 @@ fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
 }
 
 /// What is found in drawings, each with what it was found from.
-fn check_drawings(
+pub(in crate::commands) fn check_drawings(
     session: &Session<'_>,
     files: &[SourceFile],
     with_all_values: bool,

@@ -8,6 +8,8 @@ use std::time::Instant;
 use pathbuild_db::{Role, SourceFile, Target, check_file, path_names};
 use pathbuild_path::PathName;
 
+pub(super) use kept::check_drawings;
+
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;

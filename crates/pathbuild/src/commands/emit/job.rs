@@ -7,6 +7,7 @@ use pathbuild_db::{Database, SourceFile, Target, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
 
+use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use crate::context::Context;
 use crate::posting::Poster;
@@ -38,6 +39,31 @@ impl Job {
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
+    }
+
+    /// Takes its files for its target; PB514 where another target has one of them, and still becomes something.
+    pub(super) fn claim(
+        &self,
+        session: &Session<'_>,
+        owners: &mut Owners,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> bool {
+        let names = || self.files.iter().map(|(_, path)| path.as_str().to_lowercase());
+        let other =
+            names().find_map(|name| owners.get(&name).copied().filter(|owner| *owner != self.targets[0]));
+        let db = session.db();
+        if let Some(other) = other {
+            let name = format!("{} ({})", other.name(db), other.file(db).path(db));
+            let problem = Diagnostic::new(&messages::SAME_OUTPUT)
+                .with("name", self.files[0].1.file_name().unwrap_or_default())
+                .with("first", name)
+                .with("second", self.name(session))
+                .in_file(self.drawing(db).path(db));
+            diagnostics.push(problem);
+            return false;
+        }
+        owners.extend(names().map(|name| (name, self.targets[0])));
+        true
     }
 
     /// What came of it when it was not finished.

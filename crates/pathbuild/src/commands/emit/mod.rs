@@ -8,6 +8,9 @@ mod job;
 mod options;
 mod stale;
 
+use std::collections::HashMap;
+
+use pathbuild_db::Target;
 use pathbuild_diagnostic::{Diagnostic, Note};
 
 use crate::args::EmitArgs;
@@ -110,6 +113,38 @@ fn show_all(context: &Context, delivered: &[Delivered], diagnostics: &mut Vec<Di
         context.printer.status(format_args!("{}", note.text(context.lang())));
     }
     is_current
+}
+
+/// Which path each file was written for, by its name without regard to case.
+pub(in crate::commands) type Owners = HashMap<String, Target>;
+
+/// Writes the programs of some targets, for who keeps watching; what is wrong with them as programs. Checks have said what is wrong with their
+/// drawings.
+pub(in crate::commands) fn write(
+    context: &Context,
+    session: &Session<'_>,
+    poster: Option<&Poster>,
+    targets: &[Target],
+    owners: &mut Owners,
+) -> Vec<Diagnostic> {
+    let checked = session.check(targets);
+    let task = Task::Write { force: false };
+    if let Some(refusal) = options::missing(context, task, &checked) {
+        _ = context.usage(&refusal);
+        return Vec::new();
+    }
+    let mut diagnostics = Vec::new();
+    let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
+    jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
+    let means = Means { writing: options::writing(context), poster };
+    let delivered = session.guarded(&jobs, |db, job| deliver(db, job, task, &means));
+    let delivered: Vec<Delivered> = delivered
+        .into_iter()
+        .zip(&jobs)
+        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(session, *problem)))
+        .collect();
+    show_all(context, &delivered, &mut diagnostics);
+    diagnostics
 }
 
 const NOTHING_TO_EMIT: &str = "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml";

@@ -16,8 +16,8 @@ use super::Session;
 use crate::context::Context;
 
 pub use payload::DrawingResult;
-pub use question::BUILD;
-use question::{Coverage, whole_question};
+use question::whole_question;
+pub use question::{BUILD, Coverage};
 use writing::Writing;
 
 /// The results that are kept for a question.

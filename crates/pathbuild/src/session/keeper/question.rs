@@ -42,13 +42,15 @@ fn place_of(context: &Context) -> &str {
 }
 
 /// Which file names may hold which paths.
-pub(super) struct Coverage {
+#[derive(Clone, Debug)]
+pub struct Coverage {
     paths: PathPattern,
     files: FilePattern,
 }
 
 impl Coverage {
-    pub(super) fn new(context: &Context) -> Self {
+    /// As the configuration says.
+    pub fn new(context: &Context) -> Self {
         let general = &context.settings.general;
         Self {
             paths: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
@@ -57,7 +59,7 @@ impl Coverage {
     }
 
     /// Whether a drawing of this name may hold the path of that name.
-    pub(super) fn may_hold(&self, file: &str, path: &str) -> bool {
+    pub fn may_hold(&self, file: &str, path: &str) -> bool {
         let Some(key) = PathKey::new(path, &self.paths) else { return false };
         let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
         self.files.ranges(stem).iter().any(|range| range.holds(&key))

@@ -1,0 +1,212 @@
+//! What changed on disk, in batches: events are gathered until nothing has come for a while, and files that a CAD is still writing are waited for.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use notify::event::{AccessKind, AccessMode, EventKind};
+use notify::{Config, Event, PollWatcher, RecommendedWatcher, RecursiveMode, Watcher as _};
+
+use super::library::Library;
+use crate::args::{Input, WatchArgs};
+use crate::context::Context;
+use crate::files;
+use crate::session::Session;
+
+/// Watches the directories of a library.
+pub(super) struct Watcher {
+    events: Receiver<notify::Result<Event>>,
+    /// Kept, since nothing is watched once it is dropped.
+    _source: Box<dyn notify::Watcher>,
+    debounce: Duration,
+    configuration: Option<Utf8PathBuf>,
+    working_directory: Utf8PathBuf,
+    /// Files without their end, and when they are taken as they are.
+    unfinished: BTreeMap<Utf8PathBuf, Instant>,
+}
+
+/// What came of waiting.
+pub(super) enum Batch {
+    /// Something changed.
+    Changes(Changes),
+    /// The configuration did.
+    ConfigurationChanged,
+    /// Nothing more will come.
+    Over,
+}
+
+/// What changed: names that were written, made, renamed or removed, normalised.
+#[derive(Debug, Default)]
+pub(super) struct Changes {
+    pub(super) paths: BTreeSet<Utf8PathBuf>,
+    /// Whether more may have changed than is said.
+    pub(super) is_incomplete: bool,
+}
+
+/// How often is looked on network drives.
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
+
+/// How long a drawing without its end is waited for after its last change: it may be that its program never writes one.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How often unfinished drawings are looked at.
+const GLANCE: Duration = Duration::from_millis(50);
+
+impl Watcher {
+    /// Begins to watch.
+    pub(super) fn new(context: &Context, session: &Session<'_>, args: &WatchArgs) -> notify::Result<Self> {
+        let settings = &context.settings;
+        let (sender, events) = channel();
+        let is_polling = args.poll || settings.watch.poll.value;
+        let mut watcher: Box<dyn notify::Watcher> = if is_polling {
+            Box::new(PollWatcher::new(sender, Config::default().with_poll_interval(POLL_INTERVAL))?)
+        } else {
+            Box::new(RecommendedWatcher::new(sender, Config::default())?)
+        };
+        for (directory, mode) in directories(context, session, args) {
+            let place = if directory.as_str().is_empty() { Utf8Path::new(".") } else { &directory };
+            watcher.watch(place.as_std_path(), mode)?;
+        }
+        Ok(Self {
+            events,
+            _source: watcher,
+            debounce: settings.watch.debounce.value,
+            configuration: settings.file.as_ref().map(|file| session.normal(file)),
+            working_directory: context.working_directory.clone(),
+            unfinished: BTreeMap::new(),
+        })
+    }
+
+    /// Waits for changes.
+    pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
+        let mut changes = Changes::default();
+        loop {
+            let patience = match (changes.is_empty(), self.unfinished.is_empty()) {
+                (false, _) => self.debounce,
+                (true, false) => GLANCE,
+                (true, true) => Duration::MAX,
+            };
+            match self.wait(patience) {
+                Ok(event) => self.add(event, library.session(), &mut changes),
+                Err(RecvTimeoutError::Disconnected) => return Batch::Over,
+                Err(RecvTimeoutError::Timeout) => {
+                    if self.configuration.as_ref().is_some_and(|file| changes.paths.contains(file)) {
+                        return Batch::ConfigurationChanged;
+                    }
+                    self.hold_back(&mut changes);
+                    if !changes.is_empty() {
+                        return Batch::Changes(changes);
+                    }
+                }
+            }
+        }
+    }
+
+    fn wait(&self, patience: Duration) -> Result<notify::Result<Event>, RecvTimeoutError> {
+        if patience == Duration::MAX {
+            return self.events.recv().map_err(|_| RecvTimeoutError::Disconnected);
+        }
+        self.events.recv_timeout(patience)
+    }
+
+    fn add(&self, event: notify::Result<Event>, session: &Session<'_>, changes: &mut Changes) {
+        // Whoever reads tells nothing.
+        let tells = |kind: EventKind| match kind {
+            EventKind::Access(AccessKind::Close(AccessMode::Write)) => true,
+            EventKind::Access(_) => false,
+            _ => true,
+        };
+        match event {
+            Ok(event) if event.need_rescan() => changes.is_incomplete = true,
+            Ok(event) if tells(event.kind) => {
+                let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
+                let paths = paths
+                    .map(|path| session.normal(&crate::config::clean(&self.working_directory.join(path))));
+                changes.paths.extend(paths.filter(|path| matters(path)));
+            }
+            Ok(_) => {}
+            Err(_) => changes.is_incomplete = true,
+        }
+    }
+
+    /// Keeps back drawings that are being written, and gives out those that were waited for.
+    fn hold_back(&mut self, changes: &mut Changes) {
+        let now = Instant::now();
+        for path in std::mem::take(&mut changes.paths) {
+            if is_unfinished(&path) {
+                self.unfinished.insert(path, now + PATIENCE);
+            } else {
+                self.unfinished.remove(&path);
+                changes.paths.insert(path);
+            }
+        }
+        let is_ready = |path: &Utf8PathBuf, until: &mut Instant| now >= *until || !is_unfinished(path);
+        changes.paths.extend(self.unfinished.extract_if(.., is_ready).map(|(path, _)| path));
+    }
+}
+
+impl Changes {
+    fn is_empty(&self) -> bool {
+        self.paths.is_empty() && !self.is_incomplete
+    }
+}
+
+/// The directories to watch: those that hold drawings, those that are searched, and that of the configuration.
+fn directories(
+    context: &Context,
+    session: &Session<'_>,
+    args: &WatchArgs,
+) -> Vec<(Utf8PathBuf, RecursiveMode)> {
+    let general = &context.settings.general;
+    let mut all: BTreeMap<Utf8PathBuf, RecursiveMode> = BTreeMap::new();
+    let mut add = |directory: Utf8PathBuf, mode: RecursiveMode| {
+        let known = all.entry(directory).or_insert(mode);
+        if mode == RecursiveMode::Recursive {
+            *known = mode;
+        }
+    };
+    for input in args.inputs.iter() {
+        match input {
+            Input::Place(place) if session.is_directory(place) => {
+                add(session.normal(place), RecursiveMode::Recursive);
+            }
+            Input::Place(place) => {
+                add(
+                    session.normal(place).parent().unwrap_or(Utf8Path::new("")).to_owned(),
+                    RecursiveMode::NonRecursive,
+                );
+            }
+            Input::Name(_) => add(Utf8PathBuf::new(), RecursiveMode::NonRecursive),
+        }
+    }
+    for directory in &general.library.value {
+        add(session.normal(directory), RecursiveMode::Recursive);
+    }
+    let beside = context.settings.directory().map(|directory| session.normal(directory));
+    for directory in general.search.value.iter().map(|directory| session.normal(directory)).chain(beside) {
+        add(directory, RecursiveMode::NonRecursive);
+    }
+    let is_there = |directory: &Utf8PathBuf| directory.as_str().is_empty() || session.is_directory(directory);
+    all.into_iter().filter(|(directory, _)| is_there(directory)).collect()
+}
+
+/// Whether a name can change a result: that of a drawing, of what says which drawings count, or of what may be a directory of them.
+fn matters(path: &Utf8Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("dxf") => true,
+        _ if matches!(name, "pathbuild.toml" | ".gitignore" | ".ignore") => true,
+        Some("gcode" | "tmp" | "txt" | "results") => false,
+        _ => !name.starts_with('.') && !path.components().any(|part| part.as_str() == ".pathbuild"),
+    }
+}
+
+/// Where the end of a drawing says so.
+const TAIL: u64 = 256;
+
+/// Whether a drawing is there and does not end as drawings do.
+fn is_unfinished(path: &Utf8Path) -> bool {
+    let is_drawing = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+    is_drawing && files::tail(path, TAIL).is_some_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
+}

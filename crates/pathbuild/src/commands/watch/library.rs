@@ -1,0 +1,196 @@
+//! The drawings that are watched, with what is known of each.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, SourceFile, drawing_names};
+use pathbuild_diagnostic::Diagnostic;
+
+use super::changes::Changes;
+use super::reverse::Reverse;
+use crate::args::Inputs;
+use crate::commands::check::check_drawings;
+use crate::context::Context;
+use crate::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
+
+/// The drawings.
+pub(super) struct Library<'a> {
+    session: Session<'a>,
+    inputs: &'a Inputs,
+    coverage: Coverage,
+    drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
+    q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
+    reverse: Reverse,
+}
+
+/// What came of a batch of changes.
+#[derive(Default)]
+pub(super) struct Update {
+    /// The files that changed.
+    pub(super) changed: Vec<Utf8PathBuf>,
+    /// The drawings that were asked again.
+    pub(super) asked: Vec<SourceFile>,
+    /// The drawings that are no longer there.
+    pub(super) removed: Vec<Utf8PathBuf>,
+    /// What was found in them before.
+    pub(super) before: Vec<Diagnostic>,
+    /// What is found in them now.
+    pub(super) now: Vec<Diagnostic>,
+}
+
+impl<'a> Library<'a> {
+    /// Nothing is known yet.
+    pub(super) fn new(context: &Context, session: Session<'a>, inputs: &'a Inputs) -> Self {
+        Self {
+            session,
+            inputs,
+            coverage: Coverage::new(context),
+            drawings: BTreeMap::new(),
+            q_projects: BTreeMap::new(),
+            reverse: Reverse::default(),
+        }
+    }
+
+    /// The session.
+    pub(super) fn session(&self) -> &Session<'a> {
+        &self.session
+    }
+
+    /// How many drawings and paths there are.
+    pub(super) fn counts(&self) -> (usize, usize) {
+        (self.drawings.len(), self.drawings.values().map(|result| result.names.len()).sum())
+    }
+
+    /// Checks everything.
+    pub(super) fn begin(&mut self) -> Update {
+        let wanted = self.session.wanted(self.inputs);
+        let mut drawings: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+        drawings.extend(wanted.paths.iter().map(|path| path.file));
+        let mut update = Update { now: wanted.problems, ..Update::default() };
+        self.ask(drawings, &mut update);
+        update
+    }
+
+    /// Takes over changes, and asks again what they concern.
+    pub(super) fn update(&mut self, changes: &Changes) -> Update {
+        let mut update = Update::default();
+        let mut concerned: HashSet<SourceFile> = HashSet::new();
+        let files = self.changed_files(changes);
+        let mut is_other_library = changes.is_incomplete;
+        for path in &files {
+            is_other_library |= self.take_over(path, &mut concerned);
+        }
+        is_other_library |=
+            changes.paths.iter().any(|path| matches!(path.file_name(), Some(".gitignore" | ".ignore")));
+        if is_other_library {
+            self.find_drawings(&mut concerned, &mut update);
+        }
+        let db = self.session.db();
+        let concerned = concerned.into_iter().filter(|file| {
+            self.drawings.contains_key(file.path(db)) && !update.removed.contains(file.path(db))
+                || update.changed.contains(file.path(db))
+        });
+        let mut concerned: Vec<SourceFile> = concerned.collect();
+        concerned.sort_by(|a, b| a.path(db).cmp(b.path(db)));
+        update.changed = files.into_iter().collect();
+        self.ask(concerned, &mut update);
+        update
+    }
+
+    /// The files that changes are about: those that were named, and those in directories that were.
+    fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
+        let db = self.session.db();
+        let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
+        if changes.is_incomplete {
+            files.extend(self.reverse.files().map(|file| file.path(db).clone()));
+        }
+        for path in &changes.paths {
+            if Session::is_drawing(path) {
+                files.insert(path.clone());
+            } else {
+                let below = self.reverse.files().filter(|file| file.path(db).starts_with(path));
+                files.extend(below.map(|file| file.path(db).clone()));
+                if self.session.is_directory(path) {
+                    let drawings = self.session.drawings_below(path);
+                    files.extend(drawings.map(|drawing| self.session.normal(&drawing)));
+                }
+            }
+        }
+        files
+    }
+
+    /// Tells the database of a file, and collects the drawings that it concerns; whether it came or went.
+    fn take_over(&mut self, path: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
+        let directory = path.parent().unwrap_or(Utf8Path::new("")).to_owned();
+        let name = path.file_name().unwrap_or_default();
+        let db = self.session.db();
+        let file = db.file(path);
+        let is_known = self.reverse.directories().any(|known| *known == directory);
+        let was_listed =
+            is_known && drawing_names(db, db.directory(&directory)).iter().any(|known| **known == *name);
+        let is_there = db.system().kind(path) == Kind::File;
+        concerned.extend(self.reverse.of_file(file));
+        let came_or_went = is_there != self.drawings.contains_key(path) || was_listed != is_there;
+        if is_known && was_listed != is_there {
+            concerned.extend(self.reverse.of_name(&directory, name, &self.coverage));
+            self.session.touch_directory(&directory);
+        }
+        self.session.touch_file(path);
+        came_or_went
+    }
+
+    /// Finds the drawings anew: those that came are concerned, those that went are forgotten.
+    fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Update) {
+        let wanted = self.session.wanted(self.inputs);
+        let db = self.session.db();
+        let there: BTreeSet<&Utf8PathBuf> =
+            wanted.drawings.iter().map(|drawing| drawing.file.path(db)).collect();
+        for drawing in &there {
+            if !self.drawings.contains_key(*drawing) {
+                concerned.insert(db.file(drawing));
+                update.changed.push((*drawing).clone());
+            }
+        }
+        let is_gone = |drawing: &Utf8PathBuf, _: &mut DrawingResult| !there.contains(drawing);
+        let gone: Vec<(Utf8PathBuf, DrawingResult)> = self.drawings.extract_if(.., is_gone).collect();
+        for (drawing, result) in gone {
+            self.reverse.remove(db.file(&drawing));
+            update.before.extend(result.diagnostics);
+            update.removed.push(drawing);
+        }
+    }
+
+    /// Checks drawings, and remembers what they were made from.
+    fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Update) {
+        let results = check_drawings(&self.session, &asked, false);
+        for (file, (result, traces)) in asked.iter().zip(results) {
+            self.reverse.set(*file, traces);
+            update.now.extend_from_slice(&result.diagnostics);
+            let before = self.drawings.insert(file.path(self.session.db()).clone(), result);
+            update.before.extend(before.into_iter().flat_map(|result| result.diagnostics));
+        }
+        update.asked = asked;
+        self.ask_q_projects(update);
+    }
+
+    /// Holds those Q-projects against their drawings of which either was asked again.
+    fn ask_q_projects(&mut self, update: &mut Update) {
+        let db = self.session.db();
+        let paths: Vec<&Utf8Path> = self.drawings.keys().map(Utf8PathBuf::as_path).collect();
+        let pairs: BTreeSet<[Utf8PathBuf; 2]> = q_project_pairs(&paths)
+            .into_iter()
+            .map(|pair| pair.map(|index| paths[index].to_owned()))
+            .collect();
+        let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();
+        update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
+        let asked: HashSet<&Utf8PathBuf> = update.asked.iter().map(|file| file.path(db)).collect();
+        let open: Vec<[Utf8PathBuf; 2]> =
+            pairs.into_iter().filter(|pair| pair.iter().any(|path| asked.contains(path))).collect();
+        let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
+        for (pair, found) in open.into_iter().zip(self.session.judge_q_projects(&files)) {
+            update.now.extend_from_slice(&found);
+            update.before.extend(self.q_projects.insert(pair, found).into_iter().flatten());
+        }
+    }
+}

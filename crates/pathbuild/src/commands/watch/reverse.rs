@@ -1,0 +1,82 @@
+//! Which drawings a change concerns: by the files that their results were made from, and by the names that were looked for in directories.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{SourceFile, Trace};
+use pathbuild_path::PathName;
+
+use crate::session::Coverage;
+
+/// The reverse of all traces.
+#[derive(Default)]
+pub(super) struct Reverse {
+    by_file: HashMap<SourceFile, HashSet<SourceFile>>,
+    by_lookup: HashMap<Utf8PathBuf, BTreeMap<PathName, HashSet<SourceFile>>>,
+    /// What each drawing depends on, for taking it out again.
+    traces: HashMap<SourceFile, Vec<Trace>>,
+}
+
+impl Reverse {
+    /// Says what a drawing's results were made from, instead of what was said before.
+    pub(super) fn set(&mut self, drawing: SourceFile, traces: Vec<Trace>) {
+        self.remove(drawing);
+        for trace in &traces {
+            for file in &trace.files {
+                self.by_file.entry(*file).or_default().insert(drawing);
+            }
+            for (directory, name) in lookups(trace) {
+                let names = self.by_lookup.entry(directory.clone()).or_default();
+                names.entry(name.clone()).or_default().insert(drawing);
+            }
+        }
+        self.traces.insert(drawing, traces);
+    }
+
+    /// Forgets a drawing.
+    pub(super) fn remove(&mut self, drawing: SourceFile) {
+        for trace in self.traces.remove(&drawing).unwrap_or_default() {
+            for file in &trace.files {
+                if let Some(drawings) = self.by_file.get_mut(file) {
+                    drawings.remove(&drawing);
+                }
+            }
+            for (directory, name) in lookups(&trace) {
+                if let Some(drawings) =
+                    self.by_lookup.get_mut(directory).and_then(|names| names.get_mut(name))
+                {
+                    drawings.remove(&drawing);
+                }
+            }
+        }
+    }
+
+    /// The drawings that depend on what is in a file.
+    pub(super) fn of_file(&self, file: SourceFile) -> impl Iterator<Item = SourceFile> {
+        self.by_file.get(&file).into_iter().flatten().copied()
+    }
+
+    /// The drawings that depend on whether there is a file of that name in a directory.
+    pub(super) fn of_name(&self, directory: &Utf8Path, name: &str, coverage: &Coverage) -> Vec<SourceFile> {
+        let names = self.by_lookup.get(directory).into_iter().flatten();
+        let concerned = names.filter(|(path, _)| coverage.may_hold(name, path.as_str()));
+        concerned.flat_map(|(_, drawings)| drawings).copied().collect()
+    }
+
+    /// Every file that anything depends on.
+    pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
+        self.by_file.keys().copied()
+    }
+
+    /// Every directory that anything was looked for in.
+    pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
+        self.by_lookup.keys()
+    }
+}
+
+fn lookups(trace: &Trace) -> impl Iterator<Item = (&Utf8PathBuf, &PathName)> {
+    trace
+        .lookups
+        .iter()
+        .flat_map(|sought| sought.directories.iter().map(|directory| (directory, &sought.name)))
+}
