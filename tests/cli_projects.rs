@@ -82,6 +82,17 @@ fn rdeps_are_a_tree_of_what_embeds_over_the_library() {
     assert_snapshot!(runs(&Place::of(LIBRARY), lines));
 }
 
+/// A path with variables is asked for as often as there are sets of values.
+#[test]
+fn rdeps_show_what_embeds_each_set_of_values() {
+    let second = "subpath 80,0 120,0 \">2051.1P :B0,5\"\nsubpath 120,0 160,0 \">2051.1P :B0\"\nend 160,0";
+    let library = LIBRARY.replace("subpath 80,0 120,0 \">2051.1P :B0,5\"\nend 120,0", second);
+    let run = Place::of(&library).run("rdeps 2051.1P");
+    let expected = "2051.1P :B0  components/2051.dxf\n  8001.1P  projects/8001.dxf\n\
+        2051.1P :B0,5  components/2051.dxf\n  8001.1P  projects/8001.dxf\n";
+    assert_eq!(run.stdout, expected);
+}
+
 #[test]
 fn rdeps_of_a_part_of_the_graph_for_other_programs() {
     assert_snapshot!(runs(

@@ -115,7 +115,7 @@ impl Graph {
         Self {
             nodes: order.iter().map(|index| self.nodes[*index].clone()).collect(),
             embeddings: kept.iter().map(|index| renumbered(&self.embeddings[*index])).collect(),
-            roots: (0..roots.len()).collect(),
+            roots: roots.iter().map(|root| number[root]).collect(),
         }
     }
 
