@@ -50,9 +50,10 @@ impl Tool {
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = self.at(Some(to), z.z);
-                // Ends that coincide mean a full circle, unless the arc is known to be next to nothing.
+                // Ends that coincide mean a full circle, unless the arc is known to be next to nothing. Far apart, so that rounding
+                // does not make a line of a half circle.
                 let is_next_to_nothing =
-                    length < arc.radius(&self.position) * PI && arc.sweep(&self.position, &to) > PI;
+                    length < arc.radius(&self.position) && arc.sweep(&self.position, &to) > PI;
                 let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
                 self.along(to, path, Pace::Feed(feed))
             }
