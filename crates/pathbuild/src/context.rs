@@ -28,6 +28,16 @@ pub struct Context {
 }
 
 impl Context {
+    /// Whether the configuration says what to do without arguments.
+    pub fn has_library(&self) -> bool {
+        !self.settings.general.library.value.is_empty()
+    }
+
+    /// Whether results are kept for later runs: there must be a configuration, beside which they lie.
+    pub fn keeps_results(&self) -> bool {
+        self.use_cache && self.settings.directory().is_some()
+    }
+
     /// The language of everything that is said.
     pub fn lang(&self) -> Lang {
         self.settings.general.lang.value

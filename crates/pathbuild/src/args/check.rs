@@ -23,10 +23,10 @@ pub struct CheckArgs {
     #[arg(long, requires = "baseline")]
     pub update_baseline: bool,
     /// Check only what depends on files changed since this Git revision
-    #[arg(long, value_name = "REV", hide = true)]
+    #[arg(long, value_name = "REV")]
     pub changed_since: Option<String>,
     /// Show where the time went
-    #[arg(long, hide = true)]
+    #[arg(long)]
     pub timings: bool,
     /// Write the diagnostics into a file as well (repeatable)
     #[arg(long, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]

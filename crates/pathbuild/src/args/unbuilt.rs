@@ -15,9 +15,5 @@ impl Command {
 }
 
 fn check(args: &CheckArgs) -> Vec<(&'static str, bool)> {
-    vec![
-        ("--changed-since", args.changed_since.is_some()),
-        ("--timings", args.timings),
-        ("--pictures", args.pictures.is_some()),
-    ]
+    vec![("--pictures", args.pictures.is_some())]
 }

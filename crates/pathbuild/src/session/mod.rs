@@ -10,6 +10,7 @@ mod provenance;
 mod q_projects;
 mod resolve;
 mod settings;
+pub mod timings;
 mod watchdog;
 mod work;
 
@@ -21,11 +22,12 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
 use pathbuild_db::{Database, Db, Role, SourceFile, Target};
 
+use self::timings::Timings;
 use self::watchdog::Watchdog;
 use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{BUILD, Coverage, DrawingResult, Keeper, Made, Programs};
+pub use keeper::{BUILD, Coverage, DrawingResult, Facts, Keeper, Made, Programs};
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
@@ -43,6 +45,8 @@ pub struct Session<'a> {
     watchdog: OnceLock<Watchdog>,
     /// The targets that were asked for, in a session that asks again: each is an input of the database, which stays for ever.
     targets: Option<RefCell<Targets>>,
+    /// Where the time went.
+    timings: Timings,
 }
 
 type Targets = HashMap<(SourceFile, Box<str>, Role), Target>;
@@ -87,12 +91,24 @@ impl<'a> Session<'a> {
     fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
-        Self { db, context, is_traced: false, watchdog: OnceLock::new(), targets: None }
+        Self {
+            db,
+            context,
+            is_traced: false,
+            watchdog: OnceLock::new(),
+            targets: None,
+            timings: Timings::default(),
+        }
     }
 
     /// The database.
     pub fn db(&self) -> &Database {
         &self.db
+    }
+
+    /// Where the time went so far.
+    pub fn timings(&self) -> &Timings {
+        &self.timings
     }
 
     /// The drawing under a path.

@@ -1,5 +1,7 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
+use std::time::{Duration, Instant};
+
 use pathbuild_db::{
     Closure, Database, MissingOption, Reached, Role, SourceFile, Target, Trace, closure, locate, path,
     path_names, trace,
@@ -8,6 +10,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use rayon::prelude::*;
 
+use super::timings::{CHECKING, READING};
 use super::watchdog::Watchdog;
 use super::{Session, WantedPath};
 
@@ -68,18 +71,30 @@ impl Session<'_> {
 
     /// Reads files ahead, on all cores.
     pub fn read_ahead(&self, files: &[SourceFile]) {
-        self.spread(files, |db, file| {
-            path_names(db, *file);
+        self.timings.measure(&READING, || {
+            self.spread(files, |db, file| {
+                path_names(db, *file);
+            });
         });
     }
 
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         let is_traced = self.is_traced;
-        let results = self.guarded(targets, |db, target| check(db, *target, is_traced));
-        let given_up = |(result, target): (Result<_, Box<Diagnostic>>, &Target)| {
-            result.unwrap_or_else(|problem| given_up(&self.db, *target, *problem))
+        let work = |db: &Database, target: &Target| {
+            let begun = Instant::now();
+            (check(db, *target, is_traced), begun.elapsed())
         };
+        let results = self.timings.measure(&CHECKING, || self.guarded(targets, work));
+        let given_up =
+            |(result, target): (Result<(CheckedTarget, Duration), Box<Diagnostic>>, &Target)| match result {
+                Ok((checked, time)) => {
+                    let (db, name) = (&self.db, target.name(&self.db));
+                    self.timings.add_path(|| format!("{name} ({})", target.file(db).path(db)), time);
+                    checked
+                }
+                Err(problem) => given_up(&self.db, *target, *problem),
+            };
         results.into_iter().zip(targets).map(given_up).collect()
     }
 

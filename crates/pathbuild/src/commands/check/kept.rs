@@ -6,20 +6,30 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, Role, SourceFile, Target, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
+use super::question;
+use super::since::Changed;
+use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
+use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
+///
+/// # Errors
+/// Why it cannot be told what changed since a revision.
 pub(super) fn check(
     context: &Context,
     session: &Session<'_>,
-    keeper: &Keeper,
+    args: &CheckArgs,
     mut drawings: Vec<Utf8PathBuf>,
-    with_all_values: bool,
-) -> Checked {
+) -> Result<Checked, String> {
+    let since = |revision: &String| Changed::since(context, session, revision);
+    let changed = args.changed_since.as_ref().map(since).transpose()?;
     drawings.sort();
     drawings.dedup();
+    let keeper = session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args)));
+    let keeper = keeper.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();
     let open: Vec<usize> = (0..drawings.len()).filter(|index| results[*index].is_none()).collect();
@@ -28,26 +38,65 @@ pub(super) fn check(
     context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
     let files: Vec<SourceFile> = open.iter().map(|index| session.db().file(&drawings[*index])).collect();
     let mut made = Vec::new();
-    for ((result, traces), index) in check_drawings(session, &files, with_all_values).into_iter().zip(open) {
+    for ((result, traces), index) in check_drawings(session, &files, args.all_bindings).into_iter().zip(open)
+    {
         made.push(new(drawings[index].as_str(), traces, &result));
         results[index] = Some(result);
     }
     let q_projects = q_projects(session, keeper, &drawings, &mut made);
-    let asked = drawings.iter().map(|drawing| drawing.as_str());
-    let asked: Vec<&str> = asked.chain(q_projects.iter().map(|(of, _)| &**of)).collect();
-    keeper.keep(session, &asked, &made);
+    if let Some(keeper) = keeper {
+        let asked = drawings.iter().map(|drawing| drawing.as_str());
+        let asked: Vec<&str> = asked.chain(q_projects.iter().map(|(of, _)| &**of)).collect();
+        session.timings().measure(&KEEPING, || keeper.keep(session, &asked, &made));
+    }
+    let concerned = Concerned::new(session, keeper, &made, changed.as_ref());
     let mut checked = Checked::default();
     for (drawing, result) in drawings.into_iter().zip(results.into_iter().flatten()) {
+        if !concerned.contains(drawing.as_str()) {
+            continue;
+        }
         let paths = result.names.into_iter().map(|name| CheckedPath { name, time: None });
         checked.files.push(CheckedFile { file: drawing, paths: paths.collect() });
         checked.diagnostics.extend(result.diagnostics);
     }
-    checked.diagnostics.extend(q_projects.into_iter().flat_map(|(_, found)| found));
-    checked
+    let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));
+    checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
+    Ok(checked)
 }
 
-fn kept(keeper: &Keeper, of: &str) -> Option<DrawingResult> {
-    keeper.payload(of).and_then(|payload| DrawingResult::decode(payload).ok())
+/// Which results are shown.
+struct Concerned<'a> {
+    session: &'a Session<'a>,
+    keeper: Option<&'a Keeper>,
+    made: HashMap<&'a str, &'a Made>,
+    changed: Option<&'a Changed>,
+}
+
+impl<'a> Concerned<'a> {
+    fn new(
+        session: &'a Session<'a>,
+        keeper: Option<&'a Keeper>,
+        made: &'a [Made],
+        changed: Option<&'a Changed>,
+    ) -> Self {
+        let made = made.iter().map(|made| (&*made.of, made)).collect();
+        Self { session, keeper, made, changed }
+    }
+
+    fn contains(&self, of: &str) -> bool {
+        let Some(changed) = self.changed else { return true };
+        match self.made.get(of) {
+            Some(made) => changed.concerns(self.session, &made.traces),
+            None => self
+                .keeper
+                .and_then(|keeper| keeper.facts(of))
+                .is_none_or(|facts| changed.concerns_kept(&facts)),
+        }
+    }
+}
+
+fn kept(keeper: Option<&Keeper>, of: &str) -> Option<DrawingResult> {
+    keeper?.payload(of).and_then(|payload| DrawingResult::decode(payload).ok())
 }
 
 fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
@@ -120,7 +169,7 @@ fn result(
 /// What Q-projects and their drawings say against each other, each pair by its name among the results.
 fn q_projects(
     session: &Session<'_>,
-    keeper: &Keeper,
+    keeper: Option<&Keeper>,
     drawings: &[Utf8PathBuf],
     made: &mut Vec<Made>,
 ) -> Vec<(Box<str>, Vec<Diagnostic>)> {

@@ -1,6 +1,7 @@
 //! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
 
 mod kept;
+mod since;
 
 use std::collections::{HashMap, HashSet};
 use std::time::Instant;
@@ -14,23 +15,40 @@ use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
-use crate::session::{CheckedTarget, Keeper, Session, Wanted};
+use crate::session::timings::FINDING;
+use crate::session::{CheckedTarget, Session, Wanted};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
-    let session = Session::traced(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
+    if args.inputs.inputs.is_empty() && !context.has_library() {
         return context.nothing_named("check");
     }
-    if let Some(drawings) = session.directories_only(&args.inputs)
-        && let Some(keeper) = Keeper::open(context, &session, &question(args))
-    {
-        let checked = kept::check(context, &session, &keeper, drawings, args.all_bindings);
-        return finish(context, args, &session, checked, begun);
+    if context.keeps_results() || args.changed_since.is_some() {
+        let session = Session::traced(context);
+        if args.timings {
+            session.timings().switch_on();
+        }
+        if let Some(drawings) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs))
+        {
+            let checked = kept::check(context, &session, args, drawings);
+            return match checked {
+                Ok(checked) => finish(context, args, &session, checked, begun),
+                Err(reason) => context.usage(&reason),
+            };
+        }
+        if args.changed_since.is_some() {
+            return context.usage(
+                "--changed-since looks at directories or the library, not at single drawings or paths",
+            );
+        }
     }
     let session = Session::new(context);
-    let checked = check(&session, session.wanted(&args.inputs), args.all_bindings);
+    if args.timings {
+        session.timings().switch_on();
+    }
+    let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
+    let checked = check(&session, wanted, args.all_bindings);
     finish(context, args, &session, checked, begun)
 }
 
@@ -48,7 +66,13 @@ fn finish(
 ) -> ExitStatus {
     checked.diagnostics = session.with_elsewhere(checked.diagnostics);
     checked.time = begun.elapsed();
-    conclude(context, args, checked)
+    let status = conclude(context, args, checked);
+    if args.timings {
+        for line in session.timings().lines(context.lang()) {
+            context.printer.status(line);
+        }
+    }
+    status
 }
 
 /// A path of a drawing.

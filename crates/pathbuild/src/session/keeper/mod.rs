@@ -8,7 +8,7 @@ mod writing;
 
 use std::collections::HashMap;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Clock, Key, Place, Reason, Unusable, Verdict, reasons, verify};
 use pathbuild_db::Trace;
 
@@ -47,6 +47,15 @@ pub struct Made {
     pub payload: Option<Vec<u8>>,
 }
 
+/// What a kept result was made from.
+#[derive(Clone, Debug)]
+pub struct Facts<'a> {
+    /// The files.
+    pub files: Vec<&'a Utf8PathBuf>,
+    /// What was looked for: directory and name.
+    pub lookups: Vec<(&'a Utf8Path, &'a str)>,
+}
+
 /// Programs that a result depends on.
 #[derive(Clone, Debug, Default)]
 pub struct Programs {
@@ -82,6 +91,15 @@ impl Keeper {
     pub fn payload(&self, of: &str) -> Option<&[u8]> {
         let number = *self.records.get(of)?;
         self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
+    }
+
+    /// What a kept result was made from.
+    pub fn facts(&self, of: &str) -> Option<Facts<'_>> {
+        let record = &self.kept.records[*self.records.get(of)?];
+        let files = record.files.iter().map(|file| &self.kept.files[*file as usize].path);
+        let directory = |number: u32| self.kept.directories[number as usize].path.as_path();
+        let lookups = record.lookups.iter().map(|lookup| (directory(lookup.directory), &*lookup.name));
+        Some(Facts { files: files.collect(), lookups: lookups.collect() })
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.

@@ -1,0 +1,74 @@
+//! Where the time of a run went: `check --timings`.
+
+use std::cell::{Cell, RefCell};
+use std::time::{Duration, Instant};
+
+use pathbuild_diagnostic::Word;
+
+/// What was measured.
+#[derive(Debug, Default)]
+pub struct Timings {
+    /// Whether somebody wants to know. A run that goes on would gather paths without end.
+    is_on: Cell<bool>,
+    phases: RefCell<Vec<(&'static Word, Duration)>>,
+    paths: RefCell<Vec<(String, Duration)>>,
+}
+
+/// Finding the drawings that the arguments mean.
+pub static FINDING: Word = Word { en: "finding drawings", de: "Zeichnungen suchen" };
+/// Holding kept results against the files.
+pub static VERIFYING: Word = Word { en: "looking at kept results", de: "frühere Ergebnisse prüfen" };
+/// Reading drawings.
+pub static READING: Word = Word { en: "reading drawings", de: "Zeichnungen lesen" };
+/// Checking their paths.
+pub static CHECKING: Word = Word { en: "checking paths", de: "Pfade prüfen" };
+/// Keeping results for the next run.
+pub static KEEPING: Word = Word { en: "keeping results", de: "Ergebnisse aufheben" };
+
+/// How many paths are named.
+const SLOWEST: usize = 10;
+
+impl Timings {
+    /// Begins to measure.
+    pub fn switch_on(&self) {
+        self.is_on.set(true);
+    }
+
+    /// Does some work and notes how long it took.
+    pub fn measure<R>(&self, phase: &'static Word, work: impl FnOnce() -> R) -> R {
+        if !self.is_on.get() {
+            return work();
+        }
+        let begun = Instant::now();
+        let result = work();
+        let time = begun.elapsed();
+        let mut phases = self.phases.borrow_mut();
+        match phases.iter_mut().find(|(known, _)| *known == phase) {
+            Some((_, sum)) => *sum += time,
+            None => phases.push((phase, time)),
+        }
+        result
+    }
+
+    /// Notes how long a path took.
+    pub(super) fn add_path(&self, name: impl FnOnce() -> String, time: Duration) {
+        if self.is_on.get() {
+            self.paths.borrow_mut().push((name(), time));
+        }
+    }
+
+    /// A line for each phase, then one for each of the slowest paths, the slowest first.
+    pub fn lines(&self, lang: pathbuild_diagnostic::Lang) -> Vec<String> {
+        let line = |time: Duration, what: &str| format!("{:>10.1} ms  {what}", time.as_secs_f64() * 1000.0);
+        let word = |word: &Word| match lang {
+            pathbuild_diagnostic::Lang::En => word.en,
+            pathbuild_diagnostic::Lang::De => word.de,
+        };
+        let mut lines: Vec<String> =
+            self.phases.borrow().iter().map(|(phase, time)| line(*time, word(phase))).collect();
+        let mut paths = self.paths.borrow().clone();
+        paths.sort_by(|(a, slow), (b, slower)| slower.cmp(slow).then_with(|| a.cmp(b)));
+        lines.extend(paths.iter().take(SLOWEST).map(|(name, time)| line(*time, name)));
+        lines
+    }
+}
