@@ -1,6 +1,7 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::files::LIMIT;
 use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
@@ -45,7 +46,7 @@ pub(crate) struct Placed<'p> {
     pub(crate) layer_id: LayerId,
     pub(crate) layer: &'p UsedLayer,
     /// Resolved.
-    pub(crate) line_type: &'p str,
+    pub(crate) line_type: &'p Arc<str>,
     /// Its own place in the file, for what is wrong with it.
     pub(crate) own: Origin,
     /// That of the insertion it comes with, or its own.
@@ -140,7 +141,7 @@ impl Collector {
         geometry: Geometry,
     ) -> Result<(), Fatal> {
         self.count()?;
-        let line_type = placed.line_type.into();
+        let line_type = placed.line_type.clone();
         self.drawing.origins.push(placed.origin);
         self.drawing.entities.push(Entity { layer, line_type, kind: placed.kind, group, geometry });
         Ok(())

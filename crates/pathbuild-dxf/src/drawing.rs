@@ -1,3 +1,5 @@
+use std::sync;
+
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 
 /// What the reader is told.
@@ -91,7 +93,7 @@ pub struct Entity {
     pub layer: u32,
     /// The line type: its own, or its layer's where it says BYLAYER or nothing; CONTINUOUS for BYBLOCK in model space. Trimmed, without
     /// xref prefix, upper case.
-    pub line_type: Box<str>,
+    pub line_type: sync::Arc<str>,
     /// The entity in the file that it comes from: LINE, or LWPOLYLINE for a part of one.
     pub kind: EntityKind,
     /// Parts of the same polyline (or approximated curve) have the same number: a text that overlaps one of them belongs to all.

@@ -3,6 +3,7 @@
 //! Each spelling of a layer's name is looked at once a file; entities only hold its number.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use crate::encoding::Decoder;
 use crate::fields::Fields;
@@ -49,7 +50,7 @@ pub(crate) struct UsedLayer {
     /// Whether entities on it are wanted.
     pub(crate) is_kept: bool,
     /// Its line type, upper case.
-    pub(crate) line_type: Box<str>,
+    pub(crate) line_type: Arc<str>,
     /// Frozen or off.
     pub(crate) hidden: bool,
 }
@@ -132,7 +133,7 @@ impl<'a, 'o> Layers<'a, 'o> {
             name: name.into(),
             folded: folded(name).into(),
             is_kept: (self.keep)(name),
-            line_type: record.map_or_else(|| CONTINUOUS.into(), |record| record.line_type.clone()),
+            line_type: record.map_or(CONTINUOUS, |record| &record.line_type).into(),
             hidden: record.is_some_and(|record| record.hidden),
         });
         let id = LayerId(u32::try_from(self.used.len() - 1).unwrap_or(u32::MAX));

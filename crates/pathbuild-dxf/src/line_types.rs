@@ -1,10 +1,11 @@
 //! The line types of entities. (spec/10-drawing.md, "Line types")
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use crate::encoding::Decoder;
 use crate::fields::Value;
-use crate::layers::line_type_name;
+use crate::layers::{CONTINUOUS, line_type_name};
 
 /// What an entity says about its line type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,11 +19,20 @@ pub(crate) enum LineType {
 }
 
 /// The names of line types found on entities.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct LineTypes<'a> {
     by_spelling: HashMap<&'a [u8], LineType>,
     last: Option<(&'a [u8], LineType)>,
-    names: Vec<Box<str>>,
+    /// Shared by the entities that have them: most drawings know three or four.
+    names: Vec<Arc<str>>,
+    continuous: Arc<str>,
+}
+
+impl Default for LineTypes<'_> {
+    fn default() -> Self {
+        let by_spelling = HashMap::new();
+        Self { by_spelling, last: None, names: Vec::new(), continuous: CONTINUOUS.into() }
+    }
 }
 
 impl<'a> LineTypes<'a> {
@@ -44,8 +54,13 @@ impl<'a> LineTypes<'a> {
     }
 
     /// The name of this number: upper case, without xref prefix.
-    pub(crate) fn name(&self, number: u32) -> &str {
+    pub(crate) fn name(&self, number: u32) -> &Arc<str> {
         &self.names[number as usize]
+    }
+
+    /// What is taken where nothing is said.
+    pub(crate) fn continuous(&self) -> &Arc<str> {
+        &self.continuous
     }
 
     fn first_use(&mut self, value: Value<'a>, decoder: &mut Decoder<'_>) -> LineType {
@@ -54,7 +69,7 @@ impl<'a> LineTypes<'a> {
             "" | "BYLAYER" => LineType::ByLayer,
             "BYBLOCK" => LineType::ByBlock,
             _ => {
-                self.names.push(name);
+                self.names.push(name.into());
                 LineType::Named(u32::try_from(self.names.len() - 1).unwrap_or(u32::MAX))
             }
         };

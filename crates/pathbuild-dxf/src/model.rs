@@ -1,5 +1,7 @@
 //! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
 
 use crate::Origin;
@@ -8,7 +10,7 @@ use crate::collect::{Collector, Placed};
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, stopped};
 use crate::item::{Item, Shape, Traits};
-use crate::layers::{CONTINUOUS, LayerId};
+use crate::layers::LayerId;
 use crate::line_types::LineType;
 use crate::pairs::Pairs;
 use crate::placement::Placement;
@@ -38,7 +40,7 @@ struct Around {
 /// What entities inherit from the insertion they come with.
 struct Insertion {
     layer: LayerId,
-    line_type: Box<str>,
+    line_type: Arc<str>,
     /// Of the outermost one.
     origin: Origin,
 }
@@ -125,8 +127,7 @@ impl<'a, 'o> Model<'a, 'o> {
         around: &Around,
     ) -> Result<(), Fatal> {
         let placed = placed(&self.reader, traits, layer, around);
-        let line_type: Box<str> = placed.line_type.into();
-        let insertion = Insertion { layer, line_type, origin: placed.origin };
+        let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let mut inside =
             Around { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
         let items = self.blocks.items(block, &mut self.reader)?;
@@ -174,7 +175,9 @@ fn placed<'p>(
         layer,
         line_type: match traits.line_type {
             LineType::ByLayer => &layer.line_type,
-            LineType::ByBlock => insertion.map_or(CONTINUOUS, |insertion| &insertion.line_type),
+            LineType::ByBlock => {
+                insertion.map_or(reader.line_types.continuous(), |insertion| &insertion.line_type)
+            }
             LineType::Named(number) => reader.line_types.name(number),
         },
         own: traits.origin,

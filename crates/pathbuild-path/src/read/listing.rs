@@ -68,7 +68,7 @@ fn assigned(
         let entity = entities[id.0 as usize];
         AssignedElement {
             entity: entity.kind,
-            line_type: entity.line_type.clone(),
+            line_type: (&*entity.line_type).into(),
             position: at(*id),
             shape: *shape,
         }
