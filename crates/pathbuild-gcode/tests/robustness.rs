@@ -149,6 +149,6 @@ fn a_large_file_without_sense_is_read_in_no_time() {
     let text = "\u{0}".repeat(20_000_000);
     let result = interpret(text.as_bytes(), Dialect::Native, &Options::default());
     assert_eq!(result.steps.len(), 0);
-    let lines = "?\n".repeat(1_000_000);
+    let lines = format!("G21 G90\n{}", "?\n".repeat(1_000_000));
     assert_eq!(interpret(lines.as_bytes(), Dialect::Native, &Options::default()).problems.len(), 21);
 }

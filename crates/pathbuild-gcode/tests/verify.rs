@@ -284,6 +284,7 @@ fn speeds_are_the_spindles() {
     let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
     assert_eq!(wrong("M3 S1000\nS24000\nM5 S0"), FINE);
     assert_eq!(wrong("M3 S999\nS24001"), ["2 spindle-speed", "3 spindle-speed"]);
+    assert_eq!(wrong("M3 S999\nM5"), ["2 spindle-speed"], "a spindle that stops has no speed");
 }
 
 #[test]

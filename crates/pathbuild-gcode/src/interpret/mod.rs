@@ -25,6 +25,7 @@ mod switches;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 
 pub use codes::{Plane, WorkSystem};
 pub use guess::{Evidence, Guess, guess};
@@ -68,7 +69,9 @@ pub fn interpret_each(
     let rules = dialect.rules();
     let mut reader = Reader::new(text, rules);
     let mut interpreter = execute::Interpreter::new(rules, options, each);
+    let mut has_words = false;
     while let Some(block) = reader.next_block() {
+        has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
         interpreter.block(&block);
         if interpreter.has_ended() {
             reader.end_program();
@@ -76,5 +79,18 @@ pub fn interpret_each(
     }
     let mut problems = interpreter.finish(reader.line(), reader.is_ended());
     problems.append(reader.into_problems());
-    problems.into_diagnostics()
+    let problems = problems.into_diagnostics();
+    let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
+    if is_other { vec![no_g_code(text)] } else { problems }
 }
+
+/// What is said of a file in which no line has a word: nobody wants to read that of each line.
+fn no_g_code(text: &[u8]) -> Diagnostic {
+    let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
+    let first = lines.into_iter().find(|line| !line.is_empty()).unwrap_or_default();
+    let shown: String = String::from_utf8_lossy(&first[..first.len().min(SHOWN)]).escape_debug().collect();
+    Diagnostic::new(&NOT_G_CODE).with("found", format!("`{shown}`")).at_line(1, None)
+}
+
+/// As much of a line as shows what the file is, in bytes.
+const SHOWN: usize = 40;

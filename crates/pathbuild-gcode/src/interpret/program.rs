@@ -16,13 +16,11 @@ const FIRST_FEED: f64 = 150.0;
 pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
     let mut tool = Tool { position: Position::known(0.0, 0.0, program.start_height()), feed: FIRST_FEED };
     let numbers = 1_u32..;
-    let mut moves: Vec<(u32, Move)> = numbers
-        .zip(&program.steps)
-        .filter_map(|(number, step)| match step {
-            toolpath::Step::Move { to, count } => Some((number, tool.go(to, count.length))),
-            toolpath::Step::Comment(_) => None,
-        })
-        .collect();
+    let mut moves = Vec::with_capacity(program.steps.len() + 1);
+    moves.extend(numbers.zip(&program.steps).filter_map(|(number, step)| match step {
+        toolpath::Step::Move { to, count } => Some((number, tool.go(to, count.length))),
+        toolpath::Step::Comment(_) => None,
+    }));
     let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
     moves.push((last, tool.straight(tool.at(None, program.start_height()), Pace::Rapid)));
     moves

@@ -6,7 +6,7 @@ use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
 use super::program::LAST_DIGIT;
 use crate::dialect::Dialect;
-use crate::interpret::{Heights, Interpretation, Options, Pace, interpret, moves_of};
+use crate::interpret::{self, Heights, Options, Pace, interpret_each, moves_of};
 use crate::verify::{Difference, Tolerance, compare};
 
 /// Digits behind the point.
@@ -17,8 +17,7 @@ const DECIMALS: i32 = 3;
 /// # Errors
 /// PB006: where it does not. It is a bug.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
-    let read = read(text)?;
-    let (found, expected) = (read.moves(), moves_of(program));
+    let (found, expected) = (moves(text)?, moves_of(program));
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
     let exactly = Tolerance::of_decimals(DECIMALS);
     match difference(&exactly) {
@@ -36,23 +35,30 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
 /// PB006: where it does not. It is a bug.
 pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
     let slack = Tolerance::of_decimals(DECIMALS).place;
-    let found: Vec<_> =
-        read(text)?.moves().into_iter().filter(|(_, it)| matches!(it.pace, Pace::Probe { .. })).collect();
-    let is_at = |((_, it), probe): (&(u32, crate::interpret::Move), &ProbePoint)| {
+    let mut found = moves(text)?;
+    found.retain(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
+    let is_at = |((_, it), probe): (&(u32, interpret::Move), &ProbePoint)| {
         (it.to.x() - probe.at.x).abs() <= slack && (it.to.y() - probe.at.y).abs() <= slack
     };
     let is_same = found.len() == probes.len() && found.iter().zip(probes).all(is_at);
     if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
 }
 
-fn read(text: &str) -> Result<Interpretation, Box<Diagnostic>> {
+/// The moves of a text, with their lines. Nothing else of it is kept: this is done for every program that is written.
+fn moves(text: &str) -> Result<Vec<(u32, interpret::Move)>, Box<Diagnostic>> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let read = interpret(text.as_bytes(), Dialect::Native, &options);
-    match read.problems.iter().find(|problem| problem.is_error()) {
+    let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
+    let problems = interpret_each(text.as_bytes(), Dialect::Native, &options, &mut |step| {
+        moves.extend(step.as_move());
+    });
+    match problems.iter().find(|problem| problem.is_error()) {
         Some(problem) => Err(told(problem)),
-        None => Ok(read),
+        None => Ok(moves),
     }
 }
+
+/// Most lines have at least so many bytes.
+const SHORT_LINE: usize = 20;
 
 /// Whether the writer makes some arc longer than it is, lest it be a full circle.
 fn has_longer_arcs(program: &Program) -> bool {

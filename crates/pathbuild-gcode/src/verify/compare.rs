@@ -2,6 +2,8 @@
 //!
 //! They need not be cut into the same pieces: a circle may be two halves, or chords within a tolerance.
 
+use std::borrow::Cow;
+
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Word};
 
@@ -143,19 +145,25 @@ fn difference(kind: Kind, found: &Walker<'_>, expected: &Walker<'_>) -> Differen
 }
 
 /// The moves that count: those to places that are known, and of those at the ends what the tolerance says.
-fn counting(moves: &[(u32, Move)], ends: Ends) -> Vec<(u32, Move)> {
-    let is_cut = |(_, it): &&(u32, Move)| it.pace != Pace::Rapid;
-    let known = moves.iter().filter(|(_, it)| it.to.known == Axes::ALL);
-    match ends {
+fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
+    let is_known = |(_, it): &(u32, Move)| it.to.known == Axes::ALL;
+    let is_cut = |it: &(u32, Move)| is_known(it) && it.1.pace != Pace::Rapid;
+    let (first, end) = match ends {
         // The position becomes known bit by bit; the way there is nobody's business.
-        Ends::All => known.skip_while(|(_, it)| it.from.known != Axes::ALL).copied().collect(),
-        Ends::Cutting => {
-            let mut kept: Vec<(u32, Move)> = known.skip_while(|it| !is_cut(it)).copied().collect();
-            while kept.last().is_some_and(|it| !is_cut(&it)) {
-                kept.pop();
-            }
-            kept
+        Ends::All => {
+            let begins = |it: &(u32, Move)| is_known(it) && it.1.from.known == Axes::ALL;
+            (moves.iter().position(begins), moves.len())
         }
+        Ends::Cutting => {
+            let last = moves.iter().rposition(is_cut);
+            (moves.iter().position(is_cut), last.map_or(0, |last| last + 1))
+        }
+    };
+    let counting = first.map_or(&[][..], |first| &moves[first..end]);
+    if counting.iter().all(is_known) {
+        Cow::Borrowed(counting)
+    } else {
+        counting.iter().filter(|it| is_known(it)).copied().collect()
     }
 }
 

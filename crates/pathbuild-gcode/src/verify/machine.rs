@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 
-use crate::interpret::{Action, Move, Step};
+use crate::interpret::{Action, Move, Step, Turning};
 use crate::read::Problems;
 
 /// A machine's limits. What is not known is not checked.
@@ -42,7 +42,9 @@ pub(super) fn check(steps: &[Step], machine: &Machine, problems: &mut Problems) 
                 }
                 check_feed(step.line, it, machine, &mut last_feed, problems);
             }
-            Action::Spindle(spindle) => check_speed(step.line, spindle.speed, machine, problems),
+            Action::Spindle(spindle) if spindle.turning != Turning::Off => {
+                check_speed(step.line, spindle.speed, machine, problems);
+            }
             _ => {}
         }
     }
