@@ -117,6 +117,19 @@ fn verify_reports_with_the_severities_of_the_configuration() {
 }
 
 #[test]
+fn tools_are_those_of_the_table_where_there_is_one() {
+    let place = Place::of(LIBRARY).file("foreign.nc", FOREIGN);
+    let verified = place.run("verify foreign.nc --format concise --surface 0 --cutter 2 --dialect linuxcnc");
+    assert!(
+        verified.stderr.contains("foreign.nc:12:1: warning[PB764] T2 is not in the tool table"),
+        "{verified}"
+    );
+    assert!(!verified.stderr.contains("T1"), "{verified}");
+    let elsewhere = Place::new().file("foreign.nc", FOREIGN);
+    assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
+}
+
+#[test]
 fn every_format_of_diagnostics_is_there_for_programs() {
     let place = Place::new().file("a.gcode", "G17 G21 G90 G94\nG0 X1 X2\nM30\n");
     for format in ["full", "concise", "json", "sarif", "github", "gitlab", "junit"] {

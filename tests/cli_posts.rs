@@ -121,6 +121,8 @@ fn paths_are_joined_with_tool_changes_in_the_order_of_the_arguments() {
         ]
     ));
     let text = place.read("sheet_Milling.ngc");
+    let again = place.run("emit . --post linuxcnc --remove-stale --format concise");
+    assert!(!again.stderr.contains("PB520") && place.path().join("sheet_Milling.ngc").exists(), "{again}");
     let changes: Vec<&str> = text.lines().filter(|line| line.ends_with("M6")).collect();
     assert_eq!(changes, ["T7 M6", "T4 M6", "T1 M6"]);
     assert!(!place.path().join("sheet_Milling.gcode").exists(), "of paths with probes nothing is written");

@@ -151,6 +151,13 @@ messages! {
         help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
         help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
+    /// The same, where nothing is written.
+    TOOL_NOT_IN_TABLE: UnknownTool {
+        en: "T{index} is not in the tool table",
+        de: "T{index} ist nicht in der Werkzeugtabelle",
+        help_en: "put the cutter that is meant into the machine's table and as [tool.NAME] with `number` into pathbuild.toml, or change T",
+        help_de: "den gemeinten Fräser in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen, oder T ändern",
+    }
     /// Nothing to write.
     JOB_EMPTY: NothingToPost {
         en: "the program has no operations",

@@ -208,8 +208,7 @@ fn posted(
     let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
     let (mut program, warnings) =
         post::Job::from_programs(&job.path, programs, poster.tools(), poster.cycles());
-    let title = format!("{}: {}", program.drawing, job.path);
-    poster.say(&mut program, &[job.provenance.to_string(), title]);
+    poster.say(&mut program, &[job.provenance.to_string(), job.title.clone()]);
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path));
     let output =

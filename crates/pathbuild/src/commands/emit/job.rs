@@ -25,6 +25,8 @@ pub(super) struct Job {
     pub(super) stem: Utf8PathBuf,
     /// Its files.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
+    /// What the program says that it is, behind its provenance.
+    pub(super) title: String,
     /// Out of what it is made.
     pub(super) provenance: Provenance,
 }
@@ -126,7 +128,10 @@ impl Maker<'_> {
         }
         let directory = output_directory(self.context, self.session, first.target.file(self.session.db()));
         match self.named(name, &directory) {
-            Ok(stem) => Some(self.with_files(stem, name, sources, checked, &[OutputKind::Milling])),
+            Ok(stem) => {
+                let title = joined_title(name, checked);
+                Some(Job { title, ..self.with_files(stem, name, sources, checked, &[OutputKind::Milling]) })
+            }
             Err(problem) => {
                 diagnostics.push(*problem);
                 None
@@ -181,7 +186,9 @@ impl Maker<'_> {
             None => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
         };
         let db = self.session.db();
+        let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
+            title: format!("{drawing}: {path}"),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
             files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
@@ -190,6 +197,12 @@ impl Maker<'_> {
             sources,
         }
     }
+}
+
+/// Without a drawing and a colon, so that nothing takes it for a program that a drawing alone becomes, and for stale when it does not.
+fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
+    let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
+    format!("{name} = {}", paths.collect::<Vec<_>>().join(" + ")).replace(':', " ")
 }
 
 /// Where the files of a drawing's paths go: beside it, or where the configuration says.

@@ -64,6 +64,7 @@ fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&
     }
     let checks = Checks { stock: stock.as_ref(), machine: machine.as_ref() };
     let mut found = verify(&program.read.steps, &checks);
+    found.extend(stock::unknown_tools(context, &program));
     found.extend(against.and_then(|against| against.difference(&program)));
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
