@@ -2,6 +2,8 @@
 
 use nalgebra::{Point2, UnitComplex, Vector2};
 
+use crate::approx::coincide;
+
 /// A point in the plane, in mm.
 pub type Xy = Point2<f64>;
 
@@ -167,9 +169,11 @@ impl Placement {
     }
 
     /// Brings `start` exactly onto `onto_start`, and the direction from `start` to `end` into that from `onto_start` to `onto_end`. Where
-    /// a direction is missing because both its ends coincide, nothing is turned.
-    pub fn aligning((start, end): (Xy, Xy), (onto_start, onto_end): (Xy, Xy)) -> Self {
-        let turn = rotation_between(end - start, onto_end - onto_start);
+    /// a direction is missing because both its ends coincide, it is turned as what is `around` it is.
+    pub fn aligning((start, end): (Xy, Xy), (onto_start, onto_end): (Xy, Xy), around: &Self) -> Self {
+        let has_no_direction = coincide(start, end) || coincide(onto_start, onto_end);
+        let turn =
+            if has_no_direction { around.turn } else { rotation_between(end - start, onto_end - onto_start) };
         Self { turn, shift: onto_start.coords - turn * start.coords }
     }
 
@@ -214,13 +218,10 @@ pub fn direction(degrees: f64) -> Vector2<f64> {
     }
 }
 
-/// The rotation that turns one direction into another, from products and one square root: no angles, which would lose digits.
+/// The rotation that turns one direction into another (neither is 0), from products and one square root: no angles, which would lose digits.
 fn rotation_between(from: Vector2<f64>, to: Vector2<f64>) -> UnitComplex<f64> {
     let along = from.dot(&to);
     let across = from.perp(&to);
     let norm = libm::sqrt(along * along + across * across);
-    if norm == 0.0 {
-        return UnitComplex::identity();
-    }
     UnitComplex::new_unchecked(nalgebra::Complex::new(along / norm, across / norm))
 }

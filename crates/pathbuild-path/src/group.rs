@@ -3,11 +3,17 @@
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
-/// What the groups of a pattern took of a name.
+/// What the groups of a pattern took of a name. Two need no memory of their own: a directory of ten thousand drawings has as many.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Groups(Box<[Group]>);
+pub(crate) struct Groups(List);
 
-/// One of them. What a directory of ten thousand drawings has in its names are short integers: they need no memory of their own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum List {
+    Two([Group; 2]),
+    Any(Box<[Group]>),
+}
+
+/// One of them. Short integers, as most are, need no memory of their own either.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     /// Digits that make a number below 2^64.
@@ -23,13 +29,20 @@ pub(crate) enum Group {
 
 impl<'t> FromIterator<&'t str> for Groups {
     fn from_iter<I: IntoIterator<Item = &'t str>>(groups: I) -> Self {
-        Self(groups.into_iter().map(Group::new).collect())
+        let groups: Vec<Group> = groups.into_iter().map(Group::new).collect();
+        Self(<[Group; 2]>::try_from(groups).map_or_else(|groups| List::Any(groups.into()), List::Two))
     }
 }
 
-impl<const N: usize> From<[&str; N]> for Groups {
-    fn from(groups: [&str; N]) -> Self {
-        Self(Box::new(groups.map(Group::new)))
+impl From<[&str; 2]> for Groups {
+    fn from(groups: [&str; 2]) -> Self {
+        Self(List::Two(groups.map(Group::new)))
+    }
+}
+
+impl From<[&str; 3]> for Groups {
+    fn from(groups: [&str; 3]) -> Self {
+        Self(List::Any(Box::new(groups.map(Group::new))))
     }
 }
 
@@ -37,7 +50,10 @@ impl std::ops::Deref for Groups {
     type Target = [Group];
 
     fn deref(&self) -> &[Group] {
-        &self.0
+        match &self.0 {
+            List::Two(groups) => groups,
+            List::Any(groups) => groups,
+        }
     }
 }
 

@@ -146,7 +146,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
         let path = self.parts.path(embedded);
         let (start, end) = (outer.placement.place(subpath.start), outer.placement.place(subpath.end));
-        let placement = Placement::aligning((path.start, path.end), (start, end));
+        let placement = Placement::aligning((path.start, path.end), (start, end), &outer.placement);
         let name = self.names.intern(path.name.as_str());
         self.comment(Comment::StartSubpath(name));
         self.path(embedded, placement, outer.raised + parameters.height, path.embedded_sweep_height());

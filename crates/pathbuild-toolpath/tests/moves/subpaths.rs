@@ -80,3 +80,13 @@ fn a_path_without_direction_is_not_turned() {
     );
     assert_eq!(moves(&drawing)[4], "M 10,40 0");
 }
+
+/// It lies to the path that embeds it as it is drawn, wherever that is turned to.
+#[test]
+fn a_path_without_direction_is_turned_with_what_embeds_it() {
+    let closed = path("T5 O3 I5 B0", "mill 0,0 10,0 0,0\nend 0,0");
+    let middle = "layer 8002.1P\nstart 0,0 \"T5 O3 S15\"\nsweep 0,0 20,0\n\
+        subpath arc centre 30,0 r 10 from 180 to 180 \">1234.1P T5\"\nsweep 20,0 40,0\nend 40,0";
+    let drawing = project("subpath 0,0 0,40 \">8002.1P T5\"", "0,40", &format!("{middle}\n{closed}"));
+    assert_eq!(moves(&drawing)[4..6], ["M 0,30 0", "M 0,20 0"]);
+}
