@@ -13,6 +13,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+use camino::Utf8PathBuf;
+use pathbuild::session::by_place;
 use pathbuild_draw::Sheet;
 use support::{Place, Run};
 
@@ -295,4 +297,20 @@ fn a_directory_that_is_no_cache_is_not_removed() {
 fn without_a_configuration_there_is_no_cache_to_look_at() {
     let run = Place::new().run("cache dir");
     assert_eq!(run.status, Some(2), "{run}");
+}
+
+#[test]
+fn paths_are_ordered_part_by_part() {
+    let mut paths: Vec<Utf8PathBuf> = [
+        "a", "a/b", "a/b.dxf", "a b", "a-b", "a.dxf", "ab", "a/b/c", "A", "ä", "a/ä", "../a", "/a", "/",
+        "/a/b", "a/b c", "a\u{1}",
+    ]
+    .map(Utf8PathBuf::from)
+    .to_vec();
+    paths.sort();
+    for (index, a) in paths.iter().enumerate() {
+        for (other, b) in paths.iter().enumerate() {
+            assert_eq!(by_place(a, b), index.cmp(&other), "{a} {b}");
+        }
+    }
 }

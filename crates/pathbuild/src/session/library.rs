@@ -1,5 +1,8 @@
 //! Walking directories for drawings. (spec/20-paths-and-files.md, "The library")
 
+use std::cmp::Ordering;
+use std::path::is_separator;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use ignore::{DirEntry, WalkBuilder};
 use pathbuild_diagnostic::Diagnostic;
@@ -53,8 +56,17 @@ fn walked(directory: &Utf8Path, limit: u64, is_wanted: impl Fn(&DirEntry, &Utf8P
             _ => {}
         }
     }
-    paths.sort();
+    paths.sort_unstable_by(|a, b| by_place(a, b));
     Walked { paths, problem: None }
+}
+
+/// The order of paths, part by part. It is `Ord`'s, as long as no part is empty or `.`, and is told without taking paths apart: of ten thousand that
+/// takes longer than asking the system for all of them.
+pub fn by_place(a: &Utf8Path, b: &Utf8Path) -> Ordering {
+    let (a, b) = (a.as_str().as_bytes(), b.as_str().as_bytes());
+    let rank = |byte: u8| if is_separator(char::from(byte)) { 0 } else { byte };
+    let differing = a.iter().zip(b).find(|(x, y)| x != y);
+    differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
 }
 
 fn is_directory(entry: &DirEntry) -> bool {

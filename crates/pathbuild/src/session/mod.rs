@@ -28,6 +28,7 @@ use crate::context::Context;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use keeper::{BUILD, Coverage, DrawingResult, Facts, Keeper, Made, Programs};
+pub use library::by_place;
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
@@ -123,6 +124,9 @@ impl<'a> Session<'a> {
 }
 
 fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
+    if is_normal(path) {
+        return path.to_owned();
+    }
     let relative = path.strip_prefix(working_directory).unwrap_or(path);
     let mut normal = Utf8PathBuf::new();
     for component in relative.components() {
@@ -137,4 +141,10 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
         }
     }
     normal
+}
+
+/// Whether a path is relative and has nothing to be taken away, as nearly all have.
+fn is_normal(path: &Utf8Path) -> bool {
+    let is_redundant = |part: &str| matches!(part, "" | "." | "..");
+    !cfg!(windows) && !path.as_str().split('/').any(is_redundant)
 }

@@ -12,7 +12,7 @@ use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
 use crate::session::timings::{KEEPING, VERIFYING};
-use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, q_project_pairs};
+use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, by_place, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
 ///
@@ -26,7 +26,7 @@ pub(super) fn check(
 ) -> Result<Checked, String> {
     let since = |revision: &String| Changed::since(context, session, revision);
     let changed = args.changed_since.as_ref().map(since).transpose()?;
-    drawings.sort();
+    drawings.sort_unstable_by(|a, b| by_place(a, b));
     drawings.dedup();
     let keeper = session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args)));
     let keeper = keeper.as_ref();
