@@ -56,6 +56,14 @@ impl Database {
         Self { system, inputs: Arc::default(), storage: salsa::Storage::new(Some(Box::new(listener))) }
     }
 
+    /// The directories in which paths were looked for, in order.
+    pub fn directories(&self) -> Vec<Directory> {
+        let inputs = self.inputs();
+        let mut known: Vec<(&Utf8PathBuf, &Directory)> = inputs.directories.iter().collect();
+        known.sort_by_key(|(path, _)| *path);
+        known.into_iter().map(|(_, directory)| *directory).collect()
+    }
+
     /// Tells that a file may have changed, appeared or gone.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         let file = self.file(path);

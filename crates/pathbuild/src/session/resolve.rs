@@ -6,13 +6,14 @@ use std::collections::hash_map::Entry;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Kind;
-use pathbuild_db::{Db, SourceFile, holders, path_names};
+use pathbuild_db::{Db, SourceFile, holders, name_table, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
 use super::{Session, library};
 use crate::args::{Input, Inputs};
+use crate::printer::Verbosity;
 
 /// What arguments come to.
 #[derive(Debug, Default)]
@@ -210,6 +211,24 @@ impl Session<'_> {
     pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
         let drawings = self.library().into_iter();
         distinct(drawings.filter_map(|drawing| drawing.parent().map(|directory| self.normal(directory))))
+    }
+
+    /// Says, to whoever wants to know more, in which directories looking for a path meant to look at every file name.
+    pub fn tell_scans(&self) {
+        if self.context.printer.verbosity() < Verbosity::Verbose {
+            return;
+        }
+        let phrase = self.context.choose(
+            "every file name is looked at for each path, since groups of the file pattern are numbers in some and texts in others",
+            "für jeden Pfad wird jeder Dateiname angesehen, denn Gruppen des Dateimusters sind bald Zahlen, bald Texte",
+        );
+        for directory in self.db.directories() {
+            if !name_table(&self.db, directory).is_sorted() {
+                let path = directory.path(&self.db).as_str();
+                let shown = if path.is_empty() { "." } else { path };
+                self.context.printer.detail(format_args!("{shown}: {phrase}"));
+            }
+        }
     }
 
     /// The drawings in some directories that define a path, each once.

@@ -65,6 +65,7 @@ fn finish(
     begun: Instant,
 ) -> ExitStatus {
     checked.diagnostics = session.with_elsewhere(checked.diagnostics);
+    session.tell_scans();
     checked.time = begun.elapsed();
     let status = conclude(context, args, checked);
     if args.timings {
