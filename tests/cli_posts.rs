@@ -105,6 +105,10 @@ fn tools_come_from_the_configuration() {
     assert_eq!(tool("1400.1T"), "T7 M6 M4 S6000 M5 M9 M30");
     assert_eq!(tool("1300.1P"), "T1 M6 M5 M9 M30");
     assert_snapshot!(place.run("emit 1300.1P --post linuxcnc --format concise"));
+    let notes = |path: &str| place.run(&format!("emit {path} --post xpertmill -o -")).stderr;
+    let both = notes("1234.1P");
+    assert!(both.contains("~ToolControl1~") && both.contains("~MillingSpindleDir~"), "{both}");
+    assert!(!notes("1300.1P").contains("~MillingSpindleDir~"), "nobody says what its spindle does");
 }
 
 #[test]
@@ -198,6 +202,12 @@ fn the_provenance_tells_posts_tools_and_macros_apart() {
     distinct.sort();
     distinct.dedup();
     assert_eq!(distinct.len(), all.len(), "{all:#?}");
+    let inserting = |head: &str| {
+        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*head.nc*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+        let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
+        provenance(&library("").file("my.toml", post).file("head.nc", head), "--post my.toml")
+    };
+    assert_ne!(inserting("(a)\n"), inserting("(b)\n"));
     let native = provenance(&Place::of(&LIBRARY.replace("number = 4", "number = 5")), "");
     assert_eq!(native, all[0], "what a native program does not depend on is not in it");
 }

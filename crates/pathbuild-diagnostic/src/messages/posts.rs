@@ -194,8 +194,13 @@ messages! {
     }
     /// A note: the tool table's coolant comes to nothing.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
-        en: "the tool table says what the coolant does, but the post has no {macro} and does not write it",
-        de: "die Werkzeugtabelle bestimmt die Kühlung, aber der Postprozessor hat kein {macro} und schreibt sie nicht",
+        en: "the program or the tool table says what the coolant does, but the post has no {macro} and does not write it",
+        de: "das Programm oder die Werkzeugtabelle bestimmt die Kühlung, aber der Postprozessor hat kein {macro} und schreibt sie nicht",
+    }
+    /// A note: M3 to M5 come to nothing.
+    SPINDLE_NOT_WRITTEN: DoubtfulPost {
+        en: "the program or the tool table says which way the spindle turns, but the post has no {macro} and does not switch it",
+        de: "das Programm oder die Werkzeugtabelle bestimmt die Drehrichtung der Spindel, aber der Postprozessor hat kein {macro} und schaltet sie nicht",
     }
     /// A key of a TOML definition that is not known, nor like one.
     POST_UNKNOWN_KEY: InvalidPost {

@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
 use super::built_in::Language;
-use super::job::Job;
+use super::job::{Coolant, Job, Spindle};
 use super::options::PostOptions;
 use super::suggest::nearest;
 use super::target::{self, Target};
@@ -129,6 +129,7 @@ impl Post {
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.inserted = written.inserted;
+                output.note_switches(definition, job);
             }
         }
         output.text = target::plain(&output.text, target.as_ref(), options.charset);
@@ -215,6 +216,22 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 }
 
 impl Output {
+    /// Tells what the job switches and the texts do not.
+    fn note_switches(&mut self, definition: &cad6::Definition, job: &Job) {
+        let cools =
+            job.operations.iter().any(|it| matches!(it.coolant, Some(Coolant::Flood | Coolant::Mist)));
+        let turns = job
+            .operations
+            .iter()
+            .any(|it| matches!(it.spindle, Some(Spindle::Clockwise | Spindle::CounterClockwise)));
+        if cools && !definition.uses("ToolControl1") && !definition.uses("ToolControl2") {
+            self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
+        }
+        if turns && !definition.uses("MillingSpindleDir") {
+            self.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");
+        }
+    }
+
     fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
         self.notes.push(Note { message, arguments: vec![(name, Value::from(value))] });
     }

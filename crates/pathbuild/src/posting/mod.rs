@@ -11,7 +11,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::post::{
-    self, BUILT_IN, Job, Language, Output, Post, PostMacro, PostOptions, Step, ToolTable,
+    self, BUILT_IN, Job, Language, Output, Post, PostFiles, PostMacro, PostOptions, Step, ToolTable,
 };
 
 use crate::config::{Origin, types};
@@ -29,7 +29,7 @@ pub struct Poster {
     post: Post,
     /// Where the definition's own files are; `None` of a built-in post.
     directory: Option<Utf8PathBuf>,
-    /// The definition's text.
+    /// The definition's text, and that of all files that it may insert.
     definition: Vec<u8>,
     /// Where the definition is, unless it is built in.
     file: Option<Utf8PathBuf>,
@@ -89,10 +89,12 @@ impl Poster {
             (post::load(name)?, text.as_bytes().to_vec(), None)
         };
         let macros = context.settings.tables.macros.value.iter();
+        let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
+        let inserted = directory.as_deref().map(|it| insertions(&definition, &Below(it))).unwrap_or_default();
         Ok(Self {
             post,
-            directory: file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned()),
-            definition,
+            directory,
+            definition: [definition, inserted].concat(),
             file,
             tools: tool_table(context),
             macros: macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect(),
@@ -170,8 +172,7 @@ impl Poster {
         }
     }
 
-    /// Everything that a program's text depends on beside drawings and general options, for its provenance. Files that control texts
-    /// insert are not in it.
+    /// Everything that a program's text depends on beside drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
         let Self { definition, tools, macros, wishes, cycles, .. } = self;
         let mut identity = definition.clone();
@@ -179,6 +180,16 @@ impl Poster {
         identity
     }
 }
+
+/// What control texts may insert: the content of each file that is named in them, as far as it can be read.
+fn insertions(definition: &[u8], files: &Below<'_>) -> Vec<u8> {
+    let text = String::from_utf8_lossy(definition);
+    let names = text.split(INSERTION).skip(1).filter_map(|rest| rest.split_once('*'));
+    names.flat_map(|(name, _)| files.read(Utf8Path::new(name)).unwrap_or_default()).collect()
+}
+
+/// What stands before the name of a file in control texts, with a `*` behind it.
+const INSERTION: &str = r"\\\~*";
 
 /// Whether a post's name is a file's: it has an extension or a directory.
 fn is_file_name(name: &str) -> bool {

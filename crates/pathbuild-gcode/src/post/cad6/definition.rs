@@ -59,6 +59,13 @@ impl Definition {
         self.settings.dialect.as_deref()
     }
 
+    /// Whether a text uses a variable, under its own name or another.
+    pub(crate) fn uses(&self, variable: &str) -> bool {
+        let others = self.aliases.iter().filter(|(_, ours)| **ours == *variable).map(|(theirs, _)| &**theirs);
+        let names: Vec<&str> = others.chain([variable]).collect();
+        self.texts.iter().flatten().any(|text| names.iter().any(|name| text.text.contains(name)))
+    }
+
     /// Decimals of rounded numbers.
     pub(crate) fn decimals(&self) -> u8 {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
