@@ -2,9 +2,11 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret};
 use pathbuild_gcode::read::Reader;
-use pathbuild_gcode::verify::{Tolerance, compare};
+use pathbuild_gcode::summary::Summary;
+use pathbuild_gcode::verify::{Checks, Machine, Tolerance, compare, verify};
 use proptest::prelude::*;
 
 fn dialects() -> impl Strategy<Value = Dialect> {
@@ -23,12 +25,23 @@ fn programs() -> impl Strategy<Value = String> {
     proptest::collection::vec(proptest::sample::select(pieces), 0..60).prop_map(|pieces| pieces.concat())
 }
 
+const MACHINE: Kinematics =
+    Kinematics { rates: [3000.0; 3], accelerations: [200.0; 3], junction_deviation: 0.01 };
+
 fn run(text: &[u8], dialect: Dialect) {
     let nominal = Options { heights: Heights::Nominal, ..Options::default() };
     let result = interpret(text, dialect, &nominal);
     let moves = result.moves();
     assert!(moves.iter().all(|(_, it)| it.to.at.iter().all(|at| at.is_finite())), "{moves:?}");
     assert_eq!(compare(&moves, &moves, &Tolerance::of_decimals(3)), None);
+    let time = seconds(&result.steps, &MACHINE);
+    assert!(time.is_finite() && time >= 0.0, "{time}");
+    let summary = Summary::of(&result.steps, dialect == Dialect::Xpertmill);
+    assert!(summary.total.cutting().length.is_finite() && summary.total.sum(1.0).time >= 0.0, "{summary:?}");
+    verify(
+        &result.steps,
+        &Checks { stock: None, machine: Some(&Machine { feed: Some(1.0), ..Machine::default() }) },
+    );
     let lines =
         u32::try_from(text.split(|byte| *byte == b'\n' || *byte == b'\r').count()).expect("few lines");
     for problem in &result.problems {
