@@ -10,7 +10,7 @@ use pathbuild_draw::Sheet;
 use support::{Place, Run};
 
 /// What each of these takes at most, in a debug build on a busy machine.
-const LONGEST: Duration = Duration::from_secs(20);
+const LONGEST: Duration = Duration::from_secs(60);
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
@@ -203,6 +203,18 @@ fn a_cycle_through_a_hundred_files_ends() {
     assert_eq!(run.status, Some(1));
     assert!(!run.stderr.contains("PB509"));
     assert_eq!(run.stderr.lines().filter(|line| line.contains("PB508")).count(), 100);
+}
+
+/// Eleven levels below two projects is the same segment: that is said once.
+#[test]
+fn a_segment_that_is_too_deep_below_several_projects_is_reported_once() {
+    let levels = (1..=10).map(|it| (it, project(it, "", &[embedded(it - 1)])));
+    let above = [11, 12].map(|it| (it, project(it, "", &[embedded(10)])));
+    let place = place([(0, component(0, ""))].into_iter().chain(levels).chain(above), "");
+    let run = timed(&place, "check .");
+    let too_deep: Vec<&str> = run.stderr.lines().filter(|line| line.contains("PB508")).collect();
+    assert_eq!(too_deep.len(), 1, "{run}");
+    assert!(too_deep[0].starts_with("1000.1.dxf"), "{run}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::time::Duration;
 
 use camino::Utf8PathBuf;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Code, Diagnostic};
 
 /// Everything that a run found, and what it looked at.
 #[derive(Clone, Debug, Default)]
@@ -51,8 +51,11 @@ impl Findings {
     }
 }
 
-/// Whether two findings are one: everything is equal but the way that led there.
+/// Whether two findings are one: everything is equal but the way that led there. What is too deep below one project may be so below
+/// others, each by its own way.
 fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
-    (a.message, &a.arguments, &a.file, &a.path, &a.place, &a.text)
-        == (b.message, &b.arguments, &b.file, &b.path, &b.place, &b.text)
+    let arguments_agree = a.arguments == b.arguments || a.code() == Code::NestingTooDeep;
+    arguments_agree
+        && (a.message, &a.file, &a.path, &a.place, &a.text)
+            == (b.message, &b.file, &b.path, &b.place, &b.text)
 }
