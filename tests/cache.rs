@@ -314,3 +314,29 @@ fn paths_are_ordered_part_by_part() {
         }
     }
 }
+
+/// Where there are files of rules directories are walked in another way, which finds the same.
+#[test]
+fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
+    let drawing = |name: &str| dxf(&[path(name, 5, &[])]);
+    let place = Place::new()
+        .file("pathbuild.toml", CONFIGURATION)
+        .file("library/1001.DXF", drawing("1001.1P"))
+        .file("library/a/b/1002.dxf", drawing("1002.1P"))
+        .file("library/a/b.dxf/1003.dxf", drawing("1003.1P"))
+        .file("library/.hidden/1004.dxf", drawing("1004.1P"))
+        .file("library/a/.1005.dxf", drawing("1005.1P"))
+        .file("elsewhere/1006.dxf", drawing("1006.1P"));
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../elsewhere", place.path().join("library/linked")).unwrap();
+        std::os::unix::fs::symlink("../elsewhere/1006.dxf", place.path().join("library/1006.dxf")).unwrap();
+    }
+    let summary = |place: &Place| place.run("check --no-cache").stderr.split(':').next().unwrap().to_owned();
+    let without = summary(&place);
+    assert_eq!(without, if cfg!(unix) { "4 paths in 4 drawings" } else { "3 paths in 3 drawings" });
+    let place = place.file("library/.ignore", "nothing\n");
+    assert_eq!(summary(&place), without);
+    let place = place.file("library/.ignore", "b\n");
+    assert_ne!(summary(&place), without);
+}
