@@ -168,6 +168,20 @@ fn what_was_emitted_is_what_the_drawing_says() {
 }
 
 #[test]
+fn a_program_that_follows_a_tilted_plate_mills_nothing_by_rapid() {
+    let tilted = "== parts/1700.dxf ==\nlayer 1700.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 40,0\nsweep 40,0 40,50\nmill 40,50 0,50\nprobe 20,15 \"LA\"\nprobe 20,35 \"LB\"\nend 0,50\n";
+    let place = Place::of(&format!("{LIBRARY}{tilted}"));
+    assert_eq!(place.run("emit 1700.1P").status, Some(0));
+    let values = place.read("parts/1700_Z.txt").replace("#51=", "#51=5.4").replace("#52=", "#52=4.6");
+    let place = place.file("parts/1700_Z.txt", values);
+    assert_eq!(place.run("adjust parts/1700.dxf --max-correction 1").status, Some(0));
+    for against in ["", "--against 1700.1P"] {
+        let run = place.run(&format!("verify parts/1700_Milling.gcode --cutter 2 {against}"));
+        assert_eq!((run.status, run.stderr.as_str()), (Some(0), "errors: 0, warnings: 0\n"), "{run}");
+    }
+}
+
+#[test]
 fn what_a_post_wrote_is_what_the_drawing_says() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P").status, Some(0));

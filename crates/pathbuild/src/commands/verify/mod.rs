@@ -55,15 +55,20 @@ impl Wishes {
     }
 }
 
-/// Everything that is wrong with a program.
+/// Everything that is wrong with a program. Of one whose heights are corrected the material is where it was drawn: a plate that is not flat
+/// is not milled by rapid moves that follow it. The machine is asked for what it has to do.
 fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&Against>) -> Vec<Diagnostic> {
-    let machine = machine::machine(context);
-    let stock = stock::stock(context, &program, wishes, against);
+    let drawn = program.nominal().steps;
+    let stock = stock::stock(context, &program, &drawn, wishes, against);
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
-    let checks = Checks { stock: stock.as_ref(), machine: machine.as_ref() };
-    let mut found = verify(&program.read.steps, &checks);
+    let mut found = verify(&drawn, &Checks { stock: stock.as_ref(), machine: None });
+    if let Some(machine) = machine::machine(context) {
+        let of_machine = verify(&program.read.steps, &Checks { stock: None, machine: Some(&machine) });
+        let new: Vec<Diagnostic> = of_machine.into_iter().filter(|it| !found.contains(it)).collect();
+        found.extend(new);
+    }
     found.extend(stock::unknown_tools(context, &program));
     found.extend(against.and_then(|against| against.difference(&program)));
     program.place(&mut found);

@@ -12,17 +12,17 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use crate::posting::tool_table;
 
-/// The material that a program cuts; `None` where cutter or surface are not known.
+/// The material that a program cuts with these steps; `None` where cutter or surface are not known.
 ///
 /// The cutter is that of the command line, else the drawing's, else that of the tool's number. The surface is that of the command line,
 /// else where a native program's plunges hand over, else the drawing's, if it has one only.
 pub(super) fn stock(
     context: &Context,
     program: &Program,
+    steps: &[Step],
     wishes: &Wishes,
     against: Option<&Against>,
 ) -> Option<Stock> {
-    let steps = &program.read.steps;
     let cutters = match wishes.cutter.or(against.map(Against::cutter)) {
         Some(cutter) => vec![(0, cutter)],
         None => cutters(context, steps)?,
