@@ -33,7 +33,7 @@ proptest! {
 
 #[test]
 fn extremes_are_as_format_makes_them() {
-    let limits = [0.0, -0.0, 0.0005, 0.00049999, -0.0005, 0.0625, 0.1875, 0.9995, 999.9995, 5e-324, 9.0e15];
+    let limits = [0.0, -0.0, 0.0005, 0.000_499_99, -0.0005, 0.0625, 0.1875, 0.9995, 999.9995, 5e-324, 9.0e15];
     let large = [4_503_599_627_370_496.5, 9_007_199_254_740_992.0, 1e300, f64::MAX, f64::INFINITY, f64::NAN];
     for number in limits.into_iter().chain(large) {
         assert_eq!(f3(number), formatted(number), "{number:e}");
