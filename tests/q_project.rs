@@ -1,4 +1,9 @@
 //! Q-projects: `pathbuild q-project`, and what `check` says of them. (spec/20-paths-and-files.md, "Q-projects")
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
 
 mod support;
 

@@ -1,4 +1,9 @@
 //! `pathbuild why`: what keeps the results of the last check from holding. (spec/05-command-line.md)
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
 
 mod support;
 
