@@ -6,8 +6,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, Role, SourceFile, Target, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::question;
 use super::since::Changed;
+use super::{leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
@@ -28,8 +28,8 @@ pub(super) fn check(
     let changed = args.changed_since.as_ref().map(since).transpose()?;
     drawings.sort_unstable_by(|a, b| by_place(a, b));
     drawings.dedup();
-    let keeper = session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args)));
-    let keeper = keeper.as_ref();
+    let opened = session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args)));
+    let keeper = opened.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();
     let open: Vec<usize> = (0..drawings.len()).filter(|index| results[*index].is_none()).collect();
@@ -61,6 +61,7 @@ pub(super) fn check(
     }
     let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));
     checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
+    leave(opened);
     Ok(checked)
 }
 

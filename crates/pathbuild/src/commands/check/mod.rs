@@ -32,10 +32,12 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         if let Some(drawings) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs))
         {
             let checked = kept::check(context, &session, args, drawings);
-            return match checked {
+            let status = match checked {
                 Ok(checked) => finish(context, args, &session, checked, begun),
                 Err(reason) => context.usage(&reason),
             };
+            leave(session);
+            return status;
         }
         if args.changed_since.is_some() {
             return context.usage(
@@ -49,7 +51,14 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     }
     let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
     let checked = check(&session, wanted, args.all_bindings);
-    finish(context, args, &session, checked, begun)
+    let status = finish(context, args, &session, checked, begun);
+    leave(session);
+    status
+}
+
+/// The run is over: to take a million values apart would take longer than to end.
+fn leave<T>(over: T) {
+    std::mem::forget(over);
 }
 
 /// What is asked of the drawings, for telling results of other runs apart.
