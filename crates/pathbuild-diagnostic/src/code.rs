@@ -170,6 +170,9 @@ codes! {
     767 PostDiffers "post-differs" Error "PB767: what a post wrote, read back, does not move as the program does";
     768 PostBuildFailed "post-build-failed" Error "PB768: the command that a post names does not run, or fails";
     769 UncorrectedHeights "uncorrected-heights" Error "PB769: a program whose heights are still to be corrected would be written through a post";
+    770 SpindleLeftOn "spindle-left-on" Warning "PB770: a program that ends with the spindle turning";
+    771 CoarseArcs "coarse-arcs" Warning "PB771: arcs in millimetres with fewer than three decimals";
+    772 ProbeNotRaised "probe-not-raised" Warning "PB772: a move in the plane straight after a probe has met something";
 }
 
 impl Code {

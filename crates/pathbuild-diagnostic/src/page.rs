@@ -173,4 +173,7 @@ pages! {
     PostDiffers "PB767" example;
     PostBuildFailed "PB768" example;
     UncorrectedHeights "PB769" example;
+    SpindleLeftOn "PB770" example;
+    CoarseArcs "PB771" example;
+    ProbeNotRaised "PB772" example;
 }

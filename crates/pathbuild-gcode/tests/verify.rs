@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
-use pathbuild_gcode::verify::{Checks, Machine, Piece, Stock, Travel, verify};
+use pathbuild_gcode::verify::{Checks, Machine, Piece, Stock, Travel, coarse_arcs, verify};
 
 const FINE: [&str; 0] = [];
 
@@ -224,6 +224,38 @@ fn probes_go_down() {
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z4.999"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 X9"), FINE, "sideways to an edge");
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.5 Z6"), FINE, "away from it");
+}
+
+#[test]
+fn a_probe_is_raised_before_it_moves_on() {
+    let wrong = |program| wrong(program, &Checks::default());
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 X9"), ["5 probe-not-raised"]);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 Z5\nG0 X9"), FINE);
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 X9\nG0 X8"), FINE, "back from an edge");
+}
+
+#[test]
+fn the_spindle_stands_at_the_end() {
+    let ends = |end: &str| {
+        let program = format!("%\nG21\nM3 S1000\nG0 X0 Y0 Z5\n{end}%\n");
+        let steps = interpret(program.as_bytes(), Native, &Options::default()).steps;
+        verify(&steps, &Checks::default()).iter().map(fault_text).collect::<Vec<_>>()
+    };
+    assert_eq!(ends(""), ["3 spindle-left-on"]);
+    for end in ["M5\n", "M30\n", "M2\n"] {
+        assert_eq!(ends(end), FINE, "{end}");
+    }
+}
+
+#[test]
+fn arcs_have_three_decimals() {
+    let coarse = |program: &str| coarse_arcs(program.as_bytes(), Native).is_some();
+    assert!(coarse("G21\nG2 X1.5 Y1.5 I1.5"));
+    assert!(coarse("G21\nG2 X1.25 Y1.5 I1.5"));
+    assert!(!coarse("G21\nG0 X0.000\nG2 X1.5 Y1.5 I1.5"), "three where they are needed");
+    assert!(!coarse("G21\nG2 X2 Y2 I2"), "written by hand");
+    assert!(!coarse("G20\nG2 X1.5 Y1.5 I1.5"), "inches");
+    assert!(!coarse("G21\nG1 X1.5 Y1.5"), "no arc");
 }
 
 #[test]

@@ -529,6 +529,27 @@ messages! {
         help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
         help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
     }
+    /// Neither M5 nor M30.
+    SPINDLE_LEFT_ON: SpindleLeftOn {
+        en: "the spindle still turns when the program ends",
+        de: "die Spindel dreht sich noch, wenn das Programm endet",
+        help_en: "switch it off with M5, or end the program with M30",
+        help_de: "sie mit M5 ausschalten, oder das Programm mit M30 beenden",
+    }
+    /// I, J, K with one or two decimals, and nothing finer in the program.
+    COARSE_ARCS: CoarseArcs {
+        en: "arcs are written with {decimals} decimals of a millimetre",
+        de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
+        help_en: "set the post-processor to three or more: ends and centres of rounded arcs do not fit each other",
+        help_de: "den Postprozessor auf drei oder mehr einstellen: Enden und Mittelpunkte gerundeter Bögen passen nicht zueinander",
+    }
+    /// G38 down, then X or Y.
+    PROBE_NOT_RAISED: ProbeNotRaised {
+        en: "the tool moves sideways while it still touches what it probed",
+        de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
+        help_en: "raise it first: G0 Z",
+        help_de: "es vorher anheben: G0 Z",
+    }
     /// S of a running spindle.
     SPINDLE_SPEED: SpindleSpeed {
         en: "S {speed} is outside the machine's {least} to {most}",

@@ -4,6 +4,7 @@
 //! them guesses: what is not known of stock and machine is not checked, because a false alarm that stops a good program is worse
 //! than a warning that is missing.
 
+mod coarse;
 mod compare;
 mod height_map;
 mod lines;
@@ -16,6 +17,7 @@ mod walk;
 
 use pathbuild_diagnostic::Diagnostic;
 
+pub use coarse::coarse_arcs;
 pub use compare::{Difference, Ends, Kind, Tolerance, compare};
 pub use lines::same_move_lines;
 pub use machine::{Machine, Travel};

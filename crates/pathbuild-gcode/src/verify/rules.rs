@@ -14,8 +14,16 @@ pub(super) fn check(steps: &[Step], stock: Option<&Stock>, problems: &mut Proble
     let switches =
         |step: &Step| matches!(step.action, Action::Spindle(spindle) if spindle.turning != Turning::Unstated);
     let spindle = if steps.iter().any(switches) { Turning::Off } else { Turning::Unstated };
-    let mut watch =
-        Watch { stock, at: Position::default(), line: 0, is_raised: false, spindle, spindle_said: false };
+    let mut watch = Watch {
+        stock,
+        at: Position::default(),
+        line: 0,
+        is_raised: false,
+        spindle,
+        spindle_said: false,
+        spindle_line: 0,
+        has_probed: false,
+    };
     for step in steps {
         watch.step(step, problems);
     }
@@ -32,6 +40,10 @@ struct Watch<'s> {
     spindle: Turning,
     /// It has been said that the spindle stands.
     spindle_said: bool,
+    /// Where it was switched last.
+    spindle_line: u32,
+    /// The last move probed downwards.
+    has_probed: bool,
 }
 
 impl Watch<'_> {
@@ -42,13 +54,16 @@ impl Watch<'_> {
                 self.first_move(step.line, it, problems);
                 self.diagonal(step.line, it, problems);
                 probe(step.line, it, problems);
+                self.after_probe(step.line, it, problems);
                 self.spindle(step.line, it, problems);
                 self.at = it.to;
             }
             Action::Spindle(spindle) if spindle.turning != Turning::Unstated => {
                 self.spindle = spindle.turning;
                 self.spindle_said = false;
+                self.spindle_line = step.line;
             }
+            Action::End => self.spindle = Turning::Unstated,
             Action::ChangeTool(_) => self.tool_change(step.line, problems),
             _ => {}
         }
@@ -90,6 +105,16 @@ impl Watch<'_> {
         }
     }
 
+    /// What was met is still under the tool.
+    fn after_probe(&mut self, line: u32, it: &Move, problems: &mut Problems) {
+        let stays_in_plane = it.from.at[..2] == it.to.at[..2];
+        let is_known = it.from.known.and(it.to.known).and(Axes::XY) == Axes::XY;
+        if self.has_probed && is_known && !stays_in_plane {
+            problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
+        }
+        self.has_probed = matches!(it.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
+    }
+
     fn tool_change(&self, line: u32, problems: &mut Problems) {
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
@@ -102,6 +127,9 @@ impl Watch<'_> {
     }
 
     fn end(&self, problems: &mut Problems) {
+        if !matches!(self.spindle, Turning::Off | Turning::Unstated) {
+            problems.add_at_line(&say::SPINDLE_LEFT_ON, self.spindle_line, |d| d);
+        }
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
             return;

@@ -1,0 +1,41 @@
+//! Whether the numbers of arcs are fine enough. (reference: LinuxCNC's best practices ask for three decimals of a millimetre)
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode as say;
+
+use crate::dialect::Dialect;
+use crate::read::{Problems, Reader, Value, Word};
+
+/// Decimals that a millimetre needs.
+const FINE: u8 = 3;
+
+/// Says where a program in millimetres has its first arc, if its centres have decimals and nothing in it has three. Numbers without any
+/// are taken as meant: somebody wrote them by hand.
+pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
+    let mut reader = Reader::new(text, dialect.rules());
+    let (mut finest, mut first) = (0, None);
+    while let Some(block) = reader.next_block() {
+        for word in block.words {
+            if is_inch(word) {
+                return None;
+            }
+            let Value::Number(number) = word.value else { continue };
+            let is_centre = matches!(word.letter, b'I' | b'J' | b'K');
+            if is_centre || matches!(word.letter, b'X' | b'Y' | b'Z') {
+                finest = finest.max(number.decimals);
+            }
+            if is_centre && number.decimals > 0 {
+                first = first.or(Some(block.line));
+            }
+        }
+    }
+    let line = first.filter(|_| finest < FINE)?;
+    let mut problems = Problems::default();
+    problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("decimals", u64::from(finest)));
+    problems.into_diagnostics().pop()
+}
+
+fn is_inch(word: &Word) -> bool {
+    let Value::Number(number) = word.value else { return false };
+    word.letter == b'G' && (number.value == 20.0 || number.value == 70.0)
+}
