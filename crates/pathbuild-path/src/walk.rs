@@ -109,13 +109,11 @@ impl<'a> Walk<'a> {
 
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&self) -> Option<usize> {
-        let mut best: Option<usize> = None;
-        for candidate in self.ends.near(self.at, &self.path.segments) {
-            if !self.is_traversed[candidate] && best.is_none_or(|best| self.comes_before(candidate, best)) {
-                best = Some(candidate);
-            }
-        }
-        best
+        let near = self.ends.near(self.at, &self.path.segments);
+        let mut candidates: Vec<usize> = near.filter(|segment| !self.is_traversed[*segment]).collect();
+        // One scan in segment order: lengths are compared approximately, which is not transitive.
+        candidates.sort_unstable();
+        candidates.into_iter().reduce(|best, other| if self.comes_before(other, best) { other } else { best })
     }
 
     fn comes_before(&self, a: usize, b: usize) -> bool {

@@ -1,41 +1,43 @@
 //! Which segments have an end at a point.
 
-use std::collections::HashMap;
-
 use crate::approx::coincide;
 use crate::geometry::Xy;
 use crate::path::Segment;
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
-///
-/// The map is only looked up, never iterated, so its order reaches nothing.
-pub(super) struct Ends(HashMap<(i64, i64), Vec<u32>>);
+pub(super) struct Ends(Vec<(Square, u32)>);
+
+/// A column, and a row in it.
+type Square = (i64, i64);
 
 /// Side of a square in mm: a few times the distance within which points coincide, so that neighbours of a square suffice.
 const SIDE: f64 = 0.0001;
 
 impl Ends {
     pub(super) fn new(segments: &[Segment]) -> Self {
-        let mut squares: HashMap<_, Vec<u32>> = HashMap::with_capacity(segments.len());
+        let mut ends = Vec::with_capacity(2 * segments.len());
         for (index, segment) in segments.iter().enumerate() {
             let index = u32::try_from(index).unwrap_or(u32::MAX);
             let (start, end) = (square(segment.start()), square(segment.end()));
-            squares.entry(start).or_default().push(index);
+            ends.push((start, index));
             if end != start {
-                squares.entry(end).or_default().push(index);
+                ends.push((end, index));
             }
         }
-        Self(squares)
+        ends.sort_unstable();
+        Self(ends)
     }
 
     /// Segments with an end at a point; one whose ends are close together may be named twice.
     pub(super) fn near<'a>(&'a self, point: Xy, segments: &'a [Segment]) -> impl Iterator<Item = usize> + 'a {
         let (x, y) = square(point);
-        let squares = (-1..=1).flat_map(move |dx: i64| {
-            (-1..=1).map(move |dy: i64| (x.saturating_add(dx), y.saturating_add(dy)))
+        let columns = (-1..=1).map(move |dx: i64| x.saturating_add(dx));
+        let (low, high) = (y.saturating_sub(1), y.saturating_add(1));
+        let named = columns.flat_map(move |column| {
+            let first = self.0.partition_point(|(square, _)| *square < (column, low));
+            self.0[first..].iter().take_while(move |(square, _)| *square <= (column, high))
         });
-        let named = squares.filter_map(|square| self.0.get(&square)).flatten().map(|index| *index as usize);
-        named.filter(move |index| {
+        named.map(|(_, index)| *index as usize).filter(move |index| {
             coincide(segments[*index].start(), point) || coincide(segments[*index].end(), point)
         })
     }
@@ -45,6 +47,6 @@ impl Ends {
     clippy::cast_possible_truncation,
     reason = "saturates: all that is so far off falls into one square"
 )]
-fn square(point: Xy) -> (i64, i64) {
+fn square(point: Xy) -> Square {
     ((point.x / SIDE).floor() as i64, (point.y / SIDE).floor() as i64)
 }
