@@ -64,7 +64,8 @@ impl Library {
         });
         let projects: Vec<Target> = projects.collect();
         for target in all.iter().chain(&projects) {
-            assert!(closure(&db, *target).diagnostics.is_empty(), "the library is right");
+            let found = &closure(&db, *target).diagnostics;
+            assert!(found.is_empty(), "the library is right: {found:?}");
             trace(&db, *target);
         }
         Self { component: all[0], project: projects[0], db, system }
@@ -105,7 +106,7 @@ const PLACEHOLDER: &str = "1000.1P";
 fn component(depth: usize) -> String {
     let elements = "mill 0,0 20,10 20,30 \"B0\"\nsweep to 40,30\nmill to 50,10 40,0";
     let text = format!(
-        "layer {PLACEHOLDER}\nstart 0,0 \"T5 O2 I1 F200 D{depth} B0 MPlate\"\n{elements} \"B0,{depth}\"\nend 40,0\n"
+        "layer {PLACEHOLDER}\nstart 0,0 \"T5 O2 I1 F200 B0 MPlate\"\n{elements} \"B0,{depth}\"\nend 40,0\n"
     );
     dxf(&text)
 }
