@@ -24,12 +24,15 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
             if is_centre || matches!(word.letter, b'X' | b'Y' | b'Z') {
                 finest = finest.max(number.decimals);
             }
+            if finest >= FINE {
+                return None;
+            }
             if is_centre && number.decimals > 0 {
                 first = first.or(Some(block.line));
             }
         }
     }
-    let line = first.filter(|_| finest < FINE)?;
+    let line = first?;
     let mut problems = Problems::default();
     problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("decimals", u64::from(finest)));
     problems.into_diagnostics().pop()

@@ -35,6 +35,13 @@ pub struct Checks<'c> {
     pub machine: Option<&'c Machine>,
 }
 
+/// What of a program a machine cannot do, by line.
+pub fn verify_machine(steps: &[Step], machine: &Machine) -> Vec<Diagnostic> {
+    let mut problems = Problems::default();
+    machine::check(steps, machine, &mut problems);
+    problems.into_diagnostics()
+}
+
 /// What is wrong with what a program does, by line.
 pub fn verify(steps: &[Step], checks: &Checks<'_>) -> Vec<Diagnostic> {
     let mut problems = Problems::default();

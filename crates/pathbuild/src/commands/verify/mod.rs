@@ -5,7 +5,7 @@ mod machine;
 mod stock;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_gcode::verify::{Checks, coarse_arcs, verify};
+use pathbuild_gcode::verify::{Checks, coarse_arcs, verify, verify_machine};
 
 use crate::args::VerifyArgs;
 use crate::config::{number, positive};
@@ -66,9 +66,7 @@ fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&
     let mut found = verify(&drawn, &Checks { stock: stock.as_ref(), machine: None });
     found.extend(coarse_arcs(&program.text, program.dialect));
     if let Some(machine) = machine::machine(context) {
-        let of_machine = verify(&program.read.steps, &Checks { stock: None, machine: Some(&machine) });
-        let new: Vec<Diagnostic> = of_machine.into_iter().filter(|it| !found.contains(it)).collect();
-        found.extend(new);
+        found.extend(verify_machine(&program.read.steps, &machine));
     }
     found.extend(stock::unknown_tools(context, &program));
     found.extend(against.and_then(|against| against.difference(&program)));
