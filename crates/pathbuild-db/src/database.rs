@@ -8,6 +8,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use salsa::Setter;
 
 use crate::inputs::{Directory, SourceFile};
+use crate::queries;
 use crate::system::System;
 
 /// What queries may ask besides each other.
@@ -76,6 +77,18 @@ impl Database {
         let directory = self.directory(path);
         let next = directory.revision(self) + 1;
         directory.set_revision(self).to(next);
+    }
+
+    /// From now on large values that can be made again are dropped when [`Self::drop_large`] says so: what was read from drawings, and what
+    /// was made of single paths. What others ask of them stays. For runs that go through a library once; where drawings change, a value that
+    /// is made again could be that of a file as nobody has told it is.
+    pub fn bound_memory(&mut self) {
+        queries::bound(self, 1);
+    }
+
+    /// Drops the large values, where memory is bounded.
+    pub fn drop_large(&mut self) {
+        salsa::Database::trigger_lru_eviction(self);
     }
 
     fn inputs(&self) -> MutexGuard<'_, Inputs> {

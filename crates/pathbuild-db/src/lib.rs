@@ -20,11 +20,11 @@ pub use database::{Database, Db};
 pub use guard::Underway;
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use queries::{
-    Closure, Destination, Edge, Embedding, Found, Instance, MissingOption, NameKey, Outcome, PathPlace,
-    QProject, QProjectLine, Reached, Sought, Trace, assigned_texts, chains, check_file, check_target,
-    closure, combinations, content_hash, drawing_names, embeds, files_for, find_path, holders, locate,
-    name_table, path, path_names, path_place, program, q_project, q_project_findings, raw_file, raw_path,
-    trace,
+    Brief, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey, Outcome,
+    PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Trace, assigned_texts, chains, check_file,
+    check_target, closure, combinations, content_hash, drawing_names, embeds, files_for, find_path, head,
+    holders, locate, name_table, path, path_names, path_place, program, q_project, q_project_findings,
+    raw_file, raw_path, summary, trace,
 };
 pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
 pub use system::System;

@@ -1,9 +1,12 @@
 //! The stages from a drawing to a program, each a memoized query. Who asks whom:
 //!
 //! ```text
-//! program, check_target -> closure -> embeds -> path, chains -> raw_path -> raw_file
+//! program, check_target -> closure -> embeds -> summary -> path, chains -> raw_path -> raw_file
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
+
+mod brief;
+use crate::database::Db;
 
 mod combinations;
 mod edges;
@@ -20,6 +23,7 @@ mod report;
 mod texts;
 mod traces;
 
+pub use brief::{Brief, Head, Summary, head, summary};
 pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
@@ -34,3 +38,9 @@ pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
 
 pub(crate) use raw::internal_error;
+
+/// Keeps at most so many results of each of the queries whose values are large and can be made again from a file.
+pub(crate) fn bound(db: &mut dyn Db, kept: usize) {
+    raw::bound(db, kept);
+    instance::bound(db, kept);
+}

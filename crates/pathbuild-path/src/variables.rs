@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::{files, variables as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
+use crate::definition::Definition;
 use crate::letter::Letter;
 use crate::raw::RawPath;
 
@@ -28,11 +29,11 @@ impl Bindings {
     }
 
     /// The example values that a path by itself is checked with: k counts from 0 over its definitions as they are written.
-    pub fn check_values(raw: &RawPath) -> Self {
-        let value = |(k, definition): (usize, &crate::Definition)| {
+    pub fn check_values(definitions: &[Definition]) -> Self {
+        let value = |(k, definition): (usize, &Definition)| {
             (definition.name, definition.check_value(k).into_boxed_str())
         };
-        Self::new(raw.definitions.iter().enumerate().map(value))
+        Self::new(definitions.iter().enumerate().map(value))
     }
 
     /// The value of a variable.
@@ -45,6 +46,11 @@ impl Bindings {
         self.0.iter().map(|(name, value)| (*name, &**value))
     }
 
+    /// Whether each of these variables has a value.
+    pub fn cover(&self, definitions: &[Definition]) -> bool {
+        definitions.iter().all(|definition| self.get(definition.name).is_some())
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -55,7 +61,7 @@ impl RawPath {
     /// PB302 for each variable without a value: nobody emits a path that has variables by itself.
     pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
         let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
-        let report = |definition: &crate::Definition| {
+        let report = |definition: &Definition| {
             let problem = Diagnostic::new(&messages::MISSING_VALUE)
                 .with("variable", definition.name)
                 .with("definition", definition.to_string());

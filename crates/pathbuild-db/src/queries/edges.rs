@@ -1,10 +1,10 @@
 //! The embeddings of a closure, as edges from path to path: what commands show of a library.
 
 use pathbuild_diagnostic::{Code, Diagnostic, Point};
-use pathbuild_path::{PathName, Segment, SegmentKind, SubpathName};
+use pathbuild_path::PathName;
 
 use super::embedding::{Embedding, Outcome, embeds};
-use super::instance::{Instance, path};
+use super::instance::Instance;
 use super::reach::Closure;
 use crate::database::Db;
 
@@ -36,16 +36,14 @@ pub enum Destination<'db> {
 impl<'db> Closure<'db> {
     /// Every embedding in it: path by path in the order in which they are reached, segment by segment.
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
-        let of_path = |from: Instance<'db>| {
-            let segments = path(db, from).path.as_ref().map_or(&[][..], |path| &path.segments);
-            embeds(db, from).iter().map(move |embedding| edge(from, &segments[embedding.segment], embedding))
-        };
+        let of_path =
+            |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
         self.reached.iter().flat_map(|reached| of_path(reached.instance)).collect()
     }
 }
 
-fn edge<'db>(from: Instance<'db>, segment: &Segment, embedding: &Embedding<'db>) -> Edge<'db> {
-    let nowhere = |code| Destination::Nowhere { name: named(segment), code };
+fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
+    let nowhere = |code| Destination::Nowhere { name: embedding.name.clone(), code };
     let to = match &embedding.outcome {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
@@ -54,15 +52,5 @@ fn edge<'db>(from: Instance<'db>, segment: &Segment, embedding: &Embedding<'db>)
             nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
         }
     };
-    Edge { from, point: segment.origin.point, to }
-}
-
-fn named(segment: &Segment) -> Option<PathName> {
-    match &segment.kind {
-        SegmentKind::Subpath(subpath) => match &subpath.name {
-            SubpathName::Found { name, .. } => Some(name.clone()),
-            SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
-        },
-        _ => None,
-    }
+    Edge { from, point: embedding.origin.point, to }
 }

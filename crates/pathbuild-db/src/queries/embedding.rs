@@ -4,12 +4,13 @@
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_path::{Bindings, Path, PathName, RawPath, Segment, SegmentKind, Subpath, SubpathName};
+use pathbuild_path::{Bindings, Origin, Path, PathName, Segment, SegmentKind, Subpath, SubpathName};
 use regex::Regex;
 
+use super::brief::{Brief, Head, head, summary};
 use super::instance::{Instance, path};
 use super::lookup::{Found, find_path, names_in};
-use super::raw::{NameKey, raw_path};
+use super::raw::NameKey;
 use crate::database::Db;
 use crate::settings::Settings;
 
@@ -18,6 +19,10 @@ use crate::settings::Settings;
 pub struct Embedding<'db> {
     /// Index into [`Path::segments`].
     pub segment: usize,
+    /// Where the segment is drawn.
+    pub origin: Origin,
+    /// The path that it names, where it names one.
+    pub name: Option<PathName>,
     /// What came of it.
     pub outcome: Outcome<'db>,
     /// What is doubtful about it.
@@ -88,7 +93,7 @@ impl<'db> Embedder<'db> {
                 self.named(segment, subpath, name, text)
             }
         };
-        Embedding { segment: index, outcome, warnings }
+        Embedding { segment: index, origin: segment.origin.clone(), name: named(subpath), outcome, warnings }
     }
 
     fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName, text: &TextFault) -> Outcome<'db> {
@@ -99,9 +104,9 @@ impl<'db> Embedder<'db> {
         let found = find_path(self.db, self.instance.file(self.db), key);
         match found.files.as_slice() {
             [] => Outcome::NotFound(self.at(segment, self.nowhere(name, found), Some(text))),
-            [file] => match raw_path(self.db, *file, key) {
-                Some(raw) => {
-                    self.bound(segment, subpath, raw, Instance::new(self.db, *file, key, bindings(subpath)))
+            [file] => match head(self.db, *file, key) {
+                Some(head) => {
+                    self.bound(segment, subpath, head, Instance::new(self.db, *file, key, bindings(subpath)))
                 }
                 None => Outcome::NotFound(self.at(segment, self.nowhere(name, found), Some(text))),
             },
@@ -116,18 +121,12 @@ impl<'db> Embedder<'db> {
     }
 
     /// Checks the values against the path's variables. A path whose drawing has errors is not asked for its variables.
-    fn bound(
-        &self,
-        segment: &Segment,
-        subpath: &Subpath,
-        raw: &RawPath,
-        child: Instance<'db>,
-    ) -> Outcome<'db> {
-        let problems = if raw.is_sound() { self.binding_problems(segment, subpath, raw) } else { Vec::new() };
+    fn bound(&self, segment: &Segment, subpath: &Subpath, head: &Head, child: Instance<'db>) -> Outcome<'db> {
+        let problems = if head.is_sound { self.binding_problems(segment, subpath, head) } else { Vec::new() };
         if !problems.is_empty() {
             return Outcome::Unbound(problems);
         }
-        let problems = match &path(self.db, child).path {
+        let problems = match &summary(self.db, child).brief {
             Some(inner) => self.misfits(segment, subpath, inner),
             None => Vec::new(),
         };
@@ -161,15 +160,15 @@ impl<'db> Embedder<'db> {
         problem.note(&messages::NEAR_NAMES, vec![("names", near.iter().map(PathName::as_str).collect())])
     }
 
-    fn binding_problems(&self, segment: &Segment, subpath: &Subpath, raw: &RawPath) -> Vec<Diagnostic> {
+    fn binding_problems(&self, segment: &Segment, subpath: &Subpath, head: &Head) -> Vec<Diagnostic> {
         let mut problems = Vec::new();
         for given in &subpath.values {
-            let definition = raw.definitions.iter().find(|known| Some(known.name) == given.variable);
+            let definition = head.definitions.iter().find(|known| Some(known.name) == given.variable);
             let name = given.variable.map(String::from).unwrap_or_default();
             let problem = match definition {
                 None => Diagnostic::new(&variables::VALUE_WITHOUT_DEFINITION).with(
                     "known",
-                    raw.definitions.iter().map(|known| known.name.to_string()).collect::<Value>(),
+                    head.definitions.iter().map(|known| known.name.to_string()).collect::<Value>(),
                 ),
                 Some(definition) if !definition.allows(&given.value) => {
                     Diagnostic::new(&variables::VALUE_NOT_ALLOWED)
@@ -178,10 +177,10 @@ impl<'db> Embedder<'db> {
                 }
                 Some(_) => continue,
             };
-            let problem = problem.with("variable", name).with("name", raw.name.as_str());
+            let problem = problem.with("variable", name).with("name", head.name.as_str());
             problems.push(self.at(segment, problem, Some(&given.text)));
         }
-        let missing = raw
+        let missing = head
             .definitions
             .iter()
             .filter(|known| !subpath.values.iter().any(|given| given.variable == Some(known.name)));
@@ -199,7 +198,7 @@ impl<'db> Embedder<'db> {
     }
 
     /// What of T, O, M and the size differs between the segment and the path it embeds.
-    fn misfits(&self, segment: &Segment, subpath: &Subpath, inner: &Path) -> Vec<Diagnostic> {
+    fn misfits(&self, segment: &Segment, subpath: &Subpath, inner: &Brief) -> Vec<Diagnostic> {
         let fault =
             |letter| subpath.faults.iter().find(|(known, _)| *known == letter).map(|(_, fault)| fault);
         let differs = |letter: char, here: Value, there: Value| {
@@ -233,7 +232,7 @@ impl<'db> Embedder<'db> {
                 .with("segment", subpath.thickness);
             problems.push(self.at(segment, problem, fault('T')));
         }
-        let (here, there) = ((subpath.end - subpath.start).norm(), (inner.end - inner.start).norm());
+        let (here, there) = ((subpath.end - subpath.start).norm(), inner.size);
         if (here - there).abs() > CHORD_TOLERANCE {
             let problem = Diagnostic::new(&messages::SIZE_DIFFERS)
                 .with("segment", here)
@@ -249,7 +248,7 @@ impl<'db> Embedder<'db> {
         segment: &Segment,
         is_missing_here: bool,
         is_missing_there: bool,
-        inner: &Path,
+        inner: &Brief,
     ) -> Option<Diagnostic> {
         let place = match (is_missing_here, is_missing_there) {
             (true, true) => format!("{} / {}", self.outer.name, inner.name),
@@ -266,6 +265,13 @@ impl<'db> Embedder<'db> {
             Some(text) => diagnostic.with_text(text.clone()),
             None => diagnostic,
         }
+    }
+}
+
+fn named(subpath: &Subpath) -> Option<PathName> {
+    match &subpath.name {
+        SubpathName::Found { name, .. } => Some(name.clone()),
+        SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
     }
 }
 

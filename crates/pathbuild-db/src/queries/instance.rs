@@ -41,7 +41,7 @@ pub struct BoundPath {
 }
 
 /// Binds and checks a path's parameters.
-#[salsa::tracked]
+#[salsa::tracked(lru = 0)]
 pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     let Some(raw) = instance.raw(db) else { return BoundPath::default() };
     let mut diagnostics = raw.diagnostics.clone();
@@ -57,11 +57,17 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
 }
 
 /// Walks along a path. Empty where there is no sound path.
-#[salsa::tracked]
+#[salsa::tracked(lru = 0)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
     let Some(path) = &path(db, instance).path else { return Walked::default() };
     let join_tolerance = Settings::get(db).language(db).join_tolerance;
     catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path, join_tolerance))).unwrap_or_else(|payload| {
         Walked { items: Vec::new(), diagnostics: vec![internal_error(&*payload).in_path(path.name.as_str())] }
     })
+}
+
+/// See [`bound`](super::bound).
+pub(super) fn bound(db: &mut dyn Db, kept: usize) {
+    path::set_lru_capacity(db, kept);
+    chains::set_lru_capacity(db, kept);
 }

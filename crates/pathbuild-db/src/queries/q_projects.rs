@@ -59,7 +59,7 @@ impl<'db> Component<'db> {
 
 /// The values of a path's variables: those that a proxy line sets and the path allows, else example values.
 fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
-    let examples = Bindings::check_values(raw);
+    let examples = Bindings::check_values(&raw.definitions);
     let value = |definition: &pathbuild_path::Definition| {
         let given = proxy.and_then(|proxy| proxy.variables().find(|(name, _)| *name == definition.name));
         let given = given.map(|(_, value)| value).filter(|value| definition.allows(value));

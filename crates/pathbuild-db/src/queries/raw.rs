@@ -1,6 +1,7 @@
 //! Reading drawings: a file to its raw paths.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::{Diagnostic, Point};
@@ -27,42 +28,33 @@ impl<'db> NameKey<'db> {
     }
 }
 
-/// The paths of a file. That its parts are tracked structs keeps edits apart: what shifts lines and handles changes only `map`, what
-/// changes one path leaves the others as they were.
-#[derive(Clone, Debug, PartialEq, Eq, salsa::SalsaValue)]
-pub struct FileContents<'db> {
-    paths: Vec<PathEntry<'db>>,
-    report: FileReport<'db>,
+/// What was read from a file.
+#[derive(Clone, Debug)]
+pub struct FileContents {
+    paths: Vec<PathEntry>,
+    report: FileReport,
 }
 
 /// A raw path, and beside it where its elements are in the file.
-#[salsa::tracked(debug)]
-pub struct PathEntry<'db> {
-    #[returns(deref)]
-    pub folded: Box<str>,
-    #[tracked]
-    #[returns(ref)]
-    pub raw: RawPath,
-    #[tracked]
-    #[returns(ref)]
-    pub map: SourceMap,
+#[derive(Clone, Debug)]
+struct PathEntry {
+    /// Shared with whoever asks for the path, so that each may be dropped for itself.
+    raw: Arc<RawPath>,
+    map: SourceMap,
 }
 
 /// What is known of the file as a whole.
-#[salsa::tracked(debug)]
-pub struct FileReport<'db> {
-    #[tracked]
-    #[returns(ref)]
-    pub diagnostics: Vec<Diagnostic>,
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct FileReport {
+    diagnostics: Vec<Diagnostic>,
     /// Of its bytes, where the settings ask for it and it could be read.
-    #[tracked]
-    #[returns(copy)]
-    pub hash: Option<[u8; 32]>,
+    hash: Option<[u8; 32]>,
 }
 
-/// Reads a drawing.
-#[salsa::tracked]
-pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
+/// Reads a drawing. Never the same as before: whoever asks goes through a query that takes out what it needs, and only those tell whether
+/// that changed. What shifts lines and handles changes none of them.
+#[salsa::tracked(no_eq, lru = 0)]
+pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     // Asked for first: it stands for the bytes that are read behind salsa's back.
     file.revision(db);
     let settings = Settings::get(db);
@@ -80,43 +72,53 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents<'_> {
         .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![*problem] });
     let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
     let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
-    let entry =
-        |(raw, map): (RawPath, SourceMap)| PathEntry::new(db, raw.name.folded().into_boxed_str(), raw, map);
+    let entry = |(raw, map)| PathEntry { raw: Arc::new(raw), map };
     FileContents {
         paths: raw.paths.into_iter().map(entry).collect(),
-        report: FileReport::new(db, diagnostics, hash),
+        report: FileReport { diagnostics, hash },
+    }
+}
+
+impl FileContents {
+    fn entry(&self, name: &PathName) -> Option<&PathEntry> {
+        self.paths.iter().find(|entry| entry.raw.name == *name)
     }
 }
 
 /// The names of a file's paths, in order of first appearance: unchanged by edits that neither add nor remove a path.
 #[salsa::tracked]
 pub fn path_names(db: &dyn Db, file: SourceFile) -> Vec<PathName> {
-    raw_file(db, file).paths.iter().map(|entry| entry.raw(db).name.clone()).collect()
+    raw_file(db, file).paths.iter().map(|entry| entry.raw.name.clone()).collect()
+}
+
+/// What is known of a file as a whole: unchanged by edits of its paths.
+#[salsa::tracked]
+fn file_report(db: &dyn Db, file: SourceFile) -> FileReport {
+    raw_file(db, file).report.clone()
 }
 
 /// A path of a file: unchanged by edits of its siblings.
-#[salsa::tracked(returns(copy))]
-fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<PathEntry<'db>> {
-    let folded = name.folded(db);
-    raw_file(db, file).paths.iter().copied().find(|entry| entry.folded(db) == folded)
+#[salsa::tracked(lru = 0)]
+fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<RawPath>> {
+    let name = PathName::new(name.folded(db));
+    raw_file(db, file).entry(&name).map(|entry| Arc::clone(&entry.raw))
 }
 
 /// Whether a file defines a path: unchanged by edits of the path itself.
 pub(super) fn defines<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> bool {
-    path_entry(db, file, name).is_some()
+    path_names(db, file).contains(&PathName::new(name.folded(db)))
 }
 
 /// A raw path of a file.
 pub fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db RawPath> {
-    path_entry(db, file, name).map(|entry| entry.raw(db))
+    path_entry(db, file, name).as_deref()
 }
 
 /// Fills in where the element of a diagnostic of that path is in the file.
 pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagnostic: &mut Diagnostic) {
-    let folded = path.folded();
     // Not through an interned name: this is asked from outside queries.
-    if let Some(entry) = raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded) {
-        entry.map(db).locate(diagnostic);
+    if let Some(entry) = raw_file(db, file).entry(path) {
+        entry.map.locate(diagnostic);
     }
 }
 
@@ -135,33 +137,31 @@ pub struct PathPlace {
 
 /// A raw path of a file, for whoever asks by name from outside. (Not through an interned name, which nobody would reclaim there.)
 pub(super) fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
-    let folded = name.folded();
-    raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded).map(|entry| entry.raw(db))
+    raw_file(db, file).entry(name).map(|entry| &*entry.raw)
 }
 
 /// Where a path of a file is drawn; `None` when the file has no such path.
 pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<PathPlace> {
-    let folded = name.folded();
-    let entry = raw_file(db, file).paths.iter().find(|entry| entry.folded(db) == folded)?;
-    let raw = entry.raw(db);
+    let entry = raw_file(db, file).entry(name)?;
+    let raw = &*entry.raw;
     let start = raw.start.as_ref().map(|start| &start.origin);
     let origin = start.or_else(|| raw.elements.first().map(|element| &element.origin));
     Some(PathPlace {
         name: raw.name.clone(),
         layer: raw.layer.clone(),
         point: origin.map(|origin| origin.point),
-        position: origin.and_then(|origin| entry.map(db).positions().get(origin.id.0 as usize).copied()),
+        position: origin.and_then(|origin| entry.map.positions().get(origin.id.0 as usize).copied()),
     })
 }
 
 /// What is wrong with the file as a whole.
 pub(super) fn file_diagnostics(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
-    raw_file(db, file).report.diagnostics(db)
+    &file_report(db, file).diagnostics
 }
 
 /// The hash of the bytes that a file's paths were read from; `None` where it could not be read, or the settings do not ask for hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
-    raw_file(db, file).report.hash(db)
+    file_report(db, file).hash
 }
 
 /// A panic in here is a bug that one file shows: it must not keep the others from being read.
@@ -200,4 +200,10 @@ fn unreadable(error: ReadError, reading: &Reading) -> Diagnostic {
             .with("limit", format!("{} bytes", reading.file_size))
             .with("key", "file-size"),
     }
+}
+
+/// See [`bound`](super::bound).
+pub(super) fn bound(db: &mut dyn Db, kept: usize) {
+    raw_file::set_lru_capacity(db, kept);
+    path_entry::set_lru_capacity(db, kept);
 }

@@ -1,17 +1,19 @@
 //! Everything that a target reaches through embeddings. The one place that walks the embedding: cycles, depth, limits, diagnostics and
 //! dependencies all come from here.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::slice;
 
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{Bindings, Path, PathName};
-use pathbuild_toolpath::{FoldOptions, own_moves};
+use pathbuild_path::{Bindings, PathName};
+use pathbuild_toolpath::FoldOptions;
 
+use super::brief::{Brief, head, summary};
 use super::embedding::{Embedding, Outcome, embeds};
-use super::hints::with_other_layers;
-use super::instance::{Instance, chains, path};
+use super::instance::{Instance, path};
 use super::raw::{NameKey, raw_path};
 use crate::database::Db;
 use crate::inputs::{Role, SourceFile, Target};
@@ -58,13 +60,17 @@ const DEEPEST: u32 = 10;
 pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
-    let Some(raw) = raw_path(db, file, name) else { return Closure::default() };
+    let Some(head) = head(db, file, name) else { return Closure::default() };
     let bindings = match target.role(db) {
         Role::Emitted => Bindings::default(),
-        Role::Checked => Bindings::check_values(raw),
+        Role::Checked => Bindings::check_values(&head.definitions),
         Role::CheckedWith(bindings) => bindings.clone(),
     };
-    let missing = if raw.is_sound() { raw.missing_values(&bindings) } else { Vec::new() };
+    let missing = if head.is_sound && !bindings.cover(&head.definitions) {
+        raw_path(db, file, name).map(|raw| raw.missing_values(&bindings)).unwrap_or_default()
+    } else {
+        Vec::new()
+    };
     let root = Instance::new(db, file, name, bindings);
     let mut walk = Walk::new(db, target.role(db));
     if missing.is_empty() {
@@ -72,7 +78,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         walk.count(root);
     } else {
         walk.reached.push(Reached { instance: root, depth: 0 });
-        walk.report_all(root, missing);
+        walk.report_all(root, &missing);
     }
     Closure {
         root: Some(root),
@@ -166,40 +172,40 @@ impl<'db> Walk<'db> {
 
     /// The stages of one path: each is gone into only when those before found no error.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
-        let bound = path(self.db, instance);
-        let mut has_errors = self.report_all(instance, bound.diagnostics.clone());
-        let Some(path) = &bound.path else { return true };
-        if let Some(sweep_height) = self.sweep_height_of(path, depth) {
-            has_errors |= self.report_all(instance, path.check_sweep_height(sweep_height));
-        }
+        let summary = summary(self.db, instance);
+        let mut has_errors = self.report_all(instance, &summary.problems);
+        let Some(brief) = &summary.brief else { return true };
+        let sweep_problems = self.sweep_problems(instance, brief, depth);
+        has_errors |= self.report_all(instance, &sweep_problems);
         if has_errors {
             return true;
         }
-        let walked = chains(self.db, instance).diagnostics.clone();
-        let walked = walked.into_iter().map(|found| with_other_layers(self.db, instance, found)).collect();
-        has_errors |= self.report_all(instance, walked);
+        has_errors |= self.report_all(instance, &brief.walk_problems);
         for embedding in embeds(self.db, instance) {
-            has_errors |= self.visit_embedding(instance, path, embedding, depth);
+            has_errors |= self.visit_embedding(instance, brief, embedding, depth);
         }
         has_errors
     }
 
-    /// S of a path in its role; `None` where nobody says, which is noted.
-    fn sweep_height_of(&mut self, path: &Path, depth: u32) -> Option<f64> {
-        if !self.is_emitted {
-            return Some(path.embedded_sweep_height());
-        }
-        if path.needs_feed() && self.options.feed.is_none() {
+    /// What is wrong with S of a path in its role. Where nobody says S or F and it is needed, that is noted.
+    fn sweep_problems(
+        &mut self,
+        instance: Instance<'db>,
+        brief: &'db Brief,
+        depth: u32,
+    ) -> Cow<'db, [Diagnostic]> {
+        if self.is_emitted && brief.needs_feed && self.options.feed.is_none() {
             self.miss(MissingOption::Feed);
         }
-        if depth > 0 {
-            return Some(path.embedded_sweep_height());
+        if !self.is_emitted || depth > 0 {
+            return Cow::Borrowed(&brief.sweep_problems);
         }
-        let sweep_height = path.emitted_sweep_height(self.options.sweep_height);
-        if sweep_height.is_none() {
+        let Some(path) = &path(self.db, instance).path else { return Cow::default() };
+        let Some(height) = path.emitted_sweep_height(self.options.sweep_height) else {
             self.miss(MissingOption::SweepHeight);
-        }
-        sweep_height
+            return Cow::default();
+        };
+        Cow::Owned(path.check_sweep_height(height))
     }
 
     fn miss(&mut self, option: MissingOption) {
@@ -211,27 +217,27 @@ impl<'db> Walk<'db> {
     fn visit_embedding(
         &mut self,
         instance: Instance<'db>,
-        path: &Path,
+        outer: &Brief,
         embedding: &Embedding<'db>,
         depth: u32,
     ) -> bool {
-        self.report_all(instance, embedding.warnings.clone());
-        let segment = &path.segments[embedding.segment];
-        let frame = Frame { instance, name: path.name.clone(), point: segment.origin.point };
+        self.report_all(instance, &embedding.warnings);
+        let origin = &embedding.origin;
+        let frame = Frame { instance, name: outer.name.clone(), point: origin.point };
         match &embedding.outcome {
-            Outcome::Refused(problem) => self.report_all(instance, vec![problem.clone()]),
+            Outcome::Refused(problem) => self.report_all(instance, slice::from_ref(problem)),
             _ if depth >= DEEPEST => {
                 let problem = self.too_deep(&frame, embedding);
-                self.report_all(instance, vec![segment.origin.at(problem)])
+                self.report_all(instance, &[origin.at(problem)])
             }
-            Outcome::NotFound(problem) => self.report_all(instance, vec![problem.clone()]),
-            Outcome::Unbound(problems) => self.report_all(instance, problems.clone()),
+            Outcome::NotFound(problem) => self.report_all(instance, slice::from_ref(problem)),
+            Outcome::Unbound(problems) => self.report_all(instance, problems),
             Outcome::Found { child, .. } if self.is_open(*child, instance) => {
                 let problem = self.cycle(&frame, *child);
-                self.report_all(instance, vec![segment.origin.at(problem)])
+                self.report_all(instance, &[origin.at(problem)])
             }
             Outcome::Found { child, problems } => {
-                let misfits = self.report_all(instance, problems.clone());
+                let misfits = self.report_all(instance, problems);
                 self.stack.push(frame);
                 let has_errors = self.visit(*child, depth + 1);
                 self.stack.pop();
@@ -239,8 +245,8 @@ impl<'db> Walk<'db> {
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
                         .with("name", self.name_of(*child))
                         .with("file", child.file(self.db).path(self.db).as_str())
-                        .in_path(path.name.as_str());
-                    self.report_all(instance, vec![segment.origin.at(problem)]);
+                        .in_path(outer.name.as_str());
+                    self.report_all(instance, &[origin.at(problem)]);
                 }
                 misfits || has_errors
             }
@@ -278,15 +284,15 @@ impl<'db> Walk<'db> {
     }
 
     fn name_of(&self, instance: Instance<'db>) -> String {
-        instance
-            .raw(self.db)
-            .map_or_else(|| instance.name(self.db).folded(self.db).to_owned(), |raw| raw.name.to_string())
+        let name = instance.name(self.db);
+        let head = head(self.db, instance.file(self.db), name);
+        head.as_ref().map_or_else(|| name.folded(self.db).to_owned(), |head| head.name.to_string())
     }
 
     /// Reports what is found in a path, each once; whether there are errors.
-    fn report_all(&mut self, instance: Instance<'db>, found: Vec<Diagnostic>) -> bool {
+    fn report_all(&mut self, instance: Instance<'db>, found: &[Diagnostic]) -> bool {
         let has_errors = found.iter().any(Diagnostic::is_error);
-        for mut diagnostic in found {
+        for mut diagnostic in found.iter().cloned() {
             diagnostic.file.get_or_insert_with(|| instance.file(self.db).path(self.db).clone());
             let same = self.known.entry(hash(&identity(&diagnostic))).or_default();
             if !same.iter().any(|index| identity(&self.diagnostics[*index]) == identity(&diagnostic)) {
@@ -337,10 +343,7 @@ impl<'db> Walk<'db> {
         if let Some(moves) = known.get(&instance) {
             return *moves;
         }
-        let own = match &path(self.db, instance).path {
-            Some(path) => own_moves(path, &chains(self.db, instance).items),
-            None => 0,
-        };
+        let own = summary(self.db, instance).brief.as_ref().map_or(0, |brief| brief.moves);
         let embedded = embeds(self.db, instance).iter().filter_map(|embedding| match &embedding.outcome {
             Outcome::Found { child, .. } => Some(*child),
             _ => None,
@@ -354,7 +357,7 @@ impl<'db> Walk<'db> {
         if let Some(path) = &path(self.db, instance).path {
             problem = path.start_origin.at(problem.in_path(path.name.as_str()));
         }
-        self.report_all(instance, vec![problem]);
+        self.report_all(instance, &[problem]);
     }
 }
 

@@ -1,9 +1,10 @@
 //! What a target was made from: by which a driver knows after an edit which targets to ask again, and a cache whether a result still holds.
 
 use camino::Utf8PathBuf;
-use pathbuild_path::{PathName, SegmentKind, SubpathName};
+use pathbuild_path::PathName;
 
-use super::instance::{Instance, path};
+use super::embedding::embeds;
+use super::instance::Instance;
 use super::lookup::find_path;
 use super::raw::NameKey;
 use super::reach::closure;
@@ -42,10 +43,7 @@ impl Trace {
     fn add(&mut self, db: &dyn Db, instance: Instance<'_>) {
         let from = instance.file(db);
         self.add_file(from);
-        let Some(path) = &path(db, instance).path else { return };
-        for segment in &path.segments {
-            let SegmentKind::Subpath(subpath) = &segment.kind else { continue };
-            let SubpathName::Found { name, .. } = &subpath.name else { continue };
+        for name in embeds(db, instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
             let found = find_path(db, from, NameKey::of(db, name));
             for file in &found.searched {
                 self.add_file(*file);

@@ -34,22 +34,26 @@ fn world() -> World {
     world
 }
 
-const OF_SIBLING: [&str; 7] = [
+const OF_SIBLING: [&str; 9] = [
     "raw_file sibling",
     "path_entry sibling",
+    "head sibling",
     "path sibling",
     "chains sibling",
+    "summary sibling",
     "embeds sibling",
     "closure sibling",
     "program sibling",
 ];
 
 /// What drawing and looking up a project comes to, apart from what it embeds.
-const OF_PROJECT: [&str; 6] = [
+const OF_PROJECT: [&str; 8] = [
     "raw_file project",
     "path_entry project",
+    "head project",
     "path project",
     "chains project",
+    "summary project",
     "find_path project",
     "files_for project",
 ];
@@ -62,8 +66,12 @@ fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
     world.expect(
         &[
             "raw_file component",
+            "path_entry component",
+            "path_names project",
+            "head component",
             "path component",
             "chains component",
+            "summary component",
             "embeds component",
             "closure component",
             "program component",
@@ -91,9 +99,12 @@ fn a_remark_in_a_component_runs_only_the_reader() {
     let mut world = world();
     world.draw(COMPONENT, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{}", component("1111.1P", "0")));
     world.expect(
-        &["raw_file component"],
-        &[&OF_PROJECT[..], &["path component", "embeds project", "closure project", "program outer"]]
-            .concat(),
+        &["raw_file component", "path_entry component", "path_names project"],
+        &[
+            &OF_PROJECT[..],
+            &["head component", "path component", "embeds project", "closure project", "program outer"],
+        ]
+        .concat(),
     );
 }
 
@@ -105,7 +116,7 @@ fn a_new_unrelated_file_runs_only_lookups() {
         &["name_table project", "files_for project", "files_for outer"],
         &[
             &OF_SIBLING[..],
-            &OF_PROJECT[..5],
+            &OF_PROJECT[..7],
             &["find_path outer", "embeds project", "closure project", "program project", "program outer"],
         ]
         .concat(),
@@ -125,7 +136,7 @@ fn a_new_file_that_could_hold_the_path_is_read() {
             "files_for outer",
             "find_path project",
             "raw_file new",
-            "path_entry new",
+            "path_names new",
             "embeds project",
         ],
         &[&OF_SIBLING[..], &["find_path outer", "closure project", "program project", "program outer"]]
@@ -152,11 +163,11 @@ fn a_file_that_makes_a_path_ambiguous_makes_its_users_fail_and_removing_it_mends
     ];
     let spared = [
         &OF_SIBLING[..],
-        &OF_PROJECT[..4],
+        &OF_PROJECT[..6],
         &["path component", "closure component", "program component", "find_path outer", "path outer"],
     ]
     .concat();
-    world.expect(&[&of_users[..], &["raw_file new", "path_entry new"]].concat(), &spared);
+    world.expect(&[&of_users[..], &["raw_file new", "path_names new"]].concat(), &spared);
     assert_eq!(world.codes("project"), ["PB504"]);
     assert_eq!(world.codes("outer"), ["PB504", "PB511"]);
     assert_eq!(world.outcome("component"), before[0]);
@@ -175,6 +186,7 @@ fn a_component_that_is_gone_makes_its_users_fail_and_putting_it_back_mends_them(
         &[
             "raw_file component",
             "path_entry component",
+            "head component",
             "closure component",
             "program component",
             "name_table project",
@@ -187,7 +199,7 @@ fn a_component_that_is_gone_makes_its_users_fail_and_putting_it_back_mends_them(
             "closure outer",
             "program outer",
         ],
-        &[&OF_SIBLING[..], &OF_PROJECT[..4], &["path outer", "find_path outer"]].concat(),
+        &[&OF_SIBLING[..], &OF_PROJECT[..6], &["path outer", "find_path outer"]].concat(),
     );
     assert_eq!(world.codes("project"), ["PB503"]);
     assert_eq!(world.codes("outer"), ["PB503", "PB511"]);
@@ -208,8 +220,12 @@ fn a_cycle_is_found_when_it_is_made_and_forgotten_when_it_is_mended() {
     world.expect(
         &[
             "raw_file component",
+            "path_entry component",
+            "path_names project",
+            "head component",
             "path component",
             "chains component",
+            "summary component",
             "embeds component",
             "closure component",
             "program component",

@@ -30,23 +30,29 @@ fn world() -> World {
 }
 
 /// Everything that is asked of the first path.
-const OF_PATH: [&str; 6] =
-    ["path_entry path", "path path", "chains path", "embeds path", "closure path", "program path"];
+const OF_PATH: [&str; 7] =
+    ["head path", "path path", "chains path", "summary path", "embeds path", "closure path", "program path"];
 
-const OF_SIBLING: [&str; 6] = [
-    "path_entry sibling",
+const OF_SIBLING: [&str; 7] = [
+    "head sibling",
     "path sibling",
     "chains sibling",
+    "summary sibling",
     "embeds sibling",
     "closure sibling",
     "program sibling",
 ];
 
-const OF_OTHER: [&str; 7] = [
+/// The drawing, and its paths taken out of it.
+const READING: [&str; 3] = ["raw_file sibling", "path_entry path", "path_entry sibling"];
+
+const OF_OTHER: [&str; 9] = [
     "raw_file other",
     "path_entry other",
+    "head other",
     "path other",
     "chains other",
+    "summary other",
     "embeds other",
     "closure other",
     "program other",
@@ -61,7 +67,7 @@ fn a_remark_before_the_first_element_runs_only_the_reader() {
     let mut world = world();
     let (before, outcome) = (world.place("path"), world.outcome("path"));
     world.draw(FILE, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{DRAWING}"));
-    world.expect(&["raw_file sibling"], &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
     assert_eq!(world.outcome("path"), outcome);
     let after = world.place("path");
     assert!(after.line > before.line, "{before:?} {after:?}");
@@ -76,7 +82,7 @@ fn a_comment_in_the_file_runs_only_the_reader() {
     let with_comment = text.replacen("ENTITIES\r\n", "ENTITIES\r\n999\r\na remark\r\n", 1);
     assert_ne!(text, with_comment);
     world.put(FILE, with_comment.into_bytes());
-    world.expect(&["raw_file sibling"], &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
     assert_eq!(world.outcome("path"), outcome);
     let after = world.place("path");
     assert_eq!(after.line, before.line.map(|line| line + 2));
@@ -87,7 +93,7 @@ fn a_comment_in_the_file_runs_only_the_reader() {
 fn a_file_that_was_saved_without_a_change_runs_only_the_reader() {
     let mut world = world();
     world.draw(FILE, DRAWING);
-    world.expect(&["raw_file sibling"], &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
 }
 
 /// Where the walk does not go on, the whole drawing is searched for what might: that is read again, too.
@@ -99,8 +105,8 @@ fn a_remark_in_a_drawing_with_a_gap_runs_the_reader_and_the_search_for_ends() {
     assert!(world.codes("path").contains(&"PB401".to_owned()));
     world.draw(FILE, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{gap}"));
     world.expect(
-        &["raw_file path", "all_ends path"],
-        &["path_entry path", "path path", "chains path", "closure path", "program path"],
+        &["raw_file path", "path_entry path", "all_ends path"],
+        &["head path", "path path", "chains path", "summary path", "closure path", "program path"],
     );
 }
 
@@ -110,10 +116,7 @@ fn a_moved_line_runs_the_stages_of_its_path() {
     let before = world.outcome("path").program;
     let moved = DRAWING.replace("20,0 20,10", "20,0 20,11").replace("end 20,10", "end 20,11");
     world.draw(FILE, &moved);
-    world.expect(
-        &["raw_file sibling", "path path", "chains path", "embeds path", "closure path", "program path"],
-        &all_of(&[&["path_entry path"], &OF_SIBLING, &OF_OTHER]),
-    );
+    world.expect(&all_of(&[&READING, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
     assert_ne!(world.outcome("path").program, before);
 }
 
@@ -122,10 +125,7 @@ fn a_changed_parameter_text_runs_the_stages_of_its_path() {
     let mut world = world();
     let before = world.outcome("path").program;
     world.draw(FILE, &DRAWING.replacen("B0", "B1", 1));
-    world.expect(
-        &["raw_file sibling", "path path", "chains path", "embeds path", "closure path", "program path"],
-        &all_of(&[&["path_entry path"], &OF_SIBLING, &OF_OTHER]),
-    );
+    world.expect(&all_of(&[&READING, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
     assert_ne!(world.outcome("path").program, before);
 }
 
@@ -134,17 +134,7 @@ fn an_edited_sibling_runs_nothing_of_the_path() {
     let mut world = world();
     let before = world.outcome("path");
     world.draw(FILE, &DRAWING.replace("mill 0,50 20,50", "mill 0,50 10,60\nmill 10,60 20,50"));
-    world.expect(
-        &[
-            "raw_file sibling",
-            "path sibling",
-            "chains sibling",
-            "embeds sibling",
-            "closure sibling",
-            "program sibling",
-        ],
-        &all_of(&[&OF_PATH, &OF_OTHER]),
-    );
+    world.expect(&all_of(&[&READING, &OF_SIBLING]), &all_of(&[&OF_PATH, &OF_OTHER]));
     assert_eq!(world.outcome("path"), before);
 }
 
@@ -154,8 +144,8 @@ fn a_renamed_sibling_runs_nothing_of_the_path() {
     let mut world = world();
     world.draw(FILE, &DRAWING.replace("layer 1111.2P", "layer 1111.3P"));
     world.expect(
-        &["raw_file sibling", "path_entry path", "path_entry sibling", "closure sibling", "program sibling"],
-        &all_of(&[&OF_PATH[1..], &OF_OTHER]),
+        &all_of(&[&READING, &["head sibling", "closure sibling", "program sibling"]]),
+        &all_of(&[&OF_PATH, &OF_OTHER]),
     );
     assert_eq!(world.outcome("sibling").program, None);
 }
@@ -164,8 +154,5 @@ fn a_renamed_sibling_runs_nothing_of_the_path() {
 fn an_edit_of_another_file_runs_nothing_here() {
     let mut world = world();
     world.draw("lib/1112.dxf", &OTHER.replace("B0", "B1"));
-    world.expect(
-        &["raw_file other", "path other", "chains other", "embeds other", "closure other", "program other"],
-        &all_of(&[&["raw_file sibling"], &OF_PATH, &OF_SIBLING]),
-    );
+    world.expect(&OF_OTHER, &all_of(&[&READING, &OF_PATH, &OF_SIBLING]));
 }

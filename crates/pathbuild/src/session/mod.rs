@@ -21,10 +21,12 @@ use std::sync::{Arc, OnceLock};
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
 use pathbuild_db::{Database, Db, Role, SourceFile, Target};
+use rayon::ThreadPool;
 
 use self::timings::Timings;
 use self::watchdog::Watchdog;
 use crate::context::Context;
+use crate::progress::Progress;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use keeper::{BUILD, Coverage, DrawingResult, Facts, Keeper, Made, Programs};
@@ -44,6 +46,10 @@ pub struct Session<'a> {
     is_traced: bool,
     /// Started when there is something to watch.
     watchdog: OnceLock<Watchdog>,
+    /// Of drawings that are worked through batch by batch; else each piece of work shows its own.
+    progress: Option<Progress>,
+    /// Worker threads.
+    pool: OnceLock<Option<ThreadPool>>,
     /// The targets that were asked for, in a session that asks again: each is an input of the database, which stays for ever.
     targets: Option<RefCell<Targets>>,
     /// Where the time went.
@@ -97,6 +103,8 @@ impl<'a> Session<'a> {
             context,
             is_traced: false,
             watchdog: OnceLock::new(),
+            progress: None,
+            pool: OnceLock::new(),
             targets: None,
             timings: Timings::default(),
         }

@@ -3,12 +3,13 @@
 use std::time::{Duration, Instant};
 
 use pathbuild_db::{
-    Closure, Database, MissingOption, Reached, Role, SourceFile, Target, Trace, closure, locate, path,
-    path_names, trace,
+    Brief, Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, closure, locate,
+    path_names, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::timings::{CHECKING, READING};
 use super::watchdog::Watchdog;
@@ -42,6 +43,10 @@ pub struct Emitted {
     pub has_probes: bool,
 }
 
+/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at 30 to 40 KB
+/// each no burden.
+const BATCH: usize = 1024;
+
 /// Stacks of worker threads: queries call each other once for each level of embedding.
 const STACK_SIZE: usize = 16 << 20;
 
@@ -71,11 +76,35 @@ impl Session<'_> {
 
     /// Reads files ahead, on all cores.
     pub fn read_ahead(&self, files: &[SourceFile]) {
-        self.timings.measure(&READING, || {
-            self.spread(files, |db, file| {
-                path_names(db, *file);
-            });
-        });
+        let progress = self.progress.as_ref();
+        let read = |db: &Database, file: &SourceFile| {
+            path_names(db, *file);
+            progress.inspect(|progress| progress.advance());
+        };
+        self.timings.measure(&READING, || self.spread(files, read));
+    }
+
+    /// Works through drawings batch by batch. Where there are several batches, what was read for one is not kept for the next, so that memory
+    /// grows with what is found in a library, not with what is drawn.
+    pub fn in_batches<R>(
+        &mut self,
+        files: &[SourceFile],
+        work: impl Fn(&Self, &[SourceFile]) -> Vec<R>,
+    ) -> Vec<R> {
+        if files.len() <= BATCH {
+            return work(self, files);
+        }
+        self.db.bound_memory();
+        self.progress = Some(self.context.printer.progress(files.len()));
+        let mut results = Vec::with_capacity(files.len());
+        for (number, batch) in files.chunks(BATCH).enumerate() {
+            if number > 0 {
+                self.db.drop_large();
+            }
+            results.extend(work(self, batch));
+        }
+        self.progress = None;
+        results
     }
 
     /// Checks targets; the order of the results is that of the targets.
@@ -124,17 +153,24 @@ impl Session<'_> {
         if items.len() <= 1 || self.context.jobs == Some(1) {
             return items.iter().map(|item| work(&self.db, item)).collect();
         }
-        let threads = usize::from(self.context.jobs.unwrap_or(0));
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build();
-        let Ok(pool) = pool else { return items.iter().map(|item| work(&self.db, item)).collect() };
+        let Some(pool) = self.pool() else { return items.iter().map(|item| work(&self.db, item)).collect() };
         let db = self.db.clone();
-        let progress = self.context.printer.progress(items.len());
+        let progress = self.progress.is_none().then(|| self.context.printer.progress(items.len()));
         let work = |db: &mut Database, item| {
             let result = work(db, item);
-            progress.advance();
+            progress.as_ref().inspect(|progress| progress.advance());
             result
         };
         pool.install(|| items.par_iter().map_with(db, work).collect())
+    }
+
+    /// The worker threads, started when they are first wanted; `None` where the system gives none.
+    fn pool(&self) -> Option<&ThreadPool> {
+        let start = || {
+            let threads = usize::from(self.context.jobs.unwrap_or(0));
+            ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build().ok()
+        };
+        self.pool.get_or_init(start).as_ref()
     }
 }
 
@@ -168,13 +204,15 @@ fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
     if reached.has_errors() {
         return None;
     }
-    let root = path(db, reached.root?).path.as_ref()?;
-    let has_probes = |reached: &Reached<'_>| {
-        path(db, reached.instance).path.as_ref().is_some_and(|path| !path.probes.is_empty())
-    };
+    let root = brief(db, reached.root?)?;
+    let has_probes = |brief: &Brief| brief.has_probes;
     Some(Emitted {
         path: root.name.as_str().into(),
         suffix: root.output_suffix.clone(),
-        has_probes: reached.reached.iter().any(has_probes),
+        has_probes: reached.reached.iter().filter_map(|reached| brief(db, reached.instance)).any(has_probes),
     })
+}
+
+fn brief<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db Brief> {
+    summary(db, instance).brief.as_ref()
 }

@@ -35,7 +35,7 @@ fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<&Path>> {
     let is_readable = !file_diagnostics(db, file).iter().any(Diagnostic::is_error);
     let sound = |name: &PathName| {
         let key = NameKey::of(db, name);
-        let values = Bindings::check_values(raw_path(db, file, key)?);
+        let values = Bindings::check_values(&raw_path(db, file, key)?.definitions);
         path(db, Instance::new(db, file, key, values)).path.as_ref()
     };
     is_readable.then(|| path_names(db, file).iter().map(sound).collect())?

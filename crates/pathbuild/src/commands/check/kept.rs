@@ -3,16 +3,16 @@
 use std::collections::HashMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Db, Role, SourceFile, Target, Trace, check_file, path_names};
+use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
 use super::since::Changed;
-use super::{leave, question};
+use super::{check_drawings, leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
 use crate::session::timings::{KEEPING, VERIFYING};
-use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, by_place, q_project_pairs};
+use crate::session::{DrawingResult, Keeper, Made, Pair, Session, by_place, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
 ///
@@ -20,7 +20,7 @@ use crate::session::{CheckedTarget, DrawingResult, Keeper, Made, Pair, Session, 
 /// Why it cannot be told what changed since a revision.
 pub(super) fn check(
     context: &Context,
-    session: &Session<'_>,
+    session: &mut Session<'_>,
     args: &CheckArgs,
     mut drawings: Vec<Utf8PathBuf>,
 ) -> Result<Checked, String> {
@@ -38,8 +38,9 @@ pub(super) fn check(
     context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
     let files: Vec<SourceFile> = open.iter().map(|index| session.db().file(&drawings[*index])).collect();
     let mut made = Vec::new();
-    for ((result, traces), index) in check_drawings(session, &files, args.all_bindings).into_iter().zip(open)
-    {
+    let checked =
+        session.in_batches(&files, |session, files| check_drawings(session, files, args.all_bindings));
+    for ((result, traces), index) in checked.into_iter().zip(open) {
         made.push(new(drawings[index].as_str(), traces, &result));
         results[index] = Some(result);
     }
@@ -102,69 +103,6 @@ fn kept(keeper: Option<&Keeper>, of: &str) -> Option<DrawingResult> {
 
 fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
     Made { of: of.into(), traces, payload: result.encode(), ..Made::default() }
-}
-
-/// What is found in drawings, each with what it was found from.
-pub(in crate::commands) fn check_drawings(
-    session: &Session<'_>,
-    files: &[SourceFile],
-    with_all_values: bool,
-) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let db = session.db();
-    session.read_ahead(files);
-    let mut targets: Vec<Target> = Vec::new();
-    let mut ends = Vec::with_capacity(files.len());
-    let mut warnings: HashMap<SourceFile, Vec<Diagnostic>> = HashMap::new();
-    for file in files {
-        if with_all_values {
-            for name in path_names(db, *file) {
-                let (combined, warning) = session.combined_targets(*file, name);
-                targets.extend(combined);
-                warnings.entry(*file).or_default().extend(warning);
-            }
-        } else {
-            targets.extend(session.targets(*file, &Role::Checked));
-        }
-        ends.push(targets.len());
-    }
-    let mut results = session.check(&targets).into_iter();
-    let mut begin = 0;
-    let mut of_drawing = |(file, end): (&SourceFile, usize)| {
-        let checked: Vec<CheckedTarget> = results.by_ref().take(end - begin).collect();
-        begin = end;
-        let warnings = warnings.remove(file).unwrap_or_default();
-        result(session, *file, checked, warnings, with_all_values)
-    };
-    files.iter().zip(ends).map(&mut of_drawing).collect()
-}
-
-fn result(
-    session: &Session<'_>,
-    file: SourceFile,
-    checked: Vec<CheckedTarget>,
-    warnings: Vec<Diagnostic>,
-    with_all_values: bool,
-) -> (DrawingResult, Vec<Trace>) {
-    let db = session.db();
-    let mut diagnostics = warnings;
-    if with_all_values {
-        // Those of a path stand together.
-        for of_path in checked.chunk_by(|a, b| a.target.name(db) == b.target.name(db)) {
-            diagnostics.extend(session.merged(of_path));
-        }
-    } else {
-        diagnostics.extend(checked.iter().flat_map(|checked| &checked.diagnostics).cloned());
-    }
-    let mut reached = vec![file];
-    reached.extend(checked.iter().flat_map(|checked| &checked.files).copied());
-    reached.sort_by(|a, b| a.path(db).cmp(b.path(db)));
-    reached.dedup();
-    diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
-    let names = path_names(db, file).iter().map(|name| name.as_str().into()).collect();
-    let own = Trace { files: vec![file], lookups: Vec::new() };
-    let traces =
-        std::iter::once(own).chain(checked.into_iter().filter_map(|checked| checked.trace)).collect();
-    (DrawingResult { names, diagnostics }, traces)
 }
 
 /// What Q-projects and their drawings say against each other, each pair by its name among the results.

@@ -1,22 +1,23 @@
 //! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
 
+mod drawings;
 mod kept;
 mod since;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::time::Instant;
 
-use pathbuild_db::{Role, SourceFile, Target, check_file, path_names};
-use pathbuild_path::PathName;
+use pathbuild_db::SourceFile;
 
-pub(super) use kept::check_drawings;
+pub(super) use drawings::check_drawings;
 
+use self::drawings::{Asked, check_paths};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
 use crate::session::timings::FINDING;
-use crate::session::{CheckedTarget, Session, Wanted};
+use crate::session::{DrawingResult, Session, Wanted, WantedPath};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -25,13 +26,13 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         return context.nothing_named("check");
     }
     if context.keeps_results() || args.changed_since.is_some() {
-        let session = Session::traced(context);
+        let mut session = Session::traced(context);
         if args.timings {
             session.timings().switch_on();
         }
         if let Some(drawings) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs))
         {
-            let checked = kept::check(context, &session, args, drawings);
+            let checked = kept::check(context, &mut session, args, drawings);
             let status = match checked {
                 Ok(checked) => finish(context, args, &session, checked, begun),
                 Err(reason) => context.usage(&reason),
@@ -45,12 +46,12 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
             );
         }
     }
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.timings {
         session.timings().switch_on();
     }
     let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
-    let checked = check(&session, wanted, args.all_bindings);
+    let checked = check(&mut session, wanted, args.all_bindings);
     let status = finish(context, args, &session, checked, begun);
     leave(session);
     status
@@ -85,68 +86,33 @@ fn finish(
     status
 }
 
-/// A path of a drawing.
-type Asked = (SourceFile, PathName);
-
-fn check(session: &Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
-    let db = session.db();
+fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
-    session.read_ahead(&whole);
-    let of_file = |file: SourceFile| path_names(db, file).iter().map(move |name| (file, name.clone()));
-    let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
-    let named = wanted.paths.into_iter().filter(|path| !is_whole.contains(&path.file));
-    let asked: Vec<Asked> = whole
-        .iter()
-        .flat_map(|file| of_file(*file))
-        .chain(named.map(|path| (path.file, path.name)))
-        .collect();
+    let single = single_paths(wanted.paths, &whole);
+    let mut found =
+        session.in_batches(&whole, |session, files| check_drawings(session, files, with_all_values));
+    found.extend(check_paths(session, &single, with_all_values));
+    let files = whole.iter().copied().chain(single.iter().map(|asked| asked.file));
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
-    let reached = if with_all_values {
-        check_all_values(session, &asked, &mut checked)
-    } else {
-        check_examples(session, &asked, &mut checked)
-    };
+    for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
+        let paths = names.into_iter().map(|name| CheckedPath { name, time: None }).collect();
+        checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths });
+        checked.diagnostics.extend(diagnostics);
+    }
+    checked.files.sort_by(|a, b| a.file.cmp(&b.file));
     checked.diagnostics.extend(session.q_projects(&whole));
-    let mut files = [whole, reached].concat();
-    files.sort_by(|a, b| a.path(db).cmp(b.path(db)));
-    files.dedup();
-    let mut names: HashMap<SourceFile, Vec<CheckedPath>> = HashMap::new();
-    for (file, name) in &asked {
-        names.entry(*file).or_default().push(CheckedPath { name: name.as_str().into(), time: None });
-    }
-    for file in files {
-        checked.diagnostics.extend_from_slice(check_file(db, file));
-        let paths = names.remove(&file).unwrap_or_default();
-        if !paths.is_empty() || path_names(db, file).is_empty() {
-            checked.files.push(CheckedFile { file: file.path(db).clone(), paths });
-        }
-    }
     checked
 }
 
-/// Checks each path with example values; returns the drawings that were reached.
-fn check_examples(session: &Session<'_>, asked: &[Asked], checked: &mut Checked) -> Vec<SourceFile> {
-    let target = |(file, name): &Asked| Target::new(session.db(), *file, name.as_str().into(), Role::Checked);
-    let targets: Vec<Target> = asked.iter().map(target).collect();
-    let mut reached = Vec::new();
-    for result in session.check(&targets) {
-        reached.extend(result.files);
-        checked.diagnostics.extend(result.diagnostics);
+/// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.
+fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked> {
+    let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
+    let mut single: Vec<Asked> = Vec::new();
+    for WantedPath { file, name } in paths.into_iter().filter(|path| !is_whole.contains(&path.file)) {
+        match single.iter_mut().find(|asked| asked.file == file) {
+            Some(asked) => asked.names.push(name),
+            None => single.push(Asked { file, names: vec![name] }),
+        }
     }
-    reached
-}
-
-/// Checks each path with all values; returns the drawings that were reached.
-fn check_all_values(session: &Session<'_>, asked: &[Asked], checked: &mut Checked) -> Vec<SourceFile> {
-    let combined = |(file, name): &Asked| session.combined_targets(*file, name);
-    let (targets, warnings): (Vec<_>, Vec<_>) = asked.iter().map(combined).unzip();
-    checked.diagnostics.extend(warnings.into_iter().flatten());
-    let mut results = session.check(&targets.concat()).into_iter();
-    let mut reached = Vec::new();
-    for targets in targets {
-        let results: Vec<CheckedTarget> = results.by_ref().take(targets.len()).collect();
-        checked.diagnostics.extend(session.merged(&results));
-        reached.extend(results.into_iter().flat_map(|result| result.files));
-    }
-    reached
+    single
 }

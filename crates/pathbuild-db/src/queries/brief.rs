@@ -1,0 +1,97 @@
+//! What is asked of a path by whoever embeds it or judges it: little, so that it stays in memory when the path itself does not, and so that
+//! an edit that changes none of it ends here.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{Definition, Path, PathName};
+use pathbuild_toolpath::own_moves;
+
+use super::hints::with_other_layers;
+use super::instance::{Instance, chains, path};
+use super::raw::{NameKey, raw_path};
+use crate::database::Db;
+use crate::inputs::SourceFile;
+
+/// What is known of a path before its variables have values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Head {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// Whether its drawing alone is in order.
+    pub is_sound: bool,
+    /// The variables that it defines.
+    pub definitions: Vec<Definition>,
+}
+
+/// What came of a path with values for its variables.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// What is wrong with its drawing or its values.
+    pub problems: Vec<Diagnostic>,
+    /// The path in short, where none of these is an error.
+    pub brief: Option<Brief>,
+}
+
+/// A path in short. Lengths in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Brief {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// O.
+    pub tool: f64,
+    /// T.
+    pub thickness: f64,
+    /// M.
+    pub material: Option<Box<str>>,
+    /// R.
+    pub output_suffix: Box<str>,
+    /// How far its end is from its start.
+    pub size: f64,
+    /// Whether anything in it is milled at the feed of the options.
+    pub needs_feed: bool,
+    /// Whether it has Z-probes of its own.
+    pub has_probes: bool,
+    /// What is wrong with the sweep height that it has where it is embedded or checked.
+    pub sweep_problems: Vec<Diagnostic>,
+    /// What is wrong with the way along it.
+    pub walk_problems: Vec<Diagnostic>,
+    /// About how many moves it has without what it embeds.
+    pub moves: u64,
+}
+
+/// What is known of a path of a file before its variables have values.
+#[salsa::tracked]
+pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Head> {
+    raw_path(db, file, name).map(|raw| Head {
+        name: raw.name.clone(),
+        is_sound: raw.is_sound(),
+        definitions: raw.definitions.clone(),
+    })
+}
+
+/// Binds a path, walks along it, and keeps what others need to know.
+#[salsa::tracked]
+pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
+    let bound = path(db, instance);
+    Summary {
+        problems: bound.diagnostics.clone(),
+        brief: bound.path.as_ref().map(|path| brief(db, instance, path)),
+    }
+}
+
+fn brief<'db>(db: &'db dyn Db, instance: Instance<'db>, path: &Path) -> Brief {
+    let walked = chains(db, instance);
+    let with_hints = |found: &Diagnostic| with_other_layers(db, instance, found.clone());
+    Brief {
+        name: path.name.clone(),
+        tool: path.tool,
+        thickness: path.thickness,
+        material: path.material.clone(),
+        output_suffix: path.output_suffix.clone(),
+        size: (path.end - path.start).norm(),
+        needs_feed: path.needs_feed(),
+        has_probes: !path.probes.is_empty(),
+        sweep_problems: path.check_sweep_height(path.embedded_sweep_height()),
+        walk_problems: walked.diagnostics.iter().map(with_hints).collect(),
+        moves: own_moves(path, &walked.items),
+    }
+}
