@@ -4,6 +4,7 @@
 mod embedding;
 mod incremental;
 mod library;
+mod memory;
 mod one_file;
 mod settings;
 mod world;

@@ -21,6 +21,8 @@ pub(crate) struct World {
     /// Which target made a query run first.
     labels: HashMap<String, &'static str>,
     targets: Vec<(&'static str, Target)>,
+    /// What ran for the last of them.
+    ran: BTreeSet<String>,
 }
 
 /// What came of a target.
@@ -72,17 +74,42 @@ impl World {
         let log = Arc::default();
         let db = Database::with_log(system.clone(), Arc::clone(&log));
         set_up(&db, &[]);
-        Self { system, db, log, labels: HashMap::new(), targets: Vec::new() }
+        Self { system, db, log, labels: HashMap::new(), targets: Vec::new(), ran: BTreeSet::new() }
     }
 
     /// Asks for a path to be emitted, and remembers what ran for the first time.
     pub(crate) fn ask(&mut self, label: &'static str, file: &str, path: &str) {
+        let target = self.new_target(label, file, path);
+        outcome(&self.db, target);
+        self.note(label);
+    }
+
+    /// Asks what is wrong with a path, and no more: the codes.
+    pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str) -> Vec<String> {
+        let target = self.new_target(label, file, path);
+        let codes = check_target(&self.db, target).iter().map(|found| found.code().to_string()).collect();
+        self.note(label);
+        codes
+    }
+
+    /// The queries that ran for the last target.
+    pub(crate) fn ran(&self) -> &BTreeSet<String> {
+        &self.ran
+    }
+
+    fn new_target(&mut self, label: &'static str, file: &str, path: &str) -> Target {
         let target = Target::new(&self.db, self.db.file(file.into()), path.into(), Role::Emitted);
         self.targets.push((label, target));
-        outcome(&self.db, target);
-        for query in self.log.lock().unwrap().drain(..) {
-            self.labels.entry(query).or_insert(label);
-        }
+        self.log.lock().unwrap().clear();
+        target
+    }
+
+    fn note(&mut self, label: &'static str) {
+        let log: Vec<String> = self.log.lock().unwrap().drain(..).collect();
+        self.ran = log
+            .into_iter()
+            .map(|query| named(&query, self.labels.entry(query.clone()).or_insert(label)))
+            .collect();
     }
 
     /// Writes a drawing, and tells the database.
