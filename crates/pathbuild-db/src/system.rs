@@ -1,5 +1,6 @@
 //! The outside world, as the queries see it: one trait, so that tests run in memory and every file that a result depends on is known.
 
+mod listing;
 mod memory;
 mod os;
 mod overlay;
@@ -9,6 +10,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
+pub use listing::{Listing, Names};
 pub use memory::MemorySystem;
 pub use os::OsSystem;
 pub use overlay::Overlay;
@@ -30,12 +32,11 @@ pub trait System: Debug + Send + Sync {
     /// When a file was last changed, where that is known.
     fn modified(&self, path: &Utf8Path) -> Option<SystemTime>;
 
-    /// The names in a directory, in no particular order: sorting ten thousand takes longer than reading the few drawings among them that
-    /// are wanted. Of names that are no UTF-8 there is a lossy spelling, which no file has.
+    /// The names in a directory.
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError>;
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
 
     /// What is under a name.
     fn kind(&self, path: &Utf8Path) -> Kind;
@@ -54,14 +55,6 @@ pub trait System: Debug + Send + Sync {
     /// # Errors
     /// The reason why it cannot be removed.
     fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>>;
-}
-
-/// A name in a directory.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Entry {
-    pub name: Box<str>,
-    pub is_directory: bool,
 }
 
 /// What is under a name.

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use crate::group::Groups;
+use crate::number_range::NumberPart;
 
 /// A pattern that needs no regular expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,6 +95,15 @@ impl DefaultPattern {
 }
 
 impl Match {
+    /// The groups in a text that matched, as numbers: of the file pattern, whose groups are digits.
+    pub(crate) fn numbers(&self, text: &str) -> Option<NumberPart> {
+        let bytes = text.as_bytes();
+        match self.third {
+            None => NumberPart::new(&bytes[self.first.clone()], &bytes[self.second.clone()]),
+            Some(_) => None,
+        }
+    }
+
     /// The groups in a text that matched.
     pub(crate) fn groups(&self, text: &str) -> Groups {
         let (first, second) = (&text[self.first.clone()], &text[self.second.clone()]);

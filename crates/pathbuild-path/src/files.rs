@@ -1,11 +1,13 @@
 //! Which files may hold a path, by the path names and ranges in the file's name. (spec/20-paths-and-files.md)
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use crate::PathPattern;
 use crate::default_pattern::DefaultPattern;
 use crate::group::Groups;
-use crate::pattern::{Pattern, PatternError};
+use crate::number_range::{NumberKey, NumberRange, number_key};
+use crate::pattern::{Name, Pattern, PatternError};
 
 /// What describes path names in a file's stem.
 #[derive(Clone, Debug)]
@@ -13,7 +15,18 @@ pub struct FilePattern(Pattern);
 
 /// A path name, or a range of them, in a file's name. A single name is a range from itself to itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NameRange {
+pub struct NameRange(Ends);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Ends {
+    /// Wherever it can be one.
+    Numbers(NumberRange),
+    Groups(Box<GroupRange>),
+}
+
+/// A range by the groups of its ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct GroupRange {
     from: FilePart,
     /// `None` for a single name.
     to: Option<FilePart>,
@@ -25,7 +38,10 @@ struct FilePart(Groups);
 
 /// The groups of a path name, by which it is looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PathKey(Groups);
+pub struct PathKey {
+    groups: Groups,
+    number: Option<NumberKey>,
+}
 
 impl Default for FilePattern {
     fn default() -> Self {
@@ -57,12 +73,10 @@ impl FilePattern {
     /// Takes each of these.
     pub fn each_range(&self, stem: &str, mut take: impl FnMut(NameRange)) {
         // A range has a hyphen in it, and most names have none.
-        if stem.contains('-') {
-            self.0.each_range(stem, |from, to| {
-                take(NameRange { from: FilePart(from), to: Some(FilePart(to)) });
-            });
+        if stem.as_bytes().contains(&b'-') {
+            self.0.each_range(stem, |from, to| take(NameRange::new(from, Some(to))));
         }
-        self.0.each(stem, |groups| take(NameRange { from: FilePart(groups), to: None }));
+        self.0.each(stem, |name| take(NameRange::new(name, None)));
     }
 
     /// The regular expression as it was given.
@@ -74,21 +88,70 @@ impl FilePattern {
 impl PathKey {
     /// The key of a name; `None` when the path pattern does not match it.
     pub fn new(name: &str, pattern: &PathPattern) -> Option<Self> {
-        pattern.groups(name).map(Self)
+        pattern.groups(name).map(|groups| Self { number: number_key(&groups), groups })
     }
 
     /// The groups.
     pub(crate) fn groups(&self) -> &Groups {
-        &self.0
+        &self.groups
+    }
+
+    /// As ranges of numbers are searched for it; `None` where they must be looked at by their groups.
+    pub(crate) fn number(&self) -> Option<NumberKey> {
+        self.number
     }
 }
 
 impl NameRange {
-    /// Whether a path of this name may be in the file.
-    pub fn holds(&self, path: &PathKey) -> bool {
-        self.starts_by(path) && self.ends_by(path)
+    fn new(from: Name<'_>, to: Option<Name<'_>>) -> Self {
+        let numbers = match (from.numbers(), &to) {
+            (Some(from), None) => Some(NumberRange::new(from, None)),
+            (Some(from), Some(to)) => to.numbers().map(|to| NumberRange::new(from, Some(to))),
+            (None, _) => None,
+        };
+        Self(match numbers {
+            Some(numbers) => Ends::Numbers(numbers),
+            None => Ends::Groups(Box::new(GroupRange {
+                from: FilePart(from.groups()),
+                to: to.map(|to| FilePart(to.groups())),
+            })),
+        })
     }
 
+    /// Whether a path of this name may be in the file.
+    pub fn holds(&self, path: &PathKey) -> bool {
+        if let (Ends::Numbers(range), Some(path)) = (&self.0, path.number) {
+            return range.holds(path);
+        }
+        let range = self.groups();
+        range.starts_by(path) && range.ends_by(path)
+    }
+
+    pub(crate) fn numbers(&self) -> Option<NumberRange> {
+        match &self.0 {
+            Ends::Numbers(range) => Some(*range),
+            Ends::Groups(_) => None,
+        }
+    }
+
+    pub(crate) fn groups(&self) -> Cow<'_, GroupRange> {
+        match &self.0 {
+            Ends::Groups(range) => Cow::Borrowed(range),
+            Ends::Numbers(range) => {
+                let (from, to) = range.groups();
+                Cow::Owned(GroupRange { from: FilePart(from), to: to.map(FilePart) })
+            }
+        }
+    }
+}
+
+impl From<NumberRange> for NameRange {
+    fn from(range: NumberRange) -> Self {
+        Self(Ends::Numbers(range))
+    }
+}
+
+impl GroupRange {
     pub(crate) fn starts_by(&self, path: &PathKey) -> bool {
         self.from.compare(path) != Ordering::Greater
     }
@@ -113,7 +176,7 @@ impl NameRange {
 impl FilePart {
     /// How this part of a file's name lies to a path's name.
     fn compare(&self, path: &PathKey) -> Ordering {
-        let (file, path) = (&self.0, &path.0);
+        let (file, path) = (&self.0, path.groups());
         for index in 0..file.len().max(path.len()) {
             let (file_group, path_group) = match (file.get(index), path.get(index)) {
                 (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => (file, path),

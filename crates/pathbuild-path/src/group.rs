@@ -40,6 +40,12 @@ impl From<[&str; 2]> for Groups {
     }
 }
 
+impl From<[Option<Group>; 2]> for Groups {
+    fn from(groups: [Option<Group>; 2]) -> Self {
+        Self(List::Two(groups.map(|group| group.unwrap_or(Group::Other("".into())))))
+    }
+}
+
 impl From<[&str; 3]> for Groups {
     fn from(groups: [&str; 3]) -> Self {
         Self(List::Any(Box::new(groups.map(Group::new))))

@@ -20,6 +20,7 @@ mod limits;
 mod line_type;
 mod name;
 mod number;
+mod number_range;
 mod path;
 mod pattern;
 mod raw;
@@ -49,7 +50,7 @@ pub use path::{
 pub use pattern::PatternError;
 pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
-pub use table::RangeTable;
+pub use table::{RangeTable, Ranges};
 pub use text::{ParameterText, Piece};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;

@@ -6,8 +6,9 @@ use std::sync::OnceLock;
 
 use regex::{Regex, RegexBuilder};
 
-use crate::default_pattern::DefaultPattern;
+use crate::default_pattern::{DefaultPattern, Match};
 use crate::group::Groups;
+use crate::number_range::NumberPart;
 
 /// A pattern for matching a whole name and for searching in a text.
 #[derive(Clone)]
@@ -34,6 +35,14 @@ pub(crate) struct RegexPattern {
 pub(crate) struct LazyRegex {
     source: Box<str>,
     compiled: OnceLock<Regex>,
+}
+
+/// A name that a pattern found in a text.
+pub(crate) enum Name<'t> {
+    /// By the default pattern, with the text.
+    Default(Match, &'t str),
+    /// By another one.
+    Groups(Groups),
 }
 
 /// Why a pattern cannot be used.
@@ -89,33 +98,51 @@ impl Pattern {
         }
     }
 
-    /// The groups of each name in a text.
-    pub(crate) fn each(&self, text: &str, mut take: impl FnMut(Groups)) {
+    /// Each name in a text.
+    pub(crate) fn each(&self, text: &str, mut take: impl FnMut(Name<'_>)) {
         match self {
             Self::Default(pattern) => {
-                pattern.find_all(text).for_each(|found| take(found.groups(text)));
+                pattern.find_all(text).for_each(|found| take(Name::Default(found, text)));
             }
             Self::Regex(pattern) => {
                 let names = pattern.anywhere.get().find_iter(text);
-                names.filter_map(|found| pattern.groups(found.as_str())).for_each(take);
+                names.filter_map(|found| pattern.groups(found.as_str())).map(Name::Groups).for_each(take);
             }
         }
     }
 
-    /// The groups of both ends of each range in a text: two names with nothing but a hyphen between.
-    pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Groups, Groups)) {
+    /// Both ends of each range in a text: two names with nothing but a hyphen between.
+    pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Name<'_>, Name<'_>)) {
         match self {
             Self::Default(pattern) => {
-                pattern.find_ranges(text).for_each(|(from, to)| take(from.groups(text), to.groups(text)));
+                let name = |found| Name::Default(found, text);
+                pattern.find_ranges(text).for_each(|(from, to)| take(name(from), name(to)));
             }
             Self::Regex(pattern) => {
                 for found in pattern.range.get().captures_iter(text) {
                     let end = |name| pattern.groups(found.name(name)?.as_str());
                     if let (Some(from), Some(to)) = (end("from"), end("to")) {
-                        take(from, to);
+                        take(Name::Groups(from), Name::Groups(to));
                     }
                 }
             }
+        }
+    }
+}
+
+impl Name<'_> {
+    /// Its groups as numbers, where they are some.
+    pub(crate) fn numbers(&self) -> Option<NumberPart> {
+        match self {
+            Self::Default(found, text) => found.numbers(text),
+            Self::Groups(groups) => NumberPart::of(groups),
+        }
+    }
+
+    pub(crate) fn groups(self) -> Groups {
+        match self {
+            Self::Default(found, text) => found.groups(text),
+            Self::Groups(groups) => groups,
         }
     }
 }

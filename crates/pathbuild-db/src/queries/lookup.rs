@@ -1,17 +1,18 @@
 //! Where paths are: file names to files. (spec/20-paths-and-files.md)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_path::{PathKey, PathName, RangeTable};
+use pathbuild_path::{PathKey, PathName, RangeTable, Ranges};
 
 use super::raw::{NameKey, defines};
 use crate::database::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
+use crate::system::Names;
 
 /// The drawings of a directory by the path names in theirs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameTable {
-    names: Vec<Box<str>>,
+    names: Names,
     ranges: RangeTable,
 }
 
@@ -35,7 +36,7 @@ impl NameTable {
     /// The files that may hold a path, in order of name.
     fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
         let files = self.ranges.files(key).into_iter();
-        let mut names: Vec<&str> = files.map(|file| &*self.names[file as usize]).collect();
+        let mut names: Vec<&str> = files.filter_map(|file| self.names.get(file as usize)).collect();
         names.sort_unstable();
         names.into_iter().map(|name| db.file(&joined(directory.path(db), name))).collect()
     }
@@ -46,19 +47,18 @@ impl NameTable {
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
     let pattern = &Settings::get(db).lookup(db).file_pattern;
-    let listed = db.system().list(directory.path(db)).unwrap_or_default();
-    let drawings = listed.into_iter().filter(|entry| !entry.is_directory && is_drawing(&entry.name));
-    let names: Vec<Box<str>> = drawings.map(|entry| entry.name).collect();
-    let mut ranges = Vec::with_capacity(names.len());
-    for (number, name) in (0_u32..).zip(&names) {
+    let listing = db.system().list(directory.path(db)).unwrap_or_default();
+    let names: Names = listing.files.iter().filter(|name| is_drawing(name)).collect();
+    let mut ranges = Ranges::default();
+    for (number, name) in (0_u32..).zip(names.iter()) {
         let stem = &name[..name.len() - EXTENSION.len()];
-        pattern.each_range(stem, |range| ranges.push((range, number)));
+        pattern.each_range(stem, |range| ranges.push(range, number));
     }
-    NameTable { names, ranges: RangeTable::new(ranges) }
+    NameTable { names, ranges: ranges.into() }
 }
 
 /// The names of the drawings in a directory, as its name ranges were read from them.
-pub fn drawing_names(db: &dyn Db, directory: Directory) -> &[Box<str>] {
+pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     &name_table(db, directory).names
 }
 

@@ -1,12 +1,12 @@
 //! Files in memory, for tests and for drawings that are not saved yet.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Entry, Kind, ReadError, System, Written};
+use super::{Kind, Listing, ReadError, System, Written};
 
 /// Files by path. Directories are there as soon as a file is in them.
 #[derive(Debug, Default)]
@@ -44,18 +44,15 @@ impl System for MemorySystem {
         None
     }
 
-    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let files = self.files();
-        let inside = files.keys().filter_map(|path| path.strip_prefix(directory).ok());
-        let mut entries: Vec<Entry> = inside
-            .filter_map(|rest| {
-                let name = rest.components().next()?.as_str();
-                Some(Entry { name: name.into(), is_directory: rest.components().count() > 1 })
-            })
-            .collect();
-        entries.sort();
-        entries.dedup();
-        Ok(entries)
+        let (mut names, mut directories) = (BTreeSet::new(), BTreeSet::new());
+        for rest in files.keys().filter_map(|path| path.strip_prefix(directory).ok()) {
+            let mut components = rest.components();
+            let Some(name) = components.next() else { continue };
+            if components.next().is_some() { &mut directories } else { &mut names }.insert(name.as_str());
+        }
+        Ok(Listing { files: names.into_iter().collect(), directories: directories.into_iter().collect() })
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

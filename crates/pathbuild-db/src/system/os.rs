@@ -7,7 +7,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Entry, Kind, ReadError, System, Written};
+use super::{Kind, Listing, ReadError, System, Written};
 
 /// Paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,19 +38,19 @@ impl System for OsSystem {
         fs::metadata(path).ok()?.modified().ok()
     }
 
-    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-        let mut entries = Vec::new();
+        let mut listing = Listing::default();
         for entry in fs::read_dir(directory)? {
             let entry = entry?;
             let kind = entry.file_type()?;
             // A link is what it leads to; one that leads nowhere is a file that cannot be read.
             let is_directory = kind.is_dir()
                 || (kind.is_symlink() && fs::metadata(entry.path()).is_ok_and(|data| data.is_dir()));
-            let name = entry.file_name().into_string().unwrap_or_else(|name| name.to_string_lossy().into());
-            entries.push(Entry { name: name.into(), is_directory });
+            let names = if is_directory { &mut listing.directories } else { &mut listing.files };
+            names.push(&entry.file_name().to_string_lossy());
         }
-        Ok(entries)
+        Ok(listing)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Entry, Kind, ReadError, System, Written};
+use super::{Kind, Listing, ReadError, System, Written};
 
 /// Another system, with this file in it. Only reading is as if it were there.
 #[derive(Debug)]
@@ -47,16 +47,16 @@ impl System for Overlay {
         self.below.modified(path)
     }
 
-    fn list(&self, directory: &Utf8Path) -> Result<Vec<Entry>, ReadError> {
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let listed = self.below.list(directory);
         let Some(name) = self.path.file_name().filter(|_| directory == self.directory()) else {
             return listed;
         };
-        let mut entries = listed.unwrap_or_default();
-        if !entries.iter().any(|entry| &*entry.name == name) {
-            entries.push(Entry { name: name.into(), is_directory: false });
+        let mut listing = listed.unwrap_or_default();
+        if !listing.files.iter().any(|listed| listed == name) {
+            listing.files.push(name);
         }
-        Ok(entries)
+        Ok(listing)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

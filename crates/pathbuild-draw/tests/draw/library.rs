@@ -44,7 +44,7 @@ fn paths(name: &str, sheet: &Sheet) -> Vec<Path> {
     assert_eq!(file.diagnostics, [], "{name}");
     let bound = |raw: &RawPath| {
         assert_eq!(raw.diagnostics, [], "{name}");
-        let (path, problems) = bind(raw, &Bindings::check_values(raw), &language());
+        let (path, problems) = bind(raw, &Bindings::check_values(&raw.definitions), &language());
         assert_eq!(problems, [], "{name}");
         path.unwrap()
     };

@@ -1,6 +1,6 @@
 //! The sorted table of name ranges says what looking at every range says.
 
-use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable};
+use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable, Ranges};
 use proptest::prelude::*;
 
 /// The ranges in the names of some files.
@@ -9,6 +9,14 @@ fn ranges(pattern: &FilePattern, stems: &[String]) -> Vec<(NameRange, u32)> {
         pattern.ranges(stem).into_iter().map(move |range| (range, number)).collect::<Vec<_>>()
     };
     (0..).zip(stems).flat_map(of_file).collect()
+}
+
+fn table(entries: &[(NameRange, u32)]) -> RangeTable {
+    let mut ranges = Ranges::default();
+    for (range, file) in entries {
+        ranges.push(range.clone(), *file);
+    }
+    ranges.into()
 }
 
 fn scan(entries: &[(NameRange, u32)], path: &PathKey) -> Vec<u32> {
@@ -27,7 +35,7 @@ fn check(
 ) -> Result<(), TestCaseError> {
     let pattern = PathPattern::new(path).unwrap();
     let entries = ranges(&FilePattern::new(file).unwrap(), stems);
-    let table = RangeTable::new(entries.clone());
+    let table = table(&entries);
     prop_assert!(table.is_sorted() || !is_sorted);
     for name in names {
         let Some(key) = PathKey::new(name, &pattern) else { continue };
@@ -50,6 +58,22 @@ fn stem(part: impl Strategy<Value = String> + Clone) -> impl Strategy<Value = St
     prop::collection::vec(name, 0..4).prop_map(|names| names.join(","))
 }
 
+fn unusual() -> impl Strategy<Value = String> {
+    let group = prop_oneof![
+        Just("1".to_owned()),
+        Just("01".to_owned()),
+        Just("4294967293".to_owned()),
+        Just("4294967294".to_owned()),
+        Just("4294967295".to_owned()),
+        Just("4294967296".to_owned()),
+        Just("99999999999999999999999".to_owned()),
+    ];
+    (group.clone(), prop::option::of(group)).prop_map(|(first, second)| match second {
+        Some(second) => format!("{first}.{second}"),
+        None => first,
+    })
+}
+
 /// A group of a pattern whose groups are integers, texts, or nothing.
 fn mixed() -> impl Strategy<Value = String> + Clone {
     "([0-9]{1,2}|[A-C]{1,2})?([.]([0-9]|[A-B]))?"
@@ -67,6 +91,18 @@ proptest! {
         check(FilePattern::DEFAULT, PathPattern::DEFAULT, &stems, &names, true)?;
     }
 
+    /// Numbers that are too large for the fast way, and paths that have no second group or a text in its place.
+    #[test]
+    fn the_table_says_what_the_scan_says_of_unusual_numbers(
+        stems in prop::collection::vec(stem(unusual().boxed()), 0..6),
+        names in prop::collection::vec(unusual(), 1..8),
+    ) {
+        let path = "([0-9]+)(?:[.]([0-9]+|[A-Z]+))?";
+        check("([0-9]+)(?:[.]([0-9]+))?", path, &stems, &names, true)?;
+        let texts: Vec<String> = names.iter().map(|name| name.replace('1', "A")).collect();
+        check("([0-9]+)(?:[.]([0-9]+))?", path, &stems, &texts, true)?;
+    }
+
     /// Groups that are sometimes integers and sometimes texts have no order, and groups can be missing anywhere.
     #[test]
     fn the_table_says_what_the_scan_says_where_there_is_no_order(
@@ -80,12 +116,12 @@ proptest! {
 
 #[test]
 fn a_table_of_integers_has_an_order_and_one_of_both_has_none() {
-    let table = |pattern: &str, stem: &str| {
-        RangeTable::new(ranges(&FilePattern::new(pattern).unwrap(), &[stem.to_owned()])).is_sorted()
+    let is_sorted = |pattern: &str, stem: &str| {
+        table(&ranges(&FilePattern::new(pattern).unwrap(), &[stem.to_owned()])).is_sorted()
     };
-    assert!(table(FilePattern::DEFAULT, "1000-1001.5,1002"));
-    assert!(table("([0-9]+)([A-Z]*)", "1000A-1001B,1002"));
-    assert!(!table("([0-9A-Z]+)", "1000-1001B"));
+    assert!(is_sorted(FilePattern::DEFAULT, "1000-1001.5,1002"));
+    assert!(is_sorted("([0-9]+)([A-Z]*)", "1000A-1001B,1002"));
+    assert!(!is_sorted("([0-9A-Z]+)", "1000-1001B"));
 }
 
 /// A file is named once, however many of its ranges hold the path, and files are in order.
@@ -94,5 +130,5 @@ fn each_file_is_found_once_and_in_order() {
     let stems = ["1001-1003,1002".to_owned(), "1002".to_owned(), "1000-1009".to_owned()];
     let entries = ranges(&FilePattern::default(), &stems);
     let key = PathKey::new("1002.1A", &PathPattern::default()).unwrap();
-    assert_eq!(RangeTable::new(entries).files(&key), [0, 1, 2]);
+    assert_eq!(table(&entries).files(&key), [0, 1, 2]);
 }

@@ -51,7 +51,7 @@ pub(crate) fn raw(drawing: &str) -> RawPath {
 /// The first path of a drawing, with check values.
 pub(crate) fn compile(drawing: &str) -> Compiled {
     let (raw, _) = read(drawing).paths.into_iter().next().expect("there is a path");
-    compile_raw(&raw, &Bindings::check_values(&raw), &language())
+    compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language())
 }
 
 /// A path stage by stage, each gone into only when the ones before found no error.

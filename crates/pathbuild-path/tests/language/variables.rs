@@ -81,7 +81,10 @@ fn a_wrong_definition_is_reported_at_the_start() {
 fn check_values_are_examples_of_each_definition() {
     let values = |definitions: &str| {
         let raw = raw(&path(&format!("T5 O3 I1 B0 {definitions}"), "mill 0,0 40,0\nend 40,0"));
-        Bindings::check_values(&raw).iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>()
+        Bindings::check_values(&raw.definitions)
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"))
+            .collect::<Vec<_>>()
     };
     assert_eq!(values(":a1~2,5 :b1~2,5 :c1~2,5"), ["a=1", "b=2,5", "c=1"]);
     assert_eq!(values(":cP,Q :aP,Q :bP,Q"), ["a=Q", "b=P", "c=P"]);

@@ -56,7 +56,7 @@ pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
     };
     let file = raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &reading), &language);
     let walked = |raw: &pathbuild_path::RawPath| {
-        let (path, found) = bind(raw, &Bindings::check_values(raw), &language);
+        let (path, found) = bind(raw, &Bindings::check_values(&raw.definitions), &language);
         let path = path.unwrap_or_else(|| panic!("{:?} {found:?} in\n{drawing}", raw.diagnostics));
         let walked = walk(&path, 0.0);
         assert!(!walked.items.is_empty(), "{:?} in\n{drawing}", walked.diagnostics);

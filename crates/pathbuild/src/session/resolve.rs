@@ -249,13 +249,14 @@ impl Session<'_> {
 
     fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
         directories.iter().find_map(|directory| {
-            let in_any_case = |entry: &pathbuild_db::system::Entry| {
-                Utf8Path::new(&*entry.name).file_stem() == Some(name)
-                    && library::is_drawing(Utf8Path::new(&*entry.name))
+            let is_meant = |file: &&str| {
+                let file = Utf8Path::new(file);
+                file.file_stem() == Some(name) && library::is_drawing(file)
             };
             let listed = self.db.system().list(directory).ok()?;
-            let entry = listed.into_iter().filter(in_any_case).min()?;
-            Some(self.file(&directory.join(&*entry.name)))
+            // In whatever case the extension is: of several the first.
+            let file = listed.files.iter().filter(is_meant).min()?;
+            Some(self.file(&directory.join(file)))
         })
     }
 }

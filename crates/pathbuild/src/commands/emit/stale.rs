@@ -65,13 +65,8 @@ fn stale(
     let system = session.db().system();
     let mut stale = Vec::new();
     for directory in directories {
-        let mut names: Vec<String> = system
-            .list(&directory)
-            .unwrap_or_default()
-            .into_iter()
-            .filter(|entry| !entry.is_directory)
-            .map(|entry| entry.name.into())
-            .collect();
+        let listing = system.list(&directory).unwrap_or_default();
+        let mut names: Vec<String> = listing.files.iter().map(str::to_owned).collect();
         names.sort_unstable();
         for name in names.iter().filter(|name| is_gcode(name, poster)) {
             let path = directory.join(name);

@@ -128,7 +128,7 @@ impl<'a> Library<'a> {
         let file = db.file(path);
         let is_known = self.reverse.directories().any(|known| *known == directory);
         let was_listed =
-            is_known && drawing_names(db, db.directory(&directory)).iter().any(|known| **known == *name);
+            is_known && drawing_names(db, db.directory(&directory)).iter().any(|known| known == name);
         let is_there = db.system().kind(path) == Kind::File;
         concerned.extend(self.reverse.of_file(file));
         let came_or_went = is_there != self.drawings.contains_key(path) || was_listed != is_there;

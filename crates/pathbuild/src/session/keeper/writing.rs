@@ -184,7 +184,8 @@ impl<'a> Writing<'a> {
             return true;
         }
         let db = self.session.db();
-        let mut seen = drawing_names(db, db.directory(&fact.path)).to_vec();
+        let mut seen =
+            drawing_names(db, db.directory(&fact.path)).iter().map(Box::from).collect::<Vec<Box<str>>>();
         seen.sort_unstable();
         seen == fact.names
     }

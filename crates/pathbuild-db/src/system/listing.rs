@@ -1,0 +1,65 @@
+//! What is in a directory.
+
+use std::fmt;
+
+/// Names one after the other in one text: a directory of ten thousand drawings has as many.
+#[derive(Clone, Default, PartialEq, Eq)]
+pub struct Names {
+    text: String,
+    /// Where each ends.
+    ends: Vec<usize>,
+}
+
+/// The names in a directory, in no particular order: sorting ten thousand takes longer than reading the few drawings among them that are
+/// wanted. Of names that are no UTF-8 there is a lossy spelling, which no file has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// What is no directory.
+    pub files: Names,
+    /// Directories, and links to them.
+    pub directories: Names,
+}
+
+impl Names {
+    /// One more name.
+    pub fn push(&mut self, name: &str) {
+        self.text.push_str(name);
+        self.ends.push(self.text.len());
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// A name by its number.
+    pub fn get(&self, number: usize) -> Option<&str> {
+        let end = *self.ends.get(number)?;
+        let begin = number.checked_sub(1).map_or(0, |before| self.ends[before]);
+        Some(&self.text[begin..end])
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &str> {
+        (0..self.len()).filter_map(|number| self.get(number))
+    }
+}
+
+impl fmt::Debug for Names {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+impl<'t> FromIterator<&'t str> for Names {
+    fn from_iter<I: IntoIterator<Item = &'t str>>(names: I) -> Self {
+        let mut all = Self::default();
+        names.into_iter().for_each(|name| all.push(name));
+        all
+    }
+}
