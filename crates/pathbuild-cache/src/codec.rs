@@ -37,9 +37,9 @@ impl Encoder {
         self.bytes.push(number);
     }
 
-    /// Adds how many of something follow.
+    /// Adds how many of something follow. So many that the number has no room are refused when they are read: the result is made anew.
     pub fn count(&mut self, count: usize) {
-        self.u32(u32::try_from(count).expect("fewer than 2^32 of anything are kept"));
+        self.u32(u32::try_from(count).unwrap_or(u32::MAX));
     }
 
     /// Adds bytes whose length is known.

@@ -4,7 +4,7 @@ use camino::Utf8PathBuf;
 
 use crate::stamp::Stamp;
 
-/// Results with everything that they were made from. Files and directories that several were made from are in it once.
+/// Results with everything that they were made from, to be kept. Files and directories that several were made from are in it once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Catalogue {
     /// Every file that was read.
@@ -46,8 +46,8 @@ pub struct DirectoryFact {
 pub enum ListingKind {
     /// Those of drawings.
     Drawings,
-    /// Those of programs.
-    Programs,
+    /// Those of all files: programs of any post may be among them, and drawings that programs say they are made from.
+    Files,
 }
 
 /// A result.
@@ -56,7 +56,7 @@ pub struct Record {
     /// What it is of: a drawing, mostly. No two are of the same.
     pub of: Box<str>,
     /// The files that it was made from, by their numbers.
-    pub files: Vec<u32>,
+    pub files: Vec<usize>,
     /// What was looked for.
     pub lookups: Vec<Lookup>,
     /// The result itself, which only its maker can read.
@@ -64,25 +64,26 @@ pub struct Record {
 }
 
 /// A question to a directory: which of its names may hold this path?
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Lookup {
     /// The directory's number.
-    pub directory: u32,
+    pub directory: usize,
     /// The path's name; empty for all names that count.
     pub name: Box<str>,
 }
 
 impl ListingKind {
-    /// Whether a name counts.
+    /// Whether the name of a file counts.
     pub fn counts(self, name: &str) -> bool {
-        let extension = match self {
-            Self::Drawings => "dxf",
-            Self::Programs => "gcode",
-        };
-        let stem = name.len().checked_sub(extension.len() + 1).filter(|stem| *stem > 0);
+        const EXTENSION: &str = "dxf";
+        if self == Self::Files {
+            // What programs write beside before they rename it.
+            return !name.starts_with('.');
+        }
+        let stem = name.len().checked_sub(EXTENSION.len() + 1).filter(|stem| *stem > 0);
         stem.is_some_and(|stem| {
             let bytes = name.as_bytes();
-            bytes[stem] == b'.' && bytes[stem + 1..].eq_ignore_ascii_case(extension.as_bytes())
+            bytes[stem] == b'.' && bytes[stem + 1..].eq_ignore_ascii_case(EXTENSION.as_bytes())
         })
     }
 }

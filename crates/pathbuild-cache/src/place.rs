@@ -9,7 +9,9 @@ use std::time::{Duration, SystemTime};
 use camino::{Utf8Path, Utf8PathBuf};
 
 use crate::facts::Catalogue;
+use crate::flat::TooMuch;
 use crate::format::{self, Key, SUFFIX, Unusable};
+use crate::kept::Kept;
 use crate::stamp::Clock;
 
 /// Where results are kept.
@@ -51,9 +53,9 @@ impl Place {
     ///
     /// # Errors
     /// Why what is there cannot be used.
-    pub fn load(&self, key: &Key) -> Result<Option<Catalogue>, Unusable> {
+    pub fn load(&self, key: &Key) -> Result<Option<Kept>, Unusable> {
         match fs::read(self.directory.join(key.file_name())) {
-            Ok(file) => format::decode(key, &file).map(Some),
+            Ok(file) => format::decode(key, file).map(Some),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(_) => Err(Unusable::Damaged),
         }
@@ -64,8 +66,10 @@ impl Place {
     /// # Errors
     /// When it cannot be written; what was there still is.
     pub fn store(&self, key: &Key, catalogue: &Catalogue) -> io::Result<()> {
+        let bytes = format::encode(key, catalogue)
+            .map_err(|TooMuch| io::Error::other("there is more to keep than a file can hold"))?;
         self.make()?;
-        self.write(&key.file_name(), &format::encode(key, catalogue))
+        self.write(&key.file_name(), &bytes)
     }
 
     /// What time it is by the clock of its file system.
@@ -163,7 +167,7 @@ fn fault(path: &Utf8Path, build: &Key) -> Option<Unusable> {
     if key.build != build.build {
         return Some(Unusable::Foreign);
     }
-    format::decode(&key, &file).err()
+    format::decode(&key, file).err()
 }
 
 fn is_older(path: &Utf8Path, age: Duration) -> bool {

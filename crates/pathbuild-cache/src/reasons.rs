@@ -2,7 +2,8 @@
 
 use camino::Utf8PathBuf;
 
-use crate::facts::{Catalogue, Lookup};
+use crate::facts::Lookup;
+use crate::kept::Kept;
 use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
 
 /// Something that a result was made from and that is not as it was.
@@ -32,17 +33,17 @@ pub enum Reason {
 }
 
 /// Why a record does not hold, each reason once; nothing where it does.
-pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
-    let record = &catalogue.records[record];
-    let changed = record.files.iter().filter(|file| verdict.files[**file as usize] == FileState::Changed);
+pub fn reasons(kept: &Kept, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
+    let record = kept.record(record);
+    let changed = record.files().filter(|file| verdict.files[*file] == FileState::Changed);
     let mut reasons: Vec<Reason> = changed
         .map(|file| {
-            let path = catalogue.files[*file as usize].path.clone();
+            let path = kept.file(file).path().to_owned();
             Reason::File { is_gone: !path.exists(), path }
         })
         .collect();
-    for lookup in &record.lookups {
-        reasons.extend(of_lookup(catalogue, verdict, lookup, covers));
+    for lookup in record.lookups() {
+        reasons.extend(of_lookup(kept, verdict, &lookup, covers));
     }
     reasons.sort();
     reasons.dedup();
@@ -61,10 +62,9 @@ impl Reason {
     }
 }
 
-fn of_lookup(catalogue: &Catalogue, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
-    let number = lookup.directory as usize;
-    let (before, now) = (&catalogue.directories[number], &verdict.directories[number]);
-    let directory = &before.path;
+fn of_lookup(kept: &Kept, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
+    let (before, now) = (kept.directory(lookup.directory), &verdict.directories[lookup.directory]);
+    let directory = &now.path;
     match DirectoryChange::of(before, now) {
         DirectoryChange::None => Vec::new(),
         DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],

@@ -10,13 +10,15 @@ use std::fs;
 use camino::Utf8Path;
 use rayon::prelude::*;
 
-use crate::facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
+use crate::facts::{DirectoryFact, ListingKind};
+use crate::kept::{Kept, KeptDirectory, KeptFile};
+use crate::listing::{Listing, Listings};
 use crate::stamp::Stamp;
 
 /// Whether a file of this name may hold the path of that name.
 pub type Covers<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 
-/// What became of a catalogue.
+/// What became of what was kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// For each record, whether it still holds.
@@ -25,40 +27,52 @@ pub struct Verdict {
     pub files: Vec<FileState>,
     /// Each directory as it is now.
     pub directories: Vec<DirectoryFact>,
-    /// Whether every stamp and every directory is as it was, so that the catalogue need not be written anew.
+    /// Whether every stamp and every directory is as it was, so that nothing need be written anew.
     pub is_current: bool,
 }
 
-/// Holds a catalogue against the files as they are now. `base` is the configuration's directory.
-pub fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: Covers<'_>) -> Verdict {
-    let files: Vec<FileState> = catalogue.files.par_iter().with_min_len(256).map(state).collect();
-    let now = |fact: &DirectoryFact| DirectoryFact::now(&fact.path, fact.kind, base);
-    let directories: Vec<DirectoryFact> = catalogue.directories.par_iter().map(now).collect();
-    let changes: Vec<DirectoryChange> = catalogue
-        .directories
-        .iter()
-        .zip(&directories)
-        .map(|(before, now)| DirectoryChange::of(before, now))
+/// Holds what was kept against the files as they are now. `base` is the configuration's directory; directories that are among the listings are
+/// not listed again.
+pub fn verify(kept: &Kept, base: &Utf8Path, covers: Covers<'_>, mut listings: Listings) -> Verdict {
+    // Asking the system for ten thousand files is most of the work.
+    let files: Vec<FileState> =
+        (0..kept.files()).into_par_iter().with_min_len(256).map(|file| state(kept.file(file))).collect();
+    let listed: Vec<Option<Listing>> = (0..kept.directories())
+        .map(|number| {
+            let directory = kept.directory(number);
+            let is_listed = directory.kind() == ListingKind::Drawings;
+            if is_listed { listings.remove(directory.path()) } else { None }
+        })
         .collect();
-    let is_asked_anew = |lookup: &Lookup| changes[lookup.directory as usize].concerns(&lookup.name, covers);
-    // Thousands of records ask the same.
-    let all: BTreeSet<&Lookup> = if changes.iter().any(DirectoryChange::is_some) {
-        catalogue.records.iter().flat_map(|record| &record.lookups).collect()
-    } else {
-        BTreeSet::new()
+    let now = |(number, listed)| {
+        let directory = kept.directory(number);
+        DirectoryFact::from_listing(directory.path(), directory.kind(), base, listed)
     };
-    let anew: BTreeSet<&Lookup> = all.into_iter().filter(|lookup| is_asked_anew(lookup)).collect();
-    let holds = |record: &Record| {
-        record.files.iter().all(|file| files[*file as usize] != FileState::Changed)
-            && (anew.is_empty() || !record.lookups.iter().any(|lookup| anew.contains(lookup)))
+    let directories: Vec<DirectoryFact> = listed.into_par_iter().enumerate().map(now).collect();
+    let changes: Vec<DirectoryChange> = directories
+        .iter()
+        .enumerate()
+        .map(|(number, now)| DirectoryChange::of(kept.directory(number), now))
+        .collect();
+    let are_same = !changes.iter().any(DirectoryChange::is_some);
+    let is_current = are_same && files.iter().all(|state| *state == FileState::Resting);
+    let holds = if is_current { vec![true; kept.records()] } else { holding(kept, &files, &changes, covers) };
+    Verdict { holds, files, directories, is_current }
+}
+
+/// For each record, whether it still holds.
+fn holding(kept: &Kept, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
+    let is_anew = |number| {
+        let (directory, name) = kept.lookup(number);
+        changes[directory].concerns(name, covers)
     };
-    Verdict {
-        holds: catalogue.records.iter().map(holds).collect(),
-        is_current: files.iter().all(|state| *state == FileState::Resting)
-            && !changes.iter().any(DirectoryChange::is_some),
-        files,
-        directories,
-    }
+    let anew: Vec<bool> = (0..kept.lookups()).map(is_anew).collect();
+    let holds = |number| {
+        let record = kept.record(number);
+        record.files().all(|file| files[file] != FileState::Changed)
+            && !record.lookup_numbers().any(|lookup| anew[lookup])
+    };
+    (0..kept.records()).map(holds).collect()
 }
 
 /// What became of a file.
@@ -72,13 +86,13 @@ pub enum FileState {
     Changed,
 }
 
-fn state(file: &FileFact) -> FileState {
-    let stamp = Stamp::of(&file.path);
-    if stamp == file.stamp && stamp != Stamp::UNKNOWN {
+fn state(file: KeptFile<'_>) -> FileState {
+    let (path, stamp) = (file.path(), Stamp::of(file.path()));
+    if stamp == file.stamp() && stamp != Stamp::UNKNOWN {
         return FileState::Resting;
     }
-    let Some(hash) = file.hash.filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
-    let is_restored = fs::read(&file.path).is_ok_and(|bytes| *blake3::hash(&bytes).as_bytes() == hash);
+    let Some(hash) = file.hash().filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
+    let is_restored = fs::read(path).is_ok_and(|bytes| *blake3::hash(&bytes).as_bytes() == hash);
     if is_restored { FileState::Restored } else { FileState::Changed }
 }
 
@@ -92,40 +106,17 @@ pub(crate) enum DirectoryChange {
     Links,
 }
 
-impl DirectoryFact {
-    /// A directory as it is now; one that cannot be listed holds nothing.
-    pub fn now(path: &Utf8Path, kind: ListingKind, base: &Utf8Path) -> Self {
-        let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
-        let mut names = Vec::new();
-        let mut is_doubtful = false;
-        for entry in fs::read_dir(place).into_iter().flatten().filter_map(Result::ok) {
-            // As System lists them: of names that are no UTF-8 a lossy spelling.
-            let name = entry.file_name().to_string_lossy().into_owned();
-            if !kind.counts(&name) {
-                continue;
-            }
-            let Ok(file_type) = entry.file_type() else { continue };
-            is_doubtful |= file_type.is_symlink();
-            if !file_type.is_dir() {
-                names.push(name.into());
-            }
-        }
-        names.sort_unstable();
-        Self { path: path.to_owned(), kind, names, canonical: canonical(place, base), is_doubtful }
-    }
-}
-
 impl DirectoryChange {
-    pub(crate) fn of(before: &DirectoryFact, now: &DirectoryFact) -> Self {
-        if before.is_doubtful || now.is_doubtful || before.canonical != now.canonical {
+    pub(crate) fn of(before: KeptDirectory<'_>, now: &DirectoryFact) -> Self {
+        if before.is_doubtful() || now.is_doubtful || before.canonical() != &*now.canonical {
             return Self::Links;
         }
-        if before.names == now.names {
+        if before.names().eq(now.names.iter().map(|name| &**name)) {
             return Self::None;
         }
-        let (old, new): (BTreeSet<_>, BTreeSet<_>) =
-            (before.names.iter().collect(), now.names.iter().collect());
-        Self::Names(old.symmetric_difference(&new).map(|name| (**name).clone()).collect())
+        let (old, new): (BTreeSet<&str>, BTreeSet<&str>) =
+            (before.names().collect(), now.names.iter().map(|name| &**name).collect());
+        Self::Names(old.symmetric_difference(&new).map(|name| (*name).into()).collect())
     }
 
     fn is_some(&self) -> bool {
@@ -140,10 +131,4 @@ impl DirectoryChange {
             Self::Names(names) => path.is_empty() || names.iter().any(|name| covers(name, path)),
         }
     }
-}
-
-fn canonical(directory: &Utf8Path, base: &Utf8Path) -> Box<str> {
-    let Ok(directory) = directory.canonicalize_utf8() else { return "".into() };
-    let base = base.canonicalize_utf8().unwrap_or_else(|_| base.to_owned());
-    directory.strip_prefix(&base).map_or(directory.as_str(), Utf8Path::as_str).into()
 }

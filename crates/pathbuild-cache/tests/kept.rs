@@ -12,8 +12,8 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Decoder, DirectoryFact, Encoder, FileFact, FileState, Key, ListingKind, Lookup, Place, Record,
-    Stamp, Unusable, decode_diagnostic, encode_diagnostic, verify,
+    Catalogue, Decoder, DirectoryFact, Encoder, FileFact, FileState, Kept, Key, Listing, ListingKind,
+    Listings, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic, encode_diagnostic,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -40,6 +40,51 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
         files: vec![FileFact { path: base.join("a.dxf"), stamp, hash }],
         directories: vec![DirectoryFact::now(base, ListingKind::Drawings, base)],
         records: vec![record],
+    }
+}
+
+/// What comes of keeping a catalogue.
+fn kept(catalogue: &Catalogue) -> Kept {
+    let (_directory, base) = place();
+    let place = Place::beside(&base);
+    let key = Key::new("build", "question");
+    place.store(&key, catalogue).unwrap();
+    place.load(&key).unwrap().unwrap()
+}
+
+fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: pathbuild_cache::Covers<'_>) -> Verdict {
+    pathbuild_cache::verify(&kept(catalogue), base, covers, Listings::new())
+}
+
+/// A catalogue again, as it lies in a file.
+fn catalogue_of(kept: &Kept) -> Catalogue {
+    let file = |number| {
+        let file = kept.file(number);
+        FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() }
+    };
+    let directory = |number| {
+        let directory = kept.directory(number);
+        DirectoryFact {
+            path: directory.path().to_owned(),
+            kind: directory.kind(),
+            names: directory.names().map(Into::into).collect(),
+            canonical: directory.canonical().into(),
+            is_doubtful: directory.is_doubtful(),
+        }
+    };
+    let record = |number| {
+        let record = kept.record(number);
+        Record {
+            of: record.of().into(),
+            files: record.files().collect(),
+            lookups: record.lookups().collect(),
+            payload: record.payload().to_vec(),
+        }
+    };
+    Catalogue {
+        files: (0..kept.files()).map(file).collect(),
+        directories: (0..kept.directories()).map(directory).collect(),
+        records: (0..kept.records()).map(record).collect(),
     }
 }
 
@@ -85,7 +130,7 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
     let key = Key::new("build", "question");
     assert_eq!(place.load(&key), Ok(None));
     place.store(&key, &kept).unwrap();
-    assert_eq!(place.load(&key), Ok(Some(kept)));
+    assert_eq!(catalogue_of(&place.load(&key).unwrap().unwrap()), kept);
     assert_eq!(place.load(&Key::new("build", "other")), Ok(None));
     assert_eq!(place.load(&Key::new("other", "question")), Err(Unusable::Foreign));
 }
@@ -146,4 +191,129 @@ fn where_links_decide_what_is_what_everything_is_asked_again() {
     let kept = catalogue(&base, Stamp::UNKNOWN, b"one");
     std::os::unix::fs::symlink("a.dxf", base.join("5678.dxf")).unwrap();
     assert_eq!(verify(&kept, &base, &covers).holds, [false]);
+}
+
+/// Files and results in no order, several of one file, with texts that begin alike and are no ASCII.
+fn larger(base: &Utf8Path) -> Catalogue {
+    let names = ["b.dxf", "a.dxf", "ä.dxf", "a.dxf.dxf", "c/a.dxf"];
+    let file = |(index, name): (u8, &&str)| FileFact {
+        path: Utf8PathBuf::from(*name),
+        stamp: if index == 1 { Stamp::UNKNOWN } else { Stamp::MISSING },
+        hash: (index != 2).then_some([index; 32]),
+    };
+    let record = |(index, name): (usize, &&str)| Record {
+        of: (*name).into(),
+        files: vec![index, 0],
+        lookups: (0..index % 3).map(|directory| Lookup { directory, name: "1234.1P".into() }).collect(),
+        payload: vec![7; index],
+    };
+    let directory = |path: &str, kind, names: &[&str]| DirectoryFact {
+        path: path.into(),
+        kind,
+        names: names.iter().map(|name| (*name).into()).collect(),
+        canonical: base.join(path).as_str().into(),
+        is_doubtful: path.is_empty(),
+    };
+    Catalogue {
+        files: (0..).zip(&names).map(file).collect(),
+        directories: vec![
+            directory("", ListingKind::Drawings, &["a.dxf", "b.dxf"]),
+            directory("c", ListingKind::Files, &[]),
+        ],
+        records: names.iter().enumerate().map(record).collect(),
+    }
+}
+
+#[test]
+fn what_is_kept_is_found_by_its_name() {
+    let (_directory, base) = place();
+    let catalogue = larger(&base);
+    let kept = kept(&catalogue);
+    for fact in &catalogue.files {
+        let file = kept.file(kept.file_of(&fact.path).unwrap());
+        assert_eq!((file.path(), file.stamp(), file.hash()), (&*fact.path, fact.stamp, fact.hash));
+    }
+    for fact in &catalogue.records {
+        for likely in 0..6 {
+            let record = kept.record(kept.record_of(&fact.of, likely).unwrap());
+            assert_eq!((record.of(), record.payload()), (&*fact.of, &*fact.payload));
+            let paths: Vec<&Utf8Path> = record.files().map(|file| kept.file(file).path()).collect();
+            assert_eq!(
+                paths,
+                fact.files.iter().map(|file| &*catalogue.files[*file].path).collect::<Vec<_>>()
+            );
+            assert_eq!(record.lookups().collect::<Vec<_>>(), fact.lookups);
+        }
+    }
+    for nothing in ["", "a", "a.dxf.", "z", "b.dxe"] {
+        assert_eq!((kept.record_of(nothing, 0), kept.file_of(Utf8Path::new(nothing))), (None, None));
+    }
+    assert_eq!(catalogue_of(&kept).directories, catalogue.directories);
+    assert_eq!(Kept::default().record_of("a.dxf", 0), None);
+}
+
+/// Neither a flipped bit, nor a part of a file, nor more than a file.
+#[test]
+fn a_file_that_is_not_whole_is_not_used() {
+    let (_directory, base) = place();
+    let place = Place::beside(&base);
+    let key = Key::new("build", "question");
+    place.store(&key, &larger(&base)).unwrap();
+    let file = place.directory().join(key.file_name());
+    let whole = fs::read(&file).unwrap();
+    let load = |bytes: &[u8]| {
+        fs::write(&file, bytes).unwrap();
+        place.load(&key)
+    };
+    for at in 0..whole.len() {
+        let mut flipped = whole.clone();
+        flipped[at] ^= 1 << (at % 8);
+        assert!(load(&flipped).is_err(), "a bit of byte {at} flipped");
+        assert_eq!(load(&whole[..at]), Err(Unusable::Damaged), "cut at {at}");
+    }
+    assert!(load(&[&*whole, b"0"].concat()).is_err());
+    assert!(load(&whole).is_ok());
+}
+
+/// Numbers that lead out of a file are refused even where a checksum says that somebody wrote them.
+#[test]
+fn numbers_out_of_bounds_are_refused() {
+    let (_directory, base) = place();
+    let place = Place::beside(&base);
+    let key = Key::new("build", "question");
+    place.store(&key, &larger(&base)).unwrap();
+    let file = place.directory().join(key.file_name());
+    let whole = fs::read(&file).unwrap();
+    const HEAD: usize = 112;
+    for at in (HEAD..whole.len() - 3).step_by(4) {
+        for number in [u32::MAX, 1 << 31, 1_000] {
+            let mut forged = whole.clone();
+            forged[at..at + 4].copy_from_slice(&number.to_le_bytes());
+            let checksum = *blake3::hash(&forged[HEAD..]).as_bytes();
+            forged[HEAD - 32..HEAD].copy_from_slice(&checksum);
+            fs::write(&file, forged).unwrap();
+            if let Ok(Some(kept)) = place.load(&key) {
+                // What it says may be wrong, but can be looked at.
+                let verdict = pathbuild_cache::verify(&kept, &base, &covers, Listings::new());
+                assert_eq!(verdict.holds.len(), kept.records());
+                catalogue_of(&kept);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_directory_that_was_listed_is_not_listed_again() {
+    let (_directory, base) = place();
+    fs::write(base.join("a.dxf"), "one").unwrap();
+    let kept = kept(&catalogue(&base, Stamp::UNKNOWN, b"one"));
+    let holds = |names: &[&str], is_doubtful| {
+        let names = names.iter().map(|name| (*name).into()).collect();
+        let listings = Listings::from([(base.clone(), Listing { names, is_doubtful })]);
+        pathbuild_cache::verify(&kept, &base, &covers, listings).holds[0]
+    };
+    assert!(holds(&["a.dxf"], false));
+    assert!(holds(&["5678.dxf", "a.dxf"], false));
+    assert!(!holds(&["1234.dxf", "a.dxf"], false));
+    assert!(!holds(&["a.dxf"], true));
 }

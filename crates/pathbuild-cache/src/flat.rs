@@ -1,0 +1,179 @@
+//! How kept results lie in a file: tables whose rows all have one size, then what the results themselves say, then all texts in a row. Nothing has to
+//! be taken apart to be looked at: a row is found by its number, and says by place and length where its texts are. Numbers are little-endian and
+//! of four bytes.
+//!
+//! | table | a row |
+//! | --- | --- |
+//! | [`FILES`], by path | path, stamp, whether there is a hash, hash |
+//! | [`DIRECTORIES`] | path, canonical path, kind and doubt, the first of its names and their number |
+//! | [`NAMES`] | a name in a directory |
+//! | [`RECORDS`], by what they are of | what it is of, its files, its questions, its payload: place and number of each |
+//! | [`RECORD_FILES`] | the number of a file |
+//! | [`RECORD_LOOKUPS`] | the number of a question |
+//! | [`LOOKUPS`] | directory, name |
+
+use std::collections::HashMap;
+
+use crate::facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
+use crate::stamp::Stamp;
+
+/// Size of a number, and of a place with its length.
+pub(crate) const WORD: usize = 4;
+const SPAN: usize = 2 * WORD;
+
+/// The size of a table's rows.
+pub(crate) const SIZES: [usize; TABLES] =
+    [SPAN + Stamp::SIZE + WORD + HASH, 3 * SPAN + WORD, SPAN, 4 * SPAN, WORD, WORD, WORD + SPAN];
+pub(crate) const TABLES: usize = 7;
+pub(crate) const HASH: usize = 32;
+
+pub(crate) const FILES: usize = 0;
+pub(crate) const DIRECTORIES: usize = 1;
+pub(crate) const NAMES: usize = 2;
+pub(crate) const RECORDS: usize = 3;
+pub(crate) const RECORD_FILES: usize = 4;
+pub(crate) const RECORD_LOOKUPS: usize = 5;
+pub(crate) const LOOKUPS: usize = 6;
+
+/// What stands before the tables: how many rows each has, then the sizes of the payloads and the texts.
+pub(crate) const COUNTS: usize = TABLES + 2;
+
+/// The bits of a directory's state.
+pub(crate) const IS_FILES: u32 = 1;
+pub(crate) const IS_DOUBTFUL: u32 = 2;
+
+/// More than a file of kept results can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TooMuch;
+
+/// Adds a catalogue.
+pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
+    let mut flat = Flat::default();
+    let numbers = flat.files(&catalogue.files)?;
+    for directory in &catalogue.directories {
+        flat.directory(directory)?;
+    }
+    let mut records: Vec<&Record> = catalogue.records.iter().collect();
+    records.sort_unstable_by(|a, b| a.of.cmp(&b.of));
+    for record in records {
+        flat.record(record, &numbers)?;
+    }
+    flat.finish(bytes)
+}
+
+/// Tables while they are filled.
+#[derive(Default)]
+struct Flat<'a> {
+    tables: [Vec<u8>; TABLES],
+    payloads: Vec<u8>,
+    texts: String,
+    /// Where texts are: most files are what a result is of.
+    known: HashMap<&'a str, Span>,
+    lookups: HashMap<&'a Lookup, u32>,
+}
+
+/// A place and a length, or the first and the number of some rows.
+type Span = [u32; 2];
+
+impl<'a> Flat<'a> {
+    fn finish(self, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
+        for (table, size) in self.tables.iter().zip(SIZES) {
+            bytes.extend(word(table.len() / size)?.to_le_bytes());
+        }
+        bytes.extend(word(self.payloads.len())?.to_le_bytes());
+        bytes.extend(word(self.texts.len())?.to_le_bytes());
+        for table in &self.tables {
+            bytes.extend_from_slice(table);
+        }
+        bytes.extend_from_slice(&self.payloads);
+        bytes.extend_from_slice(self.texts.as_bytes());
+        Ok(())
+    }
+
+    /// Adds all files in order of path; the new number of each.
+    fn files(&mut self, files: &'a [FileFact]) -> Result<Vec<u32>, TooMuch> {
+        let mut order: Vec<usize> = (0..files.len()).collect();
+        order.sort_unstable_by(|a, b| files[*a].path.as_str().cmp(files[*b].path.as_str()));
+        let mut numbers = vec![0; files.len()];
+        for (new, old) in order.into_iter().enumerate() {
+            numbers[old] = word(new)?;
+            let FileFact { path, stamp, hash } = &files[old];
+            let path = self.text(path.as_str())?;
+            self.add(FILES, &path);
+            self.tables[FILES].extend_from_slice(&stamp.to_bytes());
+            self.add(FILES, &[u32::from(hash.is_some())]);
+            self.tables[FILES].extend_from_slice(&hash.unwrap_or([0; HASH]));
+        }
+        Ok(numbers)
+    }
+
+    fn directory(&mut self, directory: &'a DirectoryFact) -> Result<(), TooMuch> {
+        let (path, canonical) = (self.text(directory.path.as_str())?, self.text(&directory.canonical)?);
+        let first = self.tables[NAMES].len() / SIZES[NAMES];
+        for name in &directory.names {
+            let name = self.text(name)?;
+            self.add(NAMES, &name);
+        }
+        let kind = if directory.kind == ListingKind::Files { IS_FILES } else { 0 };
+        let doubt = if directory.is_doubtful { IS_DOUBTFUL } else { 0 };
+        self.add(DIRECTORIES, &path);
+        self.add(DIRECTORIES, &canonical);
+        self.add(DIRECTORIES, &[kind | doubt, word(first)?, word(directory.names.len())?]);
+        Ok(())
+    }
+
+    fn record(&mut self, record: &'a Record, numbers: &[u32]) -> Result<(), TooMuch> {
+        let of = self.text(&record.of)?;
+        let files: Vec<u32> = record.files.iter().map(|file| numbers[*file]).collect();
+        let files = self.rows(RECORD_FILES, &files)?;
+        let lookups: Vec<u32> =
+            record.lookups.iter().map(|lookup| self.lookup(lookup)).collect::<Result<_, _>>()?;
+        let lookups = self.rows(RECORD_LOOKUPS, &lookups)?;
+        let payload = [word(self.payloads.len())?, word(record.payload.len())?];
+        self.payloads.extend_from_slice(&record.payload);
+        for span in [of, files, lookups, payload] {
+            self.add(RECORDS, &span);
+        }
+        Ok(())
+    }
+
+    /// Adds rows of one number.
+    fn rows(&mut self, table: usize, numbers: &[u32]) -> Result<Span, TooMuch> {
+        let span = [word(self.tables[table].len() / SIZES[table])?, word(numbers.len())?];
+        self.add(table, numbers);
+        Ok(span)
+    }
+
+    /// The number of a question, which thousands of records may ask.
+    fn lookup(&mut self, lookup: &'a Lookup) -> Result<u32, TooMuch> {
+        if let Some(known) = self.lookups.get(lookup) {
+            return Ok(*known);
+        }
+        let number = word(self.tables[LOOKUPS].len() / SIZES[LOOKUPS])?;
+        let name = self.text(&lookup.name)?;
+        self.add(LOOKUPS, &[word(lookup.directory)?]);
+        self.add(LOOKUPS, &name);
+        self.lookups.insert(lookup, number);
+        Ok(number)
+    }
+
+    fn text(&mut self, text: &'a str) -> Result<Span, TooMuch> {
+        if let Some(known) = self.known.get(text) {
+            return Ok(*known);
+        }
+        let span = [word(self.texts.len())?, word(text.len())?];
+        self.texts.push_str(text);
+        self.known.insert(text, span);
+        Ok(span)
+    }
+
+    fn add(&mut self, table: usize, words: &[u32]) {
+        for word in words {
+            self.tables[table].extend(word.to_le_bytes());
+        }
+    }
+}
+
+fn word(number: usize) -> Result<u32, TooMuch> {
+    u32::try_from(number).map_err(|_| TooMuch)
+}

@@ -1,0 +1,277 @@
+//! Kept results, looked at as they lie in their file. Places and lengths are looked through once when the file was read; after that whatever
+//! is out of bounds, which cannot be, is empty.
+
+use std::ops::Range;
+
+use camino::Utf8Path;
+
+use crate::facts::{ListingKind, Lookup};
+use crate::flat::{
+    COUNTS, DIRECTORIES, FILES, HASH, IS_DOUBTFUL, IS_FILES, LOOKUPS, NAMES, RECORD_FILES, RECORD_LOOKUPS,
+    RECORDS, SIZES, TABLES, WORD,
+};
+use crate::stamp::Stamp;
+
+/// Results with everything that they were made from, as they were kept. The default is that of nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Kept {
+    /// The file up to the texts.
+    bytes: Vec<u8>,
+    tables: [Range<usize>; TABLES],
+    payloads: Range<usize>,
+    texts: String,
+}
+
+/// A file as it was read.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptFile<'a> {
+    kept: &'a Kept,
+    row: Row<'a>,
+}
+
+/// A directory as it was listed.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptDirectory<'a> {
+    kept: &'a Kept,
+    row: Row<'a>,
+}
+
+/// A result.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptRecord<'a> {
+    kept: &'a Kept,
+    row: Row<'a>,
+}
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug)]
+struct Row<'a>(&'a [u8]);
+
+impl Kept {
+    /// What a file keeps behind its head; `None` where something is out of bounds.
+    pub(crate) fn new(mut file: Vec<u8>, head: usize) -> Option<Self> {
+        let counts = Row(file.get(head..head + COUNTS * WORD)?);
+        let mut end = head + COUNTS * WORD;
+        let mut next = |size: usize| {
+            let begin = end;
+            end = begin.checked_add(size)?;
+            Some(begin..end)
+        };
+        let mut tables: [Range<usize>; TABLES] = Default::default();
+        for (index, table) in tables.iter_mut().enumerate() {
+            *table = next(counts.number(index).checked_mul(SIZES[index])?)?;
+        }
+        let payloads = next(counts.number(TABLES))?;
+        let texts = next(counts.number(TABLES + 1))?;
+        if texts.end != file.len() {
+            return None;
+        }
+        let texts = String::from_utf8(file.split_off(texts.start)).ok()?;
+        let kept = Self { bytes: file, tables, payloads, texts };
+        kept.is_in_bounds().then_some(kept)
+    }
+
+    /// How many files there are.
+    pub fn files(&self) -> usize {
+        self.rows(FILES)
+    }
+
+    /// A file by its number; they are in order of path.
+    pub fn file(&self, number: usize) -> KeptFile<'_> {
+        KeptFile { kept: self, row: self.row(FILES, number) }
+    }
+
+    /// The number of the file of a path.
+    pub fn file_of(&self, path: &Utf8Path) -> Option<usize> {
+        self.search(FILES, path.as_str())
+    }
+
+    /// How many directories there are.
+    pub fn directories(&self) -> usize {
+        self.rows(DIRECTORIES)
+    }
+
+    /// A directory by its number.
+    pub fn directory(&self, number: usize) -> KeptDirectory<'_> {
+        KeptDirectory { kept: self, row: self.row(DIRECTORIES, number) }
+    }
+
+    /// How many results there are.
+    pub fn records(&self) -> usize {
+        self.rows(RECORDS)
+    }
+
+    /// A result by its number; they are in order of what they are of.
+    pub fn record(&self, number: usize) -> KeptRecord<'_> {
+        KeptRecord { kept: self, row: self.row(RECORDS, number) }
+    }
+
+    /// The number of the result of something. `likely`: the one that it may be.
+    pub fn record_of(&self, of: &str, likely: usize) -> Option<usize> {
+        let is_likely = likely < self.records() && self.record(likely).of() == of;
+        if is_likely { Some(likely) } else { self.search(RECORDS, of) }
+    }
+
+    /// How many different questions there are.
+    pub fn lookups(&self) -> usize {
+        self.rows(LOOKUPS)
+    }
+
+    /// A question by its number: directory and name.
+    pub fn lookup(&self, number: usize) -> (usize, &str) {
+        let row = self.row(LOOKUPS, number);
+        (row.number(0), self.text(row, 1))
+    }
+
+    fn rows(&self, table: usize) -> usize {
+        self.tables[table].len() / SIZES[table]
+    }
+
+    fn row(&self, table: usize, number: usize) -> Row<'_> {
+        let begin = self.tables[table].start + number * SIZES[table];
+        Row(self.bytes.get(begin..begin + SIZES[table]).unwrap_or_default())
+    }
+
+    /// The text whose place and length stand from this number of a row on.
+    fn text(&self, row: Row<'_>, at: usize) -> &str {
+        self.texts.get(row.range(at)).unwrap_or_default()
+    }
+
+    /// The numbers in the rows of another table that a row names.
+    fn numbers(&self, table: usize, rows: Range<usize>) -> impl ExactSizeIterator<Item = usize> {
+        rows.map(move |number| self.row(table, number).number(0))
+    }
+
+    /// The row that begins with a text.
+    fn search(&self, table: usize, text: &str) -> Option<usize> {
+        let (mut low, mut high) = (0, self.rows(table));
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.text(self.row(table, middle), 0) < text {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        (low < self.rows(table) && self.text(self.row(table, low), 0) == text).then_some(low)
+    }
+
+    /// Whether every place and number in a row is of something that is there.
+    fn is_in_bounds(&self) -> bool {
+        let all = |table: usize, is_sound: &dyn Fn(Row<'_>) -> bool| {
+            (0..self.rows(table)).all(|number| is_sound(self.row(table, number)))
+        };
+        let is_text = |row: Row<'_>, at| self.texts.get(row.range(at)).is_some();
+        let are_rows = |row: Row<'_>, at, table| row.range(at).end <= self.rows(table);
+        let is_row = |row: Row<'_>, at, table| row.number(at) < self.rows(table);
+        all(FILES, &|row| is_text(row, 0))
+            && all(DIRECTORIES, &|row| is_text(row, 0) && is_text(row, 2) && are_rows(row, 5, NAMES))
+            && all(NAMES, &|row| is_text(row, 0))
+            && all(RECORDS, &|row| {
+                is_text(row, 0)
+                    && are_rows(row, 2, RECORD_FILES)
+                    && are_rows(row, 4, RECORD_LOOKUPS)
+                    && row.range(6).end <= self.payloads.len()
+            })
+            && all(RECORD_FILES, &|row| is_row(row, 0, FILES))
+            && all(RECORD_LOOKUPS, &|row| is_row(row, 0, LOOKUPS))
+            && all(LOOKUPS, &|row| is_row(row, 0, DIRECTORIES) && is_text(row, 1))
+    }
+}
+
+impl<'a> KeptFile<'a> {
+    /// As the run spelt it.
+    pub fn path(self) -> &'a Utf8Path {
+        Utf8Path::new(self.kept.text(self.row, 0))
+    }
+
+    /// What the system said of it.
+    pub fn stamp(self) -> Stamp {
+        Stamp::from_bytes(self.row.bytes(2))
+    }
+
+    /// The blake3 hash of its bytes; `None` where it could not be read, or nobody did.
+    pub fn hash(self) -> Option<[u8; HASH]> {
+        const AT: usize = 2 + Stamp::SIZE / WORD;
+        (self.row.number(AT) == 1).then(|| self.row.bytes(AT + 1))
+    }
+}
+
+impl<'a> KeptDirectory<'a> {
+    /// As the run spelt it.
+    pub fn path(self) -> &'a Utf8Path {
+        Utf8Path::new(self.kept.text(self.row, 0))
+    }
+
+    /// Where it really was.
+    pub fn canonical(self) -> &'a str {
+        self.kept.text(self.row, 2)
+    }
+
+    /// Which of its names count.
+    pub fn kind(self) -> ListingKind {
+        if self.row.word(4) & IS_FILES == 0 { ListingKind::Drawings } else { ListingKind::Files }
+    }
+
+    /// Whether what is asked of it is asked again in any case.
+    pub fn is_doubtful(self) -> bool {
+        self.row.word(4) & IS_DOUBTFUL != 0
+    }
+
+    /// Its names, sorted.
+    pub fn names(self) -> impl ExactSizeIterator<Item = &'a str> {
+        self.row.range(5).map(move |number| self.kept.text(self.kept.row(NAMES, number), 0))
+    }
+}
+
+impl<'a> KeptRecord<'a> {
+    /// What it is of.
+    pub fn of(self) -> &'a str {
+        self.kept.text(self.row, 0)
+    }
+
+    /// The numbers of the files that it was made from.
+    pub fn files(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
+        self.kept.numbers(RECORD_FILES, self.row.range(2))
+    }
+
+    /// The numbers of the questions that were asked.
+    pub fn lookup_numbers(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
+        self.kept.numbers(RECORD_LOOKUPS, self.row.range(4))
+    }
+
+    /// Those questions.
+    pub fn lookups(self) -> impl Iterator<Item = Lookup> + use<'a> {
+        self.lookup_numbers().map(move |number| {
+            let (directory, name) = self.kept.lookup(number);
+            Lookup { directory, name: name.into() }
+        })
+    }
+
+    /// The result itself, which only its maker can read.
+    pub fn payload(self) -> &'a [u8] {
+        let Range { start, end } = self.row.range(6);
+        let payloads = self.kept.payloads.start;
+        self.kept.bytes.get(payloads + start..payloads + end).unwrap_or_default()
+    }
+}
+
+impl Row<'_> {
+    fn word(self, at: usize) -> u32 {
+        u32::from_le_bytes(self.bytes(at))
+    }
+
+    fn number(self, at: usize) -> usize {
+        self.word(at) as usize
+    }
+
+    /// From a place on as far as the length behind it says.
+    fn range(self, at: usize) -> Range<usize> {
+        let begin = self.number(at);
+        begin..begin.saturating_add(self.number(at + 1))
+    }
+
+    fn bytes<const N: usize>(self, at: usize) -> [u8; N] {
+        self.0.get(at * WORD..).and_then(|rest| rest.first_chunk()).copied().unwrap_or([0; N])
+    }
+}

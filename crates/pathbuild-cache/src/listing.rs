@@ -1,0 +1,74 @@
+//! Directories as they are now.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the stat index is about directories as the system has them, beside what the drawings say"
+)]
+
+use std::collections::HashMap;
+use std::fs::{self, FileType};
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use crate::facts::{DirectoryFact, ListingKind};
+
+/// The names of files in a directory that count.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// The names, sorted once all are there.
+    pub names: Vec<Box<str>>,
+    /// Whether there are links among them.
+    pub is_doubtful: bool,
+}
+
+/// The drawings in directories that somebody listed already, by directory as the run spells it.
+pub type Listings = HashMap<Utf8PathBuf, Listing>;
+
+impl Listing {
+    /// Adds something in a directory, if it counts.
+    pub fn add(&mut self, kind: ListingKind, name: &str, file_type: FileType) {
+        if kind.counts(name) {
+            self.is_doubtful |= file_type.is_symlink();
+            if !file_type.is_dir() {
+                self.names.push(name.into());
+            }
+        }
+    }
+
+    /// A directory's; one that cannot be listed holds nothing.
+    fn of(directory: &Utf8Path, kind: ListingKind) -> Self {
+        let mut listing = Self::default();
+        for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
+            // As System lists them: of names that are no UTF-8 a lossy spelling.
+            if let Ok(file_type) = entry.file_type() {
+                listing.add(kind, &entry.file_name().to_string_lossy(), file_type);
+            }
+        }
+        listing.names.sort_unstable();
+        listing
+    }
+}
+
+impl DirectoryFact {
+    /// A directory as it is now. `base` is the configuration's directory.
+    pub fn now(path: &Utf8Path, kind: ListingKind, base: &Utf8Path) -> Self {
+        Self::from_listing(path, kind, base, None)
+    }
+
+    /// The same, if it was listed already without listing it again.
+    pub(crate) fn from_listing(
+        path: &Utf8Path,
+        kind: ListingKind,
+        base: &Utf8Path,
+        listed: Option<Listing>,
+    ) -> Self {
+        let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
+        let Listing { names, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place, kind));
+        Self { path: path.to_owned(), kind, names, canonical: canonical(place, base), is_doubtful }
+    }
+}
+
+fn canonical(directory: &Utf8Path, base: &Utf8Path) -> Box<str> {
+    let Ok(directory) = directory.canonicalize_utf8() else { return "".into() };
+    let base = base.canonicalize_utf8().unwrap_or_else(|_| base.to_owned());
+    directory.strip_prefix(&base).map_or(directory.as_str(), Utf8Path::as_str).into()
+}
