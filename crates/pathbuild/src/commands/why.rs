@@ -1,7 +1,7 @@
 //! `pathbuild why`: why drawings would be compiled again. (spec/05-command-line.md)
 
 use camino::Utf8PathBuf;
-use pathbuild_cache::Reason;
+use pathbuild_cache::{Listings, Reason};
 use pathbuild_db::SourceFile;
 use serde::Serialize;
 
@@ -18,7 +18,8 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
-    let Some(keeper) = Keeper::open(context, &session, &question(&CheckArgs::default())) else {
+    let Some(keeper) = Keeper::open(context, &session, &question(&CheckArgs::default()), Listings::new())
+    else {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };

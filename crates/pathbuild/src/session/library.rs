@@ -4,26 +4,114 @@ use std::cmp::Ordering;
 use std::path::is_separator;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use ignore::{DirEntry, WalkBuilder};
+use ignore::WalkBuilder;
+use pathbuild_cache::{Listing, ListingKind, Listings};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
+use rayon::prelude::*;
 
-/// What lies in a directory and below, in order of name.
+/// What lies in a directory and below.
 #[derive(Debug, Default)]
 pub(super) struct Walked {
-    paths: Vec<Utf8PathBuf>,
-    /// PB005 where there is more than the limit allows: then there are no paths, since nobody knows which are missing.
+    /// Every drawing, in order of name.
+    pub(super) drawings: Vec<Utf8PathBuf>,
+    /// The directory itself and every directory below it, likewise.
+    pub(super) directories: Vec<Utf8PathBuf>,
+    /// What is in these directories, as far as it is known.
+    pub(super) listings: Listings,
+    /// PB005 where there is more than the limit allows: then there is nothing else, since nobody knows what is missing.
     pub(super) problem: Option<Box<Diagnostic>>,
 }
 
-/// Every drawing in a directory and below; .gitignore and .ignore files inside are respected.
-pub(super) fn drawings(directory: &Utf8Path, limit: u64) -> Walked {
-    walked(directory, limit, |is_directory, path| !is_directory && is_drawing(path))
+/// How directories are walked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk {
+    /// How many files and directories there may be.
+    pub(super) limit: u64,
+    /// Whether on all cores.
+    pub(super) is_parallel: bool,
 }
 
-/// A directory and every directory below it, likewise.
-pub(super) fn directories(directory: &Utf8Path, limit: u64) -> Walked {
-    walked(directory, limit, |is_directory, _| is_directory)
+impl Walk {
+    /// Every drawing in a directory and below; .gitignore and .ignore files inside are respected. Links to directories are not followed: they
+    /// could lead anywhere, and round in circles.
+    pub(super) fn through(self, root: &Utf8Path) -> Walked {
+        let (mut walked, count) = self.plain(root).unwrap_or_else(|HasRules| self.ruled(root));
+        if count > self.limit.saturating_add(1) {
+            let problem = Some(Box::new(too_many(readable(root), self.limit)));
+            return Walked { problem, ..Walked::default() };
+        }
+        // Each directory's are in order already.
+        walked.drawings.sort_by(|a, b| by_place(a, b));
+        walked.directories.sort_by(|a, b| by_place(a, b));
+        walked
+    }
+
+    /// The same as long as there are no rules, and how much was found: most libraries have none, and to look for them at each of ten thousand
+    /// entries takes longer than all the rest. Nothing more is looked for once there is more than the limit allows.
+    fn plain(self, root: &Utf8Path) -> Result<(Walked, u64), HasRules> {
+        let mut walked = Walked::default();
+        let mut open = vec![root.to_owned()];
+        let mut count = 1;
+        while !open.is_empty() && count <= self.limit.saturating_add(1) {
+            let list = |directory: &Utf8PathBuf| Directory::list(directory, self.limit);
+            let is_parallel = self.is_parallel && open.len() > 1;
+            let listed: Vec<_> = if is_parallel {
+                open.par_iter().map(list).collect()
+            } else {
+                open.iter().map(list).collect()
+            };
+            let mut next = Vec::new();
+            for (directory, listed) in open.into_iter().zip(listed) {
+                match listed? {
+                    Some(listed) => {
+                        count += listed.count;
+                        walked.drawings.extend(listed.drawings);
+                        next.extend(listed.directories);
+                        walked.listings.insert(directory.clone(), listed.listing);
+                    }
+                    // A root that is no directory is for those who know all cases.
+                    None if walked.directories.is_empty() => return Err(HasRules),
+                    None => {}
+                }
+                walked.directories.push(directory);
+            }
+            open = next;
+        }
+        Ok((walked, count))
+    }
+
+    /// The same where there are rules.
+    fn ruled(self, root: &Utf8Path) -> (Walked, u64) {
+        let mut walk = WalkBuilder::new(readable(root));
+        // Only what the directory itself says counts: results must not depend on the person's global Git settings.
+        walk.hidden(true).parents(false).git_global(false).git_exclude(false).require_git(false);
+        let most = usize::try_from(self.limit).unwrap_or(usize::MAX).saturating_add(2);
+        let mut walked = Walked::default();
+        let mut count = 0;
+        let named = walk.build().filter_map(Result::ok).filter_map(|entry| {
+            let path = Utf8Path::from_path(entry.path())?.to_owned();
+            // What was named may be a link itself.
+            let is_directory = entry
+                .file_type()
+                .is_some_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.depth() == 0));
+            Some((path, is_directory))
+        });
+        for (path, is_directory) in named.take(most) {
+            count += 1;
+            if is_directory {
+                walked.directories.push(path);
+            } else if is_drawing(&path) {
+                walked.drawings.push(path);
+            }
+        }
+        (walked, count)
+    }
+}
+
+/// A directory in a system call's words.
+fn readable(directory: &Utf8Path) -> &Utf8Path {
+    if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
 }
 
 /// `.dxf` counts in any case.
@@ -31,82 +119,49 @@ pub(super) fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-impl IntoIterator for Walked {
-    type Item = Utf8PathBuf;
-    type IntoIter = std::vec::IntoIter<Utf8PathBuf>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.paths.into_iter()
-    }
-}
-
-/// What is wanted of everything below a directory. Links to directories are not followed: they could lead anywhere, and round in circles.
-fn walked(directory: &Utf8Path, limit: u64, is_wanted: impl Fn(bool, &Utf8Path) -> bool) -> Walked {
-    let root = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-    let entries = plain_entries(root, limit).unwrap_or_else(|HasRules| ruled_entries(root, limit));
-    if entries.len() as u64 > limit.saturating_add(1) {
-        return Walked { paths: Vec::new(), problem: Some(Box::new(too_many(root, limit))) };
-    }
-    let wanted = entries.into_iter().filter(|entry| is_wanted(entry.is_directory, &entry.path));
-    let mut paths: Vec<Utf8PathBuf> = wanted.map(|entry| entry.path).collect();
-    paths.sort_unstable_by(|a, b| by_place(a, b));
-    Walked { paths, problem: None }
-}
-
-/// Something in a directory or below; the directory itself is one.
-struct Found {
-    path: Utf8PathBuf,
-    is_directory: bool,
-}
-
 /// There are files of rules that say what does not count.
 struct HasRules;
 
-/// Everything in a directory and below, as long as there are no rules: most libraries have none, and to look for them at each of ten thousand
-/// entries takes longer than all the rest. Nothing more is looked for once there is more than the limit allows.
-fn plain_entries(root: &Utf8Path, limit: u64) -> Result<Vec<Found>, HasRules> {
-    let mut found = vec![Found { path: root.to_owned(), is_directory: true }];
-    let mut open = vec![root.to_owned()];
-    while let Some(directory) = open.pop() {
-        let Ok(listed) = directory.read_dir_utf8() else {
-            // A root that is no directory is for those who know all cases.
-            if found.len() == 1 {
-                return Err(HasRules);
-            }
-            continue;
-        };
-        for entry in listed.filter_map(Result::ok) {
+/// What is in one directory.
+#[derive(Default)]
+struct Directory {
+    drawings: Vec<Utf8PathBuf>,
+    directories: Vec<Utf8PathBuf>,
+    listing: Listing,
+    /// How much there is, hidden things aside.
+    count: u64,
+}
+
+impl Directory {
+    /// Nothing where it cannot be listed.
+    fn list(directory: &Utf8Path, limit: u64) -> Result<Option<Self>, HasRules> {
+        let Ok(entries) = readable(directory).as_std_path().read_dir() else { return Ok(None) };
+        let mut found = Self::default();
+        for entry in entries.filter_map(Result::ok) {
             let name = entry.file_name();
+            let Ok(kind) = entry.file_type() else { continue };
+            found.listing.add(ListingKind::Drawings, &name.to_string_lossy(), kind);
+            let Some(name) = name.to_str() else { continue };
             if matches!(name, ".gitignore" | ".ignore") {
                 return Err(HasRules);
             }
-            let Ok(kind) = entry.file_type() else { continue };
             if name.starts_with('.') {
                 continue;
             }
-            if kind.is_dir() {
-                open.push(entry.path().to_owned());
+            found.count += 1;
+            if found.count > limit {
+                break;
             }
-            found.push(Found { path: entry.into_path(), is_directory: kind.is_dir() });
-            if found.len() as u64 > limit.saturating_add(1) {
-                return Ok(found);
+            if kind.is_dir() {
+                found.directories.push(directory.join(name));
+            } else if is_drawing(Utf8Path::new(name)) {
+                found.drawings.push(directory.join(name));
             }
         }
+        found.listing.names.sort_unstable();
+        found.drawings.sort_unstable_by(|a, b| by_place(a, b));
+        Ok(Some(found))
     }
-    Ok(found)
-}
-
-/// The same where there are rules.
-fn ruled_entries(root: &Utf8Path, limit: u64) -> Vec<Found> {
-    let mut walk = WalkBuilder::new(root);
-    // Only what the directory itself says counts: results must not depend on the person's global Git settings.
-    walk.hidden(true).parents(false).git_global(false).git_exclude(false).require_git(false);
-    let entries = walk.build().filter_map(Result::ok).filter_map(|entry| {
-        let path = Utf8Path::from_path(entry.path())?.to_owned();
-        Some(Found { path, is_directory: is_directory(&entry) })
-    });
-    let most = usize::try_from(limit).unwrap_or(usize::MAX).saturating_add(2);
-    entries.take(most).collect()
 }
 
 /// The order of paths, part by part. It is `Ord`'s, as long as no part is empty or `.`, and is told without taking paths apart: of ten thousand that
@@ -116,11 +171,6 @@ pub fn by_place(a: &Utf8Path, b: &Utf8Path) -> Ordering {
     let rank = |byte: u8| if is_separator(char::from(byte)) { 0 } else { byte };
     let differing = a.iter().zip(b).find(|(x, y)| x != y);
     differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
-}
-
-fn is_directory(entry: &DirEntry) -> bool {
-    // What was named may be a link itself.
-    entry.file_type().is_some_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.depth() == 0))
 }
 
 fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {

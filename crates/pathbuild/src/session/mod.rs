@@ -34,7 +34,7 @@ pub use library::by_place;
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
-pub use resolve::{Wanted, WantedPath};
+pub use resolve::{Found, Wanted, WantedPath};
 pub use work::{CheckedTarget, Emitted};
 
 /// A database with the run's settings.
@@ -128,6 +128,11 @@ impl<'a> Session<'a> {
     /// The one spelling of a path: relative to the working directory where it lies below it, without `.` and `x/..`.
     pub fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
         normal(path, &self.context.working_directory)
+    }
+
+    /// The same of a path that nobody else needs.
+    fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
+        if is_normal(&path) { path } else { self.normal(&path) }
     }
 }
 

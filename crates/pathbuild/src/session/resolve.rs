@@ -5,11 +5,13 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Listings;
 use pathbuild_db::system::Kind;
 use pathbuild_db::{Db, SourceFile, holders, name_table, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
+use rayon::prelude::*;
 
 use super::{Session, library};
 use crate::args::{Input, Inputs};
@@ -28,6 +30,15 @@ pub struct Wanted {
     pub problems: Vec<Diagnostic>,
     /// Where each drawing stands in `drawings`.
     places: HashMap<SourceFile, usize>,
+}
+
+/// The drawings in directories.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// Each once, in order.
+    pub drawings: Vec<Utf8PathBuf>,
+    /// What is in each directory, as far as it was looked at.
+    pub listings: Listings,
 }
 
 /// A drawing that was asked for.
@@ -74,7 +85,7 @@ impl Session<'_> {
 
     /// The drawings that arguments mean, if all of them are directories that can be walked through; without arguments, those of the
     /// library.
-    pub fn directories_only(&self, inputs: &Inputs) -> Option<Vec<Utf8PathBuf>> {
+    pub fn directories_only(&self, inputs: &Inputs) -> Option<Found> {
         let directory = |input| match input {
             Input::Place(place) if self.is_directory(place) && !library::is_drawing(place) => {
                 Some(self.normal(place))
@@ -82,26 +93,23 @@ impl Session<'_> {
             _ => None,
         };
         let directories: Vec<Utf8PathBuf> = if inputs.inputs.is_empty() {
-            self.context
-                .settings
-                .general
-                .library
-                .value
-                .iter()
-                .map(|directory| self.normal(directory))
-                .collect()
+            let library = self.context.settings.general.library.value.iter();
+            library.map(|directory| self.normal(directory)).collect()
         } else {
             inputs.iter().map(directory).collect::<Option<_>>()?
         };
-        let mut drawings = Vec::new();
-        for directory in &directories {
-            let walked = self.walked(directory);
+        let mut found = Found::default();
+        for walked in self.walked_each(&directories) {
             if walked.problem.is_some() {
                 return None;
             }
-            drawings.extend(walked.into_iter().map(|drawing| self.normal(&drawing)));
+            found.drawings.extend(walked.drawings.into_iter().map(|drawing| self.normalised(drawing)));
+            let listed = walked.listings.into_iter();
+            found.listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
         }
-        Some(drawings)
+        found.drawings.sort_by(|a, b| library::by_place(a, b));
+        found.drawings.dedup();
+        Some(found)
     }
 
     /// Whether the configuration says what to do without arguments.
@@ -127,18 +135,31 @@ impl Session<'_> {
 
     /// These directories and all below them, each once.
     pub fn directories_below(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
-        let limit = self.context.settings.limits.library_entries.value;
-        let below = directories.iter().flat_map(|directory| library::directories(directory, limit));
-        distinct(below.map(|directory| self.normal(&directory)))
+        let below = self.walked_each(directories).into_iter().flat_map(|walked| walked.directories);
+        distinct(below.map(|directory| self.normalised(directory)))
     }
 
     /// The drawings in a directory and below.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-        self.walked(directory).into_iter()
+        self.walked(directory).drawings.into_iter()
     }
 
     fn walked(&self, directory: &Utf8Path) -> library::Walked {
-        library::drawings(directory, self.context.settings.limits.library_entries.value)
+        self.walk().through(directory)
+    }
+
+    fn walked_each(&self, directories: &[Utf8PathBuf]) -> Vec<library::Walked> {
+        let walk = self.walk();
+        if walk.is_parallel && directories.len() > 1 {
+            directories.par_iter().map(|directory| walk.through(directory)).collect()
+        } else {
+            directories.iter().map(|directory| walk.through(directory)).collect()
+        }
+    }
+
+    fn walk(&self) -> library::Walk {
+        let limit = self.context.settings.limits.library_entries.value;
+        library::Walk { limit, is_parallel: self.context.jobs != Some(1) }
     }
 
     /// What keeps the library, or without one the working directory, from being looked through.
@@ -163,7 +184,7 @@ impl Session<'_> {
     fn add_directory(&self, directory: Utf8PathBuf, wanted: &mut Wanted) {
         let walked = self.walked(&directory);
         wanted.problems.extend(walked.problem.as_deref().cloned());
-        for drawing in walked {
+        for drawing in walked.drawings {
             wanted.add_drawing(self.file(&drawing), false);
         }
         wanted.directories.push(directory);

@@ -12,7 +12,7 @@ use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
 use crate::session::timings::{KEEPING, VERIFYING};
-use crate::session::{DrawingResult, Keeper, Made, Pair, Session, by_place, q_project_pairs};
+use crate::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
 ///
@@ -22,13 +22,12 @@ pub(super) fn check(
     context: &Context,
     session: &mut Session<'_>,
     args: &CheckArgs,
-    mut drawings: Vec<Utf8PathBuf>,
+    Found { drawings, listings }: Found,
 ) -> Result<Checked, String> {
     let since = |revision: &String| Changed::since(context, session, revision);
     let changed = args.changed_since.as_ref().map(since).transpose()?;
-    drawings.sort_unstable_by(|a, b| by_place(a, b));
-    drawings.dedup();
-    let opened = session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args)));
+    let opened =
+        session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args), listings));
     let keeper = opened.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();

@@ -30,9 +30,8 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         if args.timings {
             session.timings().switch_on();
         }
-        if let Some(drawings) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs))
-        {
-            let checked = kept::check(context, &mut session, args, drawings);
+        if let Some(found) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs)) {
+            let checked = kept::check(context, &mut session, args, found);
             let status = match checked {
                 Ok(checked) => finish(context, args, &session, checked, begun),
                 Err(reason) => context.usage(&reason),

@@ -6,10 +6,13 @@ mod payload;
 mod question;
 mod writing;
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Clock, Key, Place, Reason, Unusable, Verdict, reasons, verify};
+use pathbuild_cache::{
+    Clock, Kept, Key, Listings, Lookup, Place, Reason, Unusable, Verdict, reasons, verify,
+};
 use pathbuild_db::Trace;
 
 use super::Session;
@@ -28,10 +31,10 @@ pub struct Keeper {
     base: Utf8PathBuf,
     /// The time before anything was read; `None` where the cache cannot be written.
     begun: Option<Clock>,
-    kept: Catalogue,
+    kept: Kept,
     verdict: Verdict,
-    /// The number of each record.
-    records: HashMap<Box<str>, usize>,
+    /// The record that is likely asked for next: whoever asks does so in order.
+    next: Cell<usize>,
 }
 
 /// A result that was made now.
@@ -51,9 +54,9 @@ pub struct Made {
 #[derive(Clone, Debug)]
 pub struct Facts<'a> {
     /// The files.
-    pub files: Vec<&'a Utf8PathBuf>,
+    pub files: Vec<&'a Utf8Path>,
     /// What was looked for: directory and name.
-    pub lookups: Vec<(&'a Utf8Path, &'a str)>,
+    pub lookups: Vec<(&'a Utf8Path, Box<str>)>,
 }
 
 /// Programs that a result depends on.
@@ -67,7 +70,13 @@ pub struct Programs {
 
 impl Keeper {
     /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
-    pub fn open(context: &Context, session: &Session<'_>, question: &str) -> Option<Self> {
+    /// `listings`: directories that were listed just now.
+    pub fn open(
+        context: &Context,
+        session: &Session<'_>,
+        question: &str,
+        listings: Listings,
+    ) -> Option<Self> {
         let base = context.settings.directory().filter(|_| context.use_cache)?.to_owned();
         let place = Place::beside(&base);
         let key = Key::new(BUILD, &whole_question(context, session, question));
@@ -77,49 +86,52 @@ impl Keeper {
             Ok(kept) => kept.unwrap_or_default(),
             Err(reason) => {
                 note(context, reason);
-                Catalogue::default()
+                Kept::default()
             }
         };
         let coverage = Coverage::new(context);
-        let verdict = verify(&kept, &base, &|file, path| coverage.may_hold(file, path));
-        let records =
-            kept.records.iter().zip(0..).map(|(record, number)| (record.of.clone(), number)).collect();
-        Some(Self { place, key, base, begun, kept, verdict, records })
+        let verdict = verify(&kept, &base, &|file, path| coverage.may_hold(file, path), listings);
+        Some(Self { place, key, base, begun, kept, verdict, next: Cell::new(0) })
     }
 
     /// What was kept, if it still holds.
     pub fn payload(&self, of: &str) -> Option<&[u8]> {
-        let number = *self.records.get(of)?;
-        self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
+        let number = self.record(of)?;
+        self.verdict.holds[number].then(|| self.kept.record(number).payload())
     }
 
     /// What a kept result was made from.
     pub fn facts(&self, of: &str) -> Option<Facts<'_>> {
-        let record = &self.kept.records[*self.records.get(of)?];
-        let files = record.files.iter().map(|file| &self.kept.files[*file as usize].path);
-        let directory = |number: u32| self.kept.directories[number as usize].path.as_path();
-        let lookups = record.lookups.iter().map(|lookup| (directory(lookup.directory), &*lookup.name));
-        Some(Facts { files: files.collect(), lookups: lookups.collect() })
+        let record = self.kept.record(self.record(of)?);
+        let files = record.files().map(|file| self.kept.file(file).path());
+        let sought = |Lookup { directory, name }: Lookup| (self.kept.directory(directory).path(), name);
+        Some(Facts { files: files.collect(), lookups: record.lookups().map(sought).collect() })
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
     pub fn why(&self, context: &Context, of: &str) -> Option<Vec<Reason>> {
         let coverage = Coverage::new(context);
-        let number = *self.records.get(of)?;
+        let number = self.record(of)?;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
+    }
+
+    fn record(&self, of: &str) -> Option<usize> {
+        let number = self.kept.record_of(of, self.next.get())?;
+        self.next.set(number + 1);
+        Some(number)
     }
 
     /// Keeps results: of all that was asked for what still holds, and what was made now. Nothing is written where nothing changed.
     pub fn keep(&self, session: &Session<'_>, asked: &[&str], made: &[Made]) {
-        let is_as_it_was =
-            made.is_empty() && self.verdict.is_current && self.kept.records.len() == asked.len();
+        let is_as_it_was = made.is_empty() && self.verdict.is_current && self.kept.records() == asked.len();
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
         let new: HashMap<&str, &Made> = made.iter().map(|made| (&*made.of, made)).collect();
         let mut writing = Writing::new(self, session, begun, made);
         for of in asked {
-            match new.get(*of) {
-                Some(made) => writing.add_made(made),
-                None => writing.add_kept(self.records[*of]),
+            match (new.get(*of), self.record(of)) {
+                (Some(made), _) => writing.add_made(made),
+                (None, Some(kept)) => writing.add_kept(kept),
+                (None, None) => {}
             }
         }
         // Whoever cannot write goes without.

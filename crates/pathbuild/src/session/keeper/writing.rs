@@ -17,13 +17,11 @@ pub(super) struct Writing<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    files: HashMap<Utf8PathBuf, u32>,
-    directories: HashMap<(ListingKind, Utf8PathBuf), u32>,
+    files: HashMap<Utf8PathBuf, usize>,
+    directories: HashMap<(ListingKind, Utf8PathBuf), usize>,
     /// The new number of each kept file and directory.
-    kept_files: Vec<Option<u32>>,
-    kept_directories: Vec<Option<u32>>,
-    /// The kept files and directories by name.
-    known_files: HashMap<&'a Utf8Path, usize>,
+    kept_files: Vec<Option<usize>>,
+    kept_directories: Vec<Option<usize>>,
     /// The drawings that this run read, with what it read.
     read: HashMap<Utf8PathBuf, Option<[u8; 32]>>,
 }
@@ -40,14 +38,8 @@ impl<'a> Writing<'a> {
             catalogue: Catalogue::default(),
             files: HashMap::new(),
             directories: HashMap::new(),
-            kept_files: vec![None; kept.files.len()],
-            kept_directories: vec![None; kept.directories.len()],
-            known_files: kept
-                .files
-                .iter()
-                .zip(0..)
-                .map(|(file, number)| (file.path.as_path(), number))
-                .collect(),
+            kept_files: vec![None; kept.files()],
+            kept_directories: vec![None; kept.directories()],
             read: read.map(|file| (file.path(db).clone(), content_hash(db, *file))).collect(),
         }
     }
@@ -58,14 +50,11 @@ impl<'a> Writing<'a> {
 
     /// Takes over a record that still holds.
     pub(super) fn add_kept(&mut self, number: usize) {
-        let record = &self.keeper.kept.records[number];
-        let files = record.files.iter().map(|file| self.kept_file(*file as usize)).collect();
-        let lookup = |lookup: &Lookup| Lookup {
-            directory: self.kept_directory(lookup.directory as usize),
-            name: lookup.name.clone(),
-        };
-        let lookups = record.lookups.iter().map(lookup).collect();
-        let (of, payload) = (record.of.clone(), record.payload.clone());
+        let record = self.keeper.kept.record(number);
+        let files = record.files().map(|file| self.kept_file(file)).collect();
+        let lookup = |lookup: Lookup| Lookup { directory: self.kept_directory(lookup.directory), ..lookup };
+        let lookups = record.lookups().map(lookup).collect();
+        let (of, payload) = (record.of().into(), record.payload().to_vec());
         self.catalogue.records.push(Record { of, files, lookups, payload });
     }
 
@@ -85,7 +74,7 @@ impl<'a> Writing<'a> {
         }
         files.extend(made.programs.files.iter().map(|file| self.program(file)));
         for directory in &made.programs.directories {
-            let directory = self.directory(directory, ListingKind::Programs);
+            let directory = self.directory(directory, ListingKind::Files);
             lookups.insert(Lookup { directory, name: "".into() });
         }
         self.catalogue.records.push(Record {
@@ -96,11 +85,12 @@ impl<'a> Writing<'a> {
         });
     }
 
-    fn kept_file(&mut self, number: usize) -> u32 {
+    fn kept_file(&mut self, number: usize) -> usize {
         if let Some(new) = self.kept_files[number] {
             return new;
         }
-        let mut fact = self.keeper.kept.files[number].clone();
+        let file = self.keeper.kept.file(number);
+        let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
         if self.keeper.verdict.files[number] != FileState::Resting {
             fact.stamp = Stamp::settled(&fact.path, self.begun);
         }
@@ -114,11 +104,11 @@ impl<'a> Writing<'a> {
     }
 
     /// A drawing that was read now.
-    fn drawing(&mut self, file: SourceFile) -> u32 {
+    fn drawing(&mut self, file: SourceFile) -> usize {
         let db = self.session.db();
         let path = file.path(db);
         let hash = content_hash(db, file);
-        let known = self.known_files.get(path.as_path()).copied();
+        let known = self.keeper.kept.file_of(path);
         match known.filter(|number| self.keeper.verdict.files[*number] != FileState::Changed) {
             Some(number) => self.kept_file(number),
             None => self.new_file(path, hash),
@@ -126,28 +116,28 @@ impl<'a> Writing<'a> {
     }
 
     /// A program that was looked at now.
-    fn program(&mut self, path: &Utf8Path) -> u32 {
+    fn program(&mut self, path: &Utf8Path) -> usize {
         self.new_file(path, None)
     }
 
-    fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> u32 {
+    fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> usize {
         if let Some(known) = self.files.get(path) {
             return *known;
         }
         self.push_file(FileFact { path: path.to_owned(), stamp: Stamp::settled(path, self.begun), hash })
     }
 
-    fn push_file(&mut self, fact: FileFact) -> u32 {
+    fn push_file(&mut self, fact: FileFact) -> usize {
         if let Some(known) = self.files.get(&fact.path) {
             return *known;
         }
-        let number = number(self.catalogue.files.len());
+        let number = self.catalogue.files.len();
         self.files.insert(fact.path.clone(), number);
         self.catalogue.files.push(fact);
         number
     }
 
-    fn kept_directory(&mut self, number: usize) -> u32 {
+    fn kept_directory(&mut self, number: usize) -> usize {
         if let Some(new) = self.kept_directories[number] {
             return new;
         }
@@ -158,7 +148,7 @@ impl<'a> Writing<'a> {
     }
 
     /// A directory that was listed now, with the names that the database saw in it.
-    fn directory(&mut self, path: &Utf8Path, kind: ListingKind) -> u32 {
+    fn directory(&mut self, path: &Utf8Path, kind: ListingKind) -> usize {
         if let Some(known) = self.directories.get(&(kind, path.to_owned())) {
             return *known;
         }
@@ -166,13 +156,13 @@ impl<'a> Writing<'a> {
         self.push_directory(fact)
     }
 
-    fn push_directory(&mut self, mut fact: DirectoryFact) -> u32 {
+    fn push_directory(&mut self, mut fact: DirectoryFact) -> usize {
         let place = (fact.kind, fact.path.clone());
         if let Some(known) = self.directories.get(&place) {
             return *known;
         }
         fact.is_doubtful |= !self.is_what_was_seen(&fact);
-        let number = number(self.catalogue.directories.len());
+        let number = self.catalogue.directories.len();
         self.directories.insert(place, number);
         self.catalogue.directories.push(fact);
         number
@@ -180,7 +170,7 @@ impl<'a> Writing<'a> {
 
     /// Whether the database found the same names, if it looked. That it looks now does no harm: then there is nothing that could differ.
     fn is_what_was_seen(&self, fact: &DirectoryFact) -> bool {
-        if fact.kind == ListingKind::Programs {
+        if fact.kind == ListingKind::Files {
             return true;
         }
         let db = self.session.db();
@@ -189,8 +179,4 @@ impl<'a> Writing<'a> {
         seen.sort_unstable();
         seen == fact.names
     }
-}
-
-fn number(index: usize) -> u32 {
-    u32::try_from(index).expect("fewer than 2^32 files and directories")
 }
