@@ -1,7 +1,10 @@
 //! From a raw path and values of its variables to a [`Path`]: every parameter found, inherited and checked.
 //! (spec/30-parameters.md, spec/40-variables.md)
 
+mod cuts;
 mod segments;
+
+use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
@@ -15,6 +18,8 @@ use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
 use crate::values::Values;
 use crate::variables::{Bindings, Interpolation};
+
+use cuts::KnownCuts;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -33,16 +38,19 @@ struct Binder<'a> {
     language: &'a Language,
     interpolation: Interpolation<'a>,
     /// The path's own values.
-    values: Values,
+    values: Values<'a>,
+    known_cuts: KnownCuts<'a>,
     problems: Vec<Diagnostic>,
+    /// How often something was reported, also where it had been before.
+    reported: usize,
 }
 
 impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation = Interpolation { bindings, limit: language.text_limit };
-        // A definition is no value: its "=" would be taken for a reference.
-        let values = Values::of(&raw.parameters.without(Letter::Variable), &interpolation);
-        Self { raw, language, interpolation, values, problems: Vec::new() }
+        let values = Values::of_path(&raw.parameters, &interpolation);
+        let known_cuts = KnownCuts::default();
+        Self { raw, language, interpolation, values, known_cuts, problems: Vec::new(), reported: 0 }
     }
 
     fn path(&mut self, start: &Marker, end: &Marker) -> Option<Path> {
@@ -62,6 +70,7 @@ impl<'a> Binder<'a> {
             start: start.at,
             end: end.at,
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
+            elements: Arc::clone(&self.raw.elements),
             segments,
             probes: Vec::new(),
             surfaces: Vec::new(),
@@ -107,7 +116,12 @@ impl<'a> Binder<'a> {
     }
 
     /// The values of an element's text, checked; what is wrong is reported at the element.
-    fn element_values(&mut self, origin: &Origin, text: Option<&ParameterText>, has_bars: bool) -> Values {
+    fn element_values(
+        &mut self,
+        origin: &Origin,
+        text: Option<&'a ParameterText>,
+        has_bars: bool,
+    ) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
         let mut values = Values::of(text, &self.interpolation);
         let found = std::mem::take(&mut values.problems);
@@ -120,6 +134,7 @@ impl<'a> Binder<'a> {
 
     /// Reports once what several parts of a polyline, which share a text, have in common.
     fn report(&mut self, origin: &Origin, problem: Diagnostic) {
+        self.reported += 1;
         let problem = origin.at(problem.in_path(self.raw.name.as_str()));
         let is_same = |known: &Diagnostic| {
             known.message == problem.message

@@ -1,22 +1,23 @@
 //! What is done along a path, in order, with consecutive cuts grouped into milling chains. (spec/50-path-building.md, "Chains")
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::words;
 
-use crate::element::{Cut, Origin};
-use crate::geometry::Xy;
-use crate::path::{CutSegment, Helix, Hole, Segment, SegmentKind, Sweep};
-use crate::walk::Step;
+use crate::element::Origin;
+use crate::geometry::{Curve, Xy};
+use crate::path::{CutParameters, Helix, Hole, Path, SegmentKind};
+use crate::walk::{Passage, Step, curve};
 
-/// One thing that is done.
+/// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
 pub enum Item {
     Chain(Chain),
-    Hole { origin: Origin, hole: Hole },
-    Helix { origin: Origin, helix: Helix },
-    Sweep { origin: Origin, sweep: Sweep },
+    Hole { segment: usize, hole: Arc<Hole> },
+    Helix { segment: usize, helix: Arc<Helix> },
+    Sweep(Sweep),
     Subpath(PlacedSubpath),
 }
 
@@ -28,24 +29,36 @@ pub struct Chain {
     /// W in mm: sweepless milling from this depth on.
     pub first_depth: Option<f64>,
     /// In walking order, each from where the tool comes from; at least one.
-    pub segments: Vec<ChainSegment>,
+    pub segments: Box<[ChainSegment]>,
 }
 
 /// A member of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainSegment {
-    /// Where it is drawn.
-    pub origin: Origin,
-    /// What it is, from where the tool comes from.
-    pub cut: CutSegment,
+    /// How it is milled.
+    pub cut: Arc<CutParameters>,
     /// Whether it is the way back over a dead end.
     pub is_return: bool,
+    segment: u32,
+    is_turned: bool,
+    moved: Option<Box<Curve>>,
+}
+
+/// A rapid move at sweep height. A drawn arc is swept straight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweep {
+    /// From where the tool is.
+    pub start: Xy,
+    /// To where it comes.
+    pub end: Xy,
+    /// Its own S in mm; else the path's.
+    pub height: Option<f64>,
 }
 
 /// A subpath segment in the direction in which it is traversed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSubpath {
-    /// Index into [`Path::segments`](crate::Path::segments), where its parameters are.
+    /// Index into [`Path::segments`], where its parameters are.
     pub segment: usize,
     /// Where the embedded path's start comes to lie.
     pub start: Xy,
@@ -54,67 +67,94 @@ pub struct PlacedSubpath {
 }
 
 /// Groups the steps of a walk; chains without I, and letters without effect inside chains, are reported.
-pub(crate) fn items(steps: &[Step]) -> (Vec<Item>, Vec<Diagnostic>) {
-    let (mut items, mut diagnostics) = (Vec::new(), Vec::new());
-    let mut chain: Vec<ChainSegment> = Vec::new();
+pub(crate) fn items(path: &Path, steps: Vec<Step>) -> (Vec<Item>, Vec<Diagnostic>) {
+    let mut grouped = Grouped { path, items: Vec::new(), chain: Vec::new(), diagnostics: Vec::new() };
     for step in steps {
-        let Some(Segment { origin, kind, .. }) = &step.traversed else {
-            items.extend(finish(&mut chain, &mut diagnostics));
-            continue;
-        };
-        if let SegmentKind::Cut(cut) = kind {
-            chain.push(ChainSegment { origin: origin.clone(), cut: cut.clone(), is_return: step.is_return });
-            continue;
-        }
-        items.extend(finish(&mut chain, &mut diagnostics));
-        items.extend(single(step.segment, origin, kind));
+        grouped.add(step);
     }
-    items.extend(finish(&mut chain, &mut diagnostics));
-    (items, diagnostics)
+    grouped.finish_chain();
+    (grouped.items, grouped.diagnostics)
 }
 
-fn single(segment: usize, origin: &Origin, kind: &SegmentKind) -> Option<Item> {
-    let origin = origin.clone();
-    Some(match kind {
-        SegmentKind::Cut(_) => return None,
-        SegmentKind::Hole(hole) => Item::Hole { origin, hole: hole.clone() },
-        SegmentKind::Helix(helix) => Item::Helix { origin, helix: helix.clone() },
-        SegmentKind::Sweep(sweep) => Item::Sweep { origin, sweep: *sweep },
-        SegmentKind::Subpath(subpath) => {
-            Item::Subpath(PlacedSubpath { segment, start: subpath.start, end: subpath.end })
-        }
-    })
+/// The items so far.
+struct Grouped<'a> {
+    path: &'a Path,
+    items: Vec<Item>,
+    /// The members of the chain so far.
+    chain: Vec<ChainSegment>,
+    diagnostics: Vec<Diagnostic>,
 }
 
-/// The chain of the segments so far, if there are any.
-fn finish(segments: &mut Vec<ChainSegment>, diagnostics: &mut Vec<Diagnostic>) -> Option<Item> {
-    let segments = std::mem::take(segments);
-    let first = segments.first()?;
-    for member in segments[1..].iter().filter(|member| !member.is_return) {
-        diagnostics.extend(member.letters_without_effect());
+impl Grouped<'_> {
+    fn add(&mut self, Step { segment, passage, is_return }: Step) {
+        let Some(passage) = passage else { return self.finish_chain() };
+        if let SegmentKind::Cut(cut) = &self.path.segments[segment].kind {
+            self.chain.push(ChainSegment {
+                cut: Arc::clone(cut),
+                is_return,
+                segment: u32::try_from(segment).unwrap_or(u32::MAX),
+                is_turned: passage.is_turned,
+                moved: passage.moved,
+            });
+            return;
+        }
+        self.finish_chain();
+        self.items.extend(self.single(segment, &passage, is_return));
     }
-    let parameters = first.cut.chain;
-    let Some(infeed) = parameters.infeed else {
-        diagnostics.push(first.without_infeed());
-        return None;
-    };
-    Some(Item::Chain(Chain { infeed, first_depth: parameters.first_depth, segments }))
+
+    /// What is done along a segment that is in no chain. Going back over it is a sweep.
+    fn single(&self, segment: usize, passage: &Passage, is_return: bool) -> Option<Item> {
+        let Passage { start, end, .. } = *passage;
+        Some(match &self.path.segments[segment].kind {
+            SegmentKind::Cut(_) => return None,
+            SegmentKind::Sweep { height } => Item::Sweep(Sweep { start, end, height: *height }),
+            _ if is_return => Item::Sweep(Sweep { start, end, height: None }),
+            SegmentKind::Hole(hole) => Item::Hole { segment, hole: Arc::clone(hole) },
+            SegmentKind::Helix(helix) => Item::Helix { segment, helix: Arc::clone(helix) },
+            SegmentKind::Subpath(_) => Item::Subpath(PlacedSubpath { segment, start, end }),
+        })
+    }
+
+    /// Ends the chain, if there is one.
+    fn finish_chain(&mut self) {
+        let [first, others @ ..] = &*self.chain else { return };
+        for member in others.iter().filter(|member| !member.is_return) {
+            self.diagnostics.extend(member.letters_without_effect(self.path));
+        }
+        let parameters = first.cut.chain;
+        match parameters.infeed {
+            Some(infeed) => self.items.push(Item::Chain(Chain {
+                infeed,
+                first_depth: parameters.first_depth,
+                segments: self.chain.drain(..).collect(),
+            })),
+            None => self.diagnostics.push(first.without_infeed(self.path)),
+        }
+        self.chain.clear();
+    }
 }
 
 impl ChainSegment {
-    fn without_infeed(&self) -> Diagnostic {
-        let element = match self.cut.cut {
-            Cut::Mill => &words::MILLING_SEGMENT,
-            Cut::Mark => &words::MARKING_SEGMENT,
-            Cut::Support => &words::SUPPORT_SEGMENT,
-        };
-        self.origin.at(Diagnostic::new(&messages::MISSING).with("letter", 'I').with("element", element))
+    /// Where it is drawn.
+    pub fn origin<'p>(&self, path: &'p Path) -> &'p Origin {
+        path.origin(&path.segments[self.segment as usize])
     }
 
-    fn letters_without_effect(&self) -> impl Iterator<Item = Diagnostic> {
+    /// What it is, from where the tool comes from. The path is the one that was walked along.
+    pub fn curve(&self, path: &Path) -> Curve {
+        let segment = &path.segments[self.segment as usize];
+        curve(path, segment, self.is_turned, self.moved.as_deref()).expect("what is in a chain is a curve")
+    }
+
+    fn without_infeed(&self, path: &Path) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::MISSING).with("letter", 'I');
+        self.origin(path).at(problem.with("element", self.cut.word()))
+    }
+
+    fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
         self.cut.own_chain_letters.iter().map(|(letter, fault)| {
             let problem = Diagnostic::new(&messages::WITHOUT_EFFECT_IN_CHAIN).with("letter", *letter);
-            self.origin.at(problem.with_text(fault.clone()))
+            self.origin(path).at(problem.with_text(fault.clone()))
         })
     }
 }

@@ -32,6 +32,10 @@ pub enum Letter {
     Variable,
 }
 
+/// A set of letters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Letters(u32);
+
 /// What an element is, as far as parameters are concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
@@ -94,9 +98,24 @@ impl Letter {
         (':', Self::Variable),
     ];
 
+    /// How many there are.
+    pub(crate) const COUNT: usize = Self::ALL.len();
+
+    /// The letters by their characters, which are all ASCII.
+    const BY_CHARACTER: [Option<Self>; 128] = {
+        let mut letters = [None; 128];
+        let mut index = 0;
+        while index < Self::COUNT {
+            let (character, letter) = Self::ALL[index];
+            letters[character as usize] = Some(letter);
+            index += 1;
+        }
+        letters
+    };
+
     /// The letter of a character.
     pub fn new(character: char) -> Option<Self> {
-        Self::ALL.iter().find(|(known, _)| *known == character).map(|(_, letter)| *letter)
+        Self::BY_CHARACTER.get(character as usize).copied().flatten()
     }
 
     /// The character.
@@ -116,42 +135,66 @@ impl Letter {
     }
 }
 
+impl Letters {
+    pub(crate) const fn of(letters: &[Letter]) -> Self {
+        let mut set = 0;
+        let mut index = 0;
+        while index < letters.len() {
+            set |= 1 << letters[index] as u32;
+            index += 1;
+        }
+        Self(set)
+    }
+
+    pub(crate) const fn contains(self, letter: Letter) -> bool {
+        self.0 & 1 << letter as u32 != 0
+    }
+
+    /// Adds a letter; whether it was not there.
+    pub(crate) fn insert(&mut self, letter: Letter) -> bool {
+        let is_new = !self.contains(letter);
+        self.0 |= 1 << letter as u32;
+        is_new
+    }
+}
+
 impl ElementClass {
     /// What a letter does in a text of this element. (The table of spec/30-parameters.md; "p" is not known in the element's own text.)
     pub fn use_of(self, letter: Letter) -> Use {
         use ElementClass as Class;
         use Letter::{A, At, B, C, D, E, Embed, F, H, I, L, M, N, O, P, Q, R, S, T, U, Variable, W, Z};
-        let used = |letters: &[Letter]| letters.contains(&letter);
         let is_used = match self {
-            Class::PathStart => used(&[F, B, D, I, C, W, P, U, S, T, O, M, A, Z, Variable, E, R, At]),
-            Class::Mill => used(&[F, B, N, Q]),
-            Class::Mark => used(&[F, D, N, Q]),
-            Class::Support => used(&[F, B, D, P, U, N, Q]),
-            Class::Sweep => used(&[S, N]),
-            Class::DrilledHole => used(&[F, B, C, Q]),
-            Class::DrilledMark => used(&[F, D, C, Q]),
-            Class::HelicalCircle => used(&[F, B, I, Q]),
-            Class::HelicalMark => used(&[F, D, I, Q]),
-            Class::HelicalSupport => used(&[F, B, D, I, P, U, Q]),
-            Class::UnknownCircle => used(&[F, B, D, I, C, P, U, Q]),
-            Class::Subpath => used(&[N, T, O, M, H, Embed, Variable]),
-            Class::Probe => used(&[T, H, Z, L]),
-            Class::Unread => true,
+            Class::PathStart => {
+                const { Letters::of(&[F, B, D, I, C, W, P, U, S, T, O, M, A, Z, Variable, E, R, At]) }
+            }
+            Class::Mill => const { Letters::of(&[F, B, N, Q]) },
+            Class::Mark => const { Letters::of(&[F, D, N, Q]) },
+            Class::Support => const { Letters::of(&[F, B, D, P, U, N, Q]) },
+            Class::Sweep => const { Letters::of(&[S, N]) },
+            Class::DrilledHole => const { Letters::of(&[F, B, C, Q]) },
+            Class::DrilledMark => const { Letters::of(&[F, D, C, Q]) },
+            Class::HelicalCircle => const { Letters::of(&[F, B, I, Q]) },
+            Class::HelicalMark => const { Letters::of(&[F, D, I, Q]) },
+            Class::HelicalSupport => const { Letters::of(&[F, B, D, I, P, U, Q]) },
+            Class::UnknownCircle => const { Letters::of(&[F, B, D, I, C, P, U, Q]) },
+            Class::Subpath => const { Letters::of(&[N, T, O, M, H, Embed, Variable]) },
+            Class::Probe => const { Letters::of(&[T, H, Z, L]) },
+            Class::Unread => return Use::Used,
+        };
+        let is_ignored = match self {
+            Class::Mill => const { Letters::of(&[D, S]) },
+            Class::Mark => const { Letters::of(&[B, S]) },
+            Class::Support => const { Letters::of(&[S]) },
+            Class::DrilledHole | Class::HelicalCircle => const { Letters::of(&[D]) },
+            Class::DrilledMark | Class::HelicalMark => const { Letters::of(&[B]) },
+            _ => Letters::default(),
         };
         let is_cut = matches!(self, Class::Mill | Class::Mark | Class::Support);
-        let is_ignored = match self {
-            Class::Mill => used(&[D, S]),
-            Class::Mark => used(&[B, S]),
-            Class::Support => used(&[S]),
-            Class::DrilledHole | Class::HelicalCircle => used(&[D]),
-            Class::DrilledMark | Class::HelicalMark => used(&[B]),
-            _ => false,
-        };
-        if is_used {
+        if is_used.contains(letter) {
             Use::Used
-        } else if is_cut && used(&[I, C, W]) {
+        } else if is_cut && matches!(letter, I | C | W) {
             Use::ChainFirst
-        } else if is_ignored {
+        } else if is_ignored.contains(letter) {
             Use::Ignored
         } else {
             Use::Unknown

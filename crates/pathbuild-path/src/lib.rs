@@ -33,7 +33,7 @@ mod variables;
 mod walk;
 
 pub use bind::bind;
-pub use chain::{Chain, ChainSegment, Item, PlacedSubpath};
+pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape};
@@ -44,8 +44,8 @@ pub use line_type::{LineType, LineTypeAliases};
 pub use name::{PathLayer, PathName, PathPattern};
 pub use number::{parse_integer, parse_number};
 pub use path::{
-    Bars, ChainParameters, CutSegment, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName,
-    SubpathValue, Sweep, Turn,
+    Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,
+    SubpathName, SubpathValue, Turn,
 };
 pub use pattern::PatternError;
 pub use raw::{Language, Position, RawFile, RawPath, SourceMap};

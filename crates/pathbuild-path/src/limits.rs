@@ -17,7 +17,7 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
 /// What is wrong with the values that `own` gives, with those of the path where it gives none. `has_bars`: on a path, and on every
 /// element with support bars.
-pub(crate) fn check(own: &Values, path: &Values, has_bars: bool) -> Vec<Diagnostic> {
+pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, has_bars: bool) -> Vec<Diagnostic> {
     let limits = Limits { own, path };
     let mut problems: Vec<Diagnostic> =
         POSITIVE.iter().filter_map(|letter| limits.positive(*letter)).collect();
@@ -32,8 +32,8 @@ pub(crate) fn check(own: &Values, path: &Values, has_bars: bool) -> Vec<Diagnost
 }
 
 struct Limits<'a> {
-    own: &'a Values,
-    path: &'a Values,
+    own: &'a Values<'a>,
+    path: &'a Values<'a>,
 }
 
 impl Limits<'_> {

@@ -1,5 +1,6 @@
 //! Path names, and the layers they are on. (spec/20-paths-and-files.md)
 
+use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
@@ -47,8 +48,15 @@ impl PathPattern {
     /// The path that a layer belongs to; `None` for a layer that is no path layer.
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
-        let path = PathName::from_layer(name);
-        self.0.matches(&path.0).then_some(PathLayer { path, tilde: name.len() != layer.len() })
+        let path = with_points(name);
+        self.0
+            .matches(&path)
+            .then(|| PathLayer { path: PathName(path.into()), tilde: name.len() != layer.len() })
+    }
+
+    /// Whether a layer belongs to a path.
+    pub fn is_layer(&self, layer: &str) -> bool {
+        self.0.matches(&with_points(without_tilde(layer)))
     }
 
     /// Whether a name is a path's.
@@ -76,7 +84,7 @@ impl PathPattern {
 impl PathName {
     /// The name in a layer's, `_` read as `.`, a tilde suffix already dropped.
     pub fn from_layer(layer: &str) -> Self {
-        Self(layer.replace('_', ".").into())
+        Self(with_points(layer).into())
     }
 
     /// A name as a person gave it.
@@ -139,6 +147,11 @@ impl Ord for PathName {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.0.chars().flat_map(char::to_uppercase).cmp(other.0.chars().flat_map(char::to_uppercase))
     }
+}
+
+/// A layer's name with `_` read as `.`.
+fn with_points(layer: &str) -> Cow<'_, str> {
+    if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
 }
 
 /// A layer's name without a trailing `~` and letters.

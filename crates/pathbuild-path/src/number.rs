@@ -4,21 +4,35 @@
 /// is too large to be finite.
 pub fn parse_number(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let mut marks = 0;
-    let mut count = 0;
+    let (mut value, mut count, mut decimals) = (0_u64, 0, None);
     for byte in digits.bytes() {
         match byte {
-            b'0'..=b'9' => count += 1,
-            b'.' | b',' => marks += 1,
+            b'0'..=b'9' => {
+                value = value.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+                count += 1;
+                decimals = decimals.map(|decimals: usize| decimals + 1);
+            }
+            b'.' | b',' if decimals.is_none() => decimals = Some(0),
             _ => return None,
         }
     }
-    if count == 0 || marks > 1 {
+    if count == 0 {
         return None;
+    }
+    if count <= MOST_DIGITS {
+        // Both are exact, so their quotient is the number that is nearest to what is written.
+        let number = value as f64 / POWERS_OF_TEN[decimals.unwrap_or(0)];
+        return Some(if text.starts_with('-') { -number } else { number });
     }
     let number: f64 = text.replace(',', ".").parse().ok()?;
     number.is_finite().then_some(number)
 }
+
+/// How many digits a number may have that is read without more ado: whole numbers of so many are exact.
+const MOST_DIGITS: usize = 15;
+
+const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// A whole number: an optional sign and digits.
 pub fn parse_integer(text: &str) -> Option<i64> {

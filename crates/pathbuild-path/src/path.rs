@@ -1,10 +1,12 @@
 //! Paths: raw paths with their variables bound and every parameter known. (spec/30-parameters.md, spec/50-path-building.md)
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault, Word, words};
 
 use crate::approx::above;
-use crate::element::{Cut, Origin};
+use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::name::PathName;
 
@@ -33,6 +35,8 @@ pub struct Path {
     pub end: Xy,
     /// Turn markers.
     pub turns: Vec<Turn>,
+    /// What is drawn, shared with the raw path.
+    pub elements: Arc<[Element]>,
     /// Segments in their order: circles, lines, arcs.
     pub segments: Vec<Segment>,
     /// Z-probes in file order.
@@ -73,30 +77,32 @@ pub struct Probe {
 /// What the walk goes along.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Where it is drawn.
-    pub origin: Origin,
+    /// What is drawn: index into [`Path::elements`].
+    pub element: u32,
     /// Order at a star: N, or what its kind has.
     pub order: f64,
     /// What it is.
     pub kind: SegmentKind,
 }
 
-/// The kinds of segments.
+/// The kinds of segments. What many segments have in common they share.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
 pub enum SegmentKind {
-    Cut(CutSegment),
-    Hole(Hole),
-    Helix(Helix),
-    Sweep(Sweep),
-    Subpath(Subpath),
+    /// Member of a milling chain.
+    Cut(Arc<CutParameters>),
+    Hole(Arc<Hole>),
+    Helix(Arc<Helix>),
+    /// Its own S in mm; else the path's.
+    Sweep {
+        height: Option<f64>,
+    },
+    Subpath(Box<Subpath>),
 }
 
-/// A milling, marking or support segment: member of a milling chain. Lengths in mm, feeds in mm/min.
+/// How a milling, marking or support segment is milled. Lengths in mm, feeds in mm/min.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CutSegment {
-    /// From its start to its end.
-    pub curve: Curve,
+pub struct CutParameters {
     /// What it leaves.
     pub cut: Cut,
     /// F.
@@ -137,7 +143,7 @@ pub struct Bars {
 
 /// A drilled hole or mark.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "as in CutSegment; peck is C")]
+#[expect(missing_docs, reason = "as in CutParameters; peck is C")]
 pub struct Hole {
     pub centre: Xy,
     pub bottom: f64,
@@ -163,17 +169,6 @@ pub struct Helix {
     pub infeed: f64,
     /// Q.
     pub comment: Option<Box<str>>,
-}
-
-/// A rapid move at sweep height. A drawn arc is swept straight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sweep {
-    /// Its drawn ends.
-    pub start: Xy,
-    /// The other.
-    pub end: Xy,
-    /// Its own S; else the path's.
-    pub height: Option<f64>,
 }
 
 /// A path to embed.
@@ -246,8 +241,33 @@ impl Path {
                 SegmentKind::Cut(_) => true,
                 SegmentKind::Hole(hole) => hole.feed.is_none(),
                 SegmentKind::Helix(helix) => helix.feed.is_none(),
-                SegmentKind::Sweep(_) | SegmentKind::Subpath(_) => false,
+                SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => false,
             })
+    }
+
+    /// Where a segment of it is drawn.
+    pub fn origin(&self, segment: &Segment) -> &Origin {
+        &self.element(segment).origin
+    }
+
+    /// Where a segment of it starts and where it ends, as drawn.
+    pub fn ends(&self, segment: &Segment) -> [Xy; 2] {
+        match &self.element(segment).shape {
+            Shape::Curve(curve) => [curve.start(), curve.end()],
+            Shape::Circle { centre, .. } => [*centre; 2],
+        }
+    }
+
+    /// What a segment of it is drawn as; `None` for circles.
+    pub(crate) fn curve(&self, segment: &Segment) -> Option<Curve> {
+        match self.element(segment).shape {
+            Shape::Curve(curve) => Some(curve),
+            Shape::Circle { .. } => None,
+        }
+    }
+
+    fn element(&self, segment: &Segment) -> &Element {
+        &self.elements[segment.element as usize]
     }
 
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
@@ -277,52 +297,6 @@ impl Path {
 }
 
 impl Segment {
-    /// Where it starts, as drawn.
-    pub fn start(&self) -> Xy {
-        match &self.kind {
-            SegmentKind::Cut(cut) => cut.curve.start(),
-            SegmentKind::Hole(hole) => hole.centre,
-            SegmentKind::Helix(helix) => helix.centre,
-            SegmentKind::Sweep(sweep) => sweep.start,
-            SegmentKind::Subpath(subpath) => subpath.start,
-        }
-    }
-
-    /// Where it ends, as drawn.
-    pub fn end(&self) -> Xy {
-        match &self.kind {
-            SegmentKind::Cut(cut) => cut.curve.end(),
-            SegmentKind::Hole(hole) => hole.centre,
-            SegmentKind::Helix(helix) => helix.centre,
-            SegmentKind::Sweep(sweep) => sweep.end,
-            SegmentKind::Subpath(subpath) => subpath.end,
-        }
-    }
-
-    /// The same segment from its other end. A subpath is then embedded the other way round: its start comes to lie where the walk
-    /// comes from.
-    pub fn turned_round(mut self) -> Self {
-        match &mut self.kind {
-            SegmentKind::Cut(cut) => cut.curve = cut.curve.reversed(),
-            SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
-            SegmentKind::Sweep(sweep) => std::mem::swap(&mut sweep.start, &mut sweep.end),
-            SegmentKind::Subpath(subpath) => std::mem::swap(&mut subpath.start, &mut subpath.end),
-        }
-        self
-    }
-
-    /// The same segment from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its
-    /// own. Holes and circles stay where they are.
-    pub(crate) fn starting_at(mut self, start: Xy) -> Self {
-        match &mut self.kind {
-            SegmentKind::Cut(cut) => cut.curve = cut.curve.starting_at(start),
-            SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
-            SegmentKind::Sweep(sweep) => sweep.start = start,
-            SegmentKind::Subpath(subpath) => subpath.start = start,
-        }
-        self
-    }
-
     /// What of several segments at a point comes first when their orders are equal.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {
@@ -330,13 +304,19 @@ impl Segment {
             SegmentKind::Helix(_) => 2,
             SegmentKind::Subpath(_) => 3,
             SegmentKind::Cut(_) => 4,
-            SegmentKind::Sweep(_) => 5,
+            SegmentKind::Sweep { .. } => 5,
         }
     }
+}
 
-    /// Its length at a star: the chord.
-    pub(crate) fn chord(&self) -> f64 {
-        (self.end() - self.start()).norm()
+impl CutParameters {
+    /// What a segment of this kind is called.
+    pub(crate) fn word(&self) -> &'static Word {
+        match self.cut {
+            Cut::Mill => &words::MILLING_SEGMENT,
+            Cut::Mark => &words::MARKING_SEGMENT,
+            Cut::Support => &words::SUPPORT_SEGMENT,
+        }
     }
 }
 

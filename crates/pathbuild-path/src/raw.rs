@@ -1,5 +1,7 @@
 //! Raw paths: what is drawn on a path's layers, with the texts found, whatever the variables are. (spec/10-drawing.md)
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 
 use crate::definition::Definition;
@@ -26,7 +28,7 @@ pub struct RawPath {
     /// Z-probes, in file order.
     pub probes: Vec<Marker>,
     /// All circles, then all lines, then all arcs, each in file order. (spec/50-path-building.md)
-    pub elements: Vec<Element>,
+    pub elements: Arc<[Element]>,
     /// The texts that elements have.
     pub texts: Vec<ParameterText>,
     /// The path's own parameters: its start's text, or that of the path that @ names.
@@ -102,6 +104,11 @@ impl RawPath {
 }
 
 impl SourceMap {
+    /// Makes room for so many more.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        self.0.reserve_exact(count);
+    }
+
     pub(crate) fn push(&mut self, position: Position) {
         self.0.push(position);
     }
@@ -121,5 +128,5 @@ impl SourceMap {
 }
 
 pub(crate) fn tool(parameters: &ParameterText) -> Option<f64> {
-    parameters.piece(Letter::O).and_then(|piece| parse_number(parameters.value(piece)))
+    parameters.piece(Letter::O).and_then(|piece| parse_number(parameters.value(&piece)))
 }

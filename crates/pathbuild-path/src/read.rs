@@ -10,8 +10,11 @@ use std::collections::BTreeMap;
 
 use pathbuild_dxf::Drawing;
 
+use crate::element::Origin;
+use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::{Language, RawFile};
+use crate::text::ParameterText;
 
 use collect::Collected;
 
@@ -34,16 +37,16 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     RawFile { paths, diagnostics }
 }
 
-/// The start texts of all paths, to which @ can refer.
-type Starts = BTreeMap<PathName, (crate::text::ParameterText, crate::element::Origin)>;
+/// The start texts of all paths, to which @ can refer; none where nobody does.
+type Starts = BTreeMap<PathName, (ParameterText, Origin)>;
 
-fn starts(paths: &[Collected]) -> Starts {
-    paths
-        .iter()
-        .filter_map(|path| {
-            let start = path.raw.start.as_ref()?;
-            let text = path.raw.text_of(start.text)?.clone();
-            Some((path.raw.name.clone(), (text, start.origin.clone())))
-        })
-        .collect()
+fn starts(paths: &[Collected<'_>]) -> Starts {
+    let texts = paths.iter().filter_map(|path| {
+        let start = path.raw.start.as_ref()?;
+        Some((path, path.raw.text_of(start.text)?, &start.origin))
+    });
+    if !texts.clone().any(|(_, text, _)| text.piece(Letter::At).is_some()) {
+        return Starts::new();
+    }
+    texts.map(|(path, text, origin)| (path.raw.name.clone(), (text.clone(), origin.clone()))).collect()
 }

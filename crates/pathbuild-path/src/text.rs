@@ -1,5 +1,6 @@
 //! Parameter texts: letters and values. (spec/10-drawing.md, "Inside a text")
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -7,70 +8,63 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Use};
 
-/// A parameter text with its pieces found, not yet asked what the values mean.
+/// A parameter text, not yet asked what its values mean.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ParameterText {
-    text: Box<str>,
-    pieces: Vec<Piece>,
-}
+pub struct ParameterText(Box<str>);
 
 /// A letter with its value, still with variables in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     /// The letter; `None` for a character that is none (PB202).
     pub letter: Option<Letter>,
-    span: Range<u32>,
-    value_start: u32,
+    span: Range<usize>,
+    value_start: usize,
 }
 
 impl ParameterText {
-    /// Finds the pieces of a text, `%%` codes already replaced.
+    /// A text, `%%` codes already replaced.
     pub fn new(text: &str) -> Self {
-        let text = joined(text);
-        let pieces = split(&text);
-        Self { text: text.into(), pieces }
+        Self(joined(text).into())
     }
 
     /// The text as it is shown in diagnostics.
     pub fn as_str(&self) -> &str {
-        &self.text
+        &self.0
     }
 
-    /// All pieces in the order they are written.
-    pub fn pieces(&self) -> &[Piece] {
-        &self.pieces
+    /// All pieces in the order they are written. They are found as they are asked for: that is as soon done as to remember them.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> + Clone + '_ {
+        let mut end = 0;
+        std::iter::from_fn(move || {
+            let piece = next_piece(&self.0, end)?;
+            end = piece.span.end;
+            Some(piece)
+        })
     }
 
     /// The first piece of a letter.
-    pub fn piece(&self, letter: Letter) -> Option<&Piece> {
-        self.pieces.iter().find(|piece| piece.letter == Some(letter))
+    pub fn piece(&self, letter: Letter) -> Option<Piece> {
+        self.pieces().find(|piece| piece.letter == Some(letter))
     }
 
     /// A piece's value as written.
     pub fn value(&self, piece: &Piece) -> &str {
-        &self.text[piece.value_start as usize..piece.span.end as usize]
+        &self.0[piece.value_start..piece.span.end]
     }
 
     /// The whole text with a piece underlined.
     pub fn fault(&self, piece: &Piece) -> TextFault {
-        TextFault::new(&self.text, piece.span.start as usize..piece.span.end as usize)
+        TextFault::new(&self.0, piece.span.clone())
     }
 
     /// The whole text with part of a piece's value underlined; `within` counts bytes of the value.
     pub fn fault_within(&self, piece: &Piece, within: Range<usize>) -> TextFault {
-        let start = piece.value_start as usize;
-        TextFault::new(&self.text, start + within.start..start + within.end)
-    }
-
-    /// The text without the pieces of a letter; everything else keeps its place.
-    pub(crate) fn without(&self, letter: Letter) -> Self {
-        let pieces = self.pieces.iter().filter(|piece| piece.letter != Some(letter)).cloned().collect();
-        Self { text: self.text.clone(), pieces }
+        TextFault::new(&self.0, piece.value_start + within.start..piece.value_start + within.end)
     }
 
     /// The whole text underlined.
     pub fn whole(&self) -> TextFault {
-        TextFault::new(&self.text, 0..self.text.len())
+        TextFault::new(&self.0, 0..self.0.len())
     }
 
     /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
@@ -79,29 +73,29 @@ impl ParameterText {
         if class == ElementClass::Unread {
             return Vec::new();
         }
-        let of_piece = |(index, piece): (usize, &Piece)| {
-            let problem = self.problem(index, piece, class)?;
-            Some(problem.with_text(self.fault(piece)))
+        let of_piece = |(index, piece): (usize, Piece)| {
+            let problem = self.problem(index, &piece, class)?;
+            Some(problem.with_text(self.fault(&piece)))
         };
-        self.pieces.iter().enumerate().filter_map(of_piece).collect()
+        self.pieces().enumerate().filter_map(of_piece).collect()
     }
 
     fn problem(&self, index: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
-        let first = self.text[piece.span.start as usize..].chars().next()?;
+        let first = self.0[piece.span.start..].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(unknown_letter(first, class));
         };
-        if class.use_of(letter) == Use::Unknown {
+        let how = class.use_of(letter);
+        if how == Use::Unknown {
             return Some(unknown_letter(first, class));
         }
-        if self.pieces[..index].iter().any(|earlier| self.is_same(earlier, piece)) {
+        if self.pieces().take(index).any(|earlier| self.is_same(&earlier, piece)) {
             return Some(self.twice(letter, piece));
         }
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        (class.use_of(letter) == Use::Ignored)
-            .then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
+        (how == Use::Ignored).then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
     }
 
     /// Letters are the same letter; variables only when they are the same variable.
@@ -137,42 +131,46 @@ fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
 }
 
 /// Joins what `~` at the end of a line continues: a long value goes on in the next line.
-fn joined(text: &str) -> String {
+fn joined(text: &str) -> Cow<'_, str> {
+    if !text.contains('~') {
+        return Cow::Borrowed(text);
+    }
     let mut joined = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(tilde) = rest.find('~') {
         let after = &rest[tilde + 1..];
         let is_continued = after.starts_with(['\n', '\r']);
         joined.push_str(&rest[..tilde + usize::from(!is_continued)]);
-        rest = if is_continued { after.trim_start_matches(is_blank) } else { after };
+        rest = if is_continued {
+            after.trim_start_matches(|it| u8::try_from(it).is_ok_and(is_blank))
+        } else {
+            after
+        };
     }
     joined.push_str(rest);
-    joined
+    Cow::Owned(joined)
 }
 
 /// What separates pieces: not a non-breaking space.
-fn is_blank(character: char) -> bool {
-    matches!(character, ' ' | '\t' | '\n' | '\r')
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-fn split(text: &str) -> Vec<Piece> {
-    let index = |byte: usize| u32::try_from(byte).unwrap_or(u32::MAX);
-    let mut pieces = Vec::new();
-    let mut end = 0;
-    while let Some(start) = text[end..].find(|character| !is_blank(character)).map(|offset| end + offset) {
-        end = text[start..].find(is_blank).map_or(text.len(), |length| start + length);
-        let first = text[start..].chars().next().unwrap_or_default();
-        pieces.push(Piece {
-            letter: Letter::new(first),
-            span: index(start)..index(end),
-            value_start: index(start + first.len_utf8()),
-        });
-    }
-    pieces
+/// The first piece of a text from a byte on.
+fn next_piece(text: &str, from: usize) -> Option<Piece> {
+    let bytes = text.as_bytes();
+    let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;
+    let end =
+        bytes[start..].iter().position(|byte| is_blank(*byte)).map_or(bytes.len(), |length| start + length);
+    let first = text[start..].chars().next()?;
+    Some(Piece { letter: Letter::new(first), span: start..end, value_start: start + first.len_utf8() })
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.
-pub(crate) fn without_percent_codes(text: &str) -> String {
+pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
+    if !text.contains('%') {
+        return Cow::Borrowed(text);
+    }
     let mut replaced = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(at) = rest.find("%%") {
@@ -192,5 +190,5 @@ pub(crate) fn without_percent_codes(text: &str) -> String {
         rest = &rest[at + 3..];
     }
     replaced.push_str(rest);
-    replaced
+    Cow::Owned(replaced)
 }

@@ -3,6 +3,7 @@
 mod ends;
 mod failure;
 mod join;
+mod passage;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -10,9 +11,11 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use crate::approx::{coincide, near};
 use crate::chain::{Item, items};
 use crate::geometry::Xy;
-use crate::path::{Path, Segment, SegmentKind, Sweep};
+use crate::path::{Path, SegmentKind};
 
 use ends::Ends;
+
+pub(crate) use passage::{Passage, curve};
 
 /// A path in the order of milling.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,13 +26,13 @@ pub struct Walked {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// A segment as it is traversed.
-#[derive(Clone, Debug)]
+/// A step along a segment.
+#[derive(Debug)]
 pub(crate) struct Step {
     /// Its index in the path.
     pub(crate) segment: usize,
-    /// From where the tool is to where it comes; `None` for the return over a drilled hole, which only ends the chain.
-    pub(crate) traversed: Option<Segment>,
+    /// How it is traversed; `None` for the return over a drilled hole, which only ends the chain.
+    pub(crate) passage: Option<Passage>,
     /// Whether it is gone back over.
     pub(crate) is_return: bool,
 }
@@ -38,7 +41,7 @@ pub(crate) struct Step {
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     let mut walk = Walk::new(path, join_tolerance);
     let (items, mut diagnostics) = match walk.run() {
-        Ok(()) => items(&walk.steps),
+        Ok(()) => items(path, std::mem::take(&mut walk.steps)),
         Err(problem) => (Vec::new(), vec![*problem]),
     };
     diagnostics.append(&mut walk.joined);
@@ -58,8 +61,8 @@ struct Walk<'a> {
     left: usize,
     at: Xy,
     steps: Vec<Step>,
-    /// Steps taken forwards and not yet gone back over. They always lead from the start to `at`.
-    way_back: Vec<Step>,
+    /// Steps taken forwards and not yet gone back over, by number. They always lead from the start to `at`.
+    way_back: Vec<usize>,
     has_acted: Vec<bool>,
     join_tolerance: f64,
     /// PB115 for each join.
@@ -68,16 +71,17 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(path: &'a Path, join_tolerance: f64) -> Self {
+        let count = path.segments.len();
         Self {
             path,
             join_tolerance,
             joined: Vec::new(),
-            ends: Ends::new(&path.segments),
-            is_traversed: vec![false; path.segments.len()],
-            left: path.segments.len(),
+            ends: Ends::new(path),
+            is_traversed: vec![false; count],
+            left: count,
             at: path.start,
-            steps: Vec::new(),
-            way_back: Vec::new(),
+            steps: Vec::with_capacity(count),
+            way_back: Vec::with_capacity(count),
             has_acted: vec![false; path.turns.len()],
         }
     }
@@ -109,46 +113,64 @@ impl<'a> Walk<'a> {
 
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&self) -> Option<usize> {
-        let near = self.ends.near(self.at, &self.path.segments);
-        let mut candidates: Vec<usize> = near.filter(|segment| !self.is_traversed[*segment]).collect();
+        let mut open = self.ends.near(self.at).filter(|segment| !self.is_traversed[*segment]);
+        let first = open.next()?;
+        let Some(second) = open.next() else { return Some(first) };
+        let mut star: Vec<usize> = [first, second].into_iter().chain(open).collect();
         // One scan in segment order: lengths are compared approximately, which is not transitive.
-        candidates.sort_unstable();
-        candidates.into_iter().reduce(|best, other| if self.comes_before(other, best) { other } else { best })
+        star.sort_unstable();
+        star.into_iter().reduce(|best, other| if self.comes_before(other, best) { other } else { best })
     }
 
     fn comes_before(&self, a: usize, b: usize) -> bool {
-        let (first, second) = (&self.path.segments[a], &self.path.segments[b]);
-        let rank = |segment: &Segment| (segment.order, segment.preference());
-        if rank(first) != rank(second) {
-            return rank(first) < rank(second);
+        let rank = |segment: usize| {
+            let segment = &self.path.segments[segment];
+            (segment.order, segment.preference())
+        };
+        if rank(a) != rank(b) {
+            return rank(a) < rank(b);
         }
-        let (length, other) = (first.chord(), second.chord());
+        let (length, other) = (self.chord(a), self.chord(b));
         if near(length, other) { a < b } else { length < other }
     }
 
-    fn take(&mut self, index: usize) {
-        let segment = self.path.segments[index].clone();
-        let step = Step { segment: index, traversed: Some(self.as_met_here(segment)), is_return: false };
-        self.is_traversed[index] = true;
+    /// The length of a segment at a star.
+    fn chord(&self, segment: usize) -> f64 {
+        let [start, end] = self.ends.of(segment);
+        (end - start).norm()
+    }
+
+    fn take(&mut self, segment: usize) {
+        self.is_traversed[segment] = true;
         self.left -= 1;
-        self.way_back.push(step.clone());
-        self.follow(step);
+        self.way_back.push(self.steps.len());
+        let drawn = Passage::drawn(self.ends.of(segment));
+        self.follow(segment, Some(drawn), false);
     }
 
-    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined.
-    fn as_met_here(&self, segment: Segment) -> Segment {
-        let (to_start, to_end) = ((segment.start() - self.at).norm(), (segment.end() - self.at).norm());
-        let is_joined = !coincide(segment.start(), self.at) && !coincide(segment.end(), self.at);
-        let is_turned = if is_joined { to_end < to_start } else { coincide(segment.end(), self.at) };
-        let segment = if is_turned { segment.turned_round() } else { segment };
-        if is_joined { segment.starting_at(self.at) } else { segment }
-    }
-
-    fn follow(&mut self, step: Step) {
-        if let Some(segment) = &step.traversed {
-            self.at = segment.end();
+    fn follow(&mut self, segment: usize, passage: Option<Passage>, is_return: bool) {
+        let passage = passage.map(|passage| self.as_met_here(segment, passage, is_return));
+        if let Some(passage) = &passage {
+            self.at = passage.end;
         }
-        self.steps.push(step);
+        self.steps.push(Step { segment, passage, is_return });
+    }
+
+    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined. Holes and circles stay
+    /// where they are.
+    fn as_met_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
+        let is_end_here = coincide(passage.end, self.at);
+        let is_joined = !is_end_here && !coincide(passage.start, self.at);
+        if !is_joined {
+            return if is_end_here { passage.turned_round() } else { passage };
+        }
+        let segment = &self.path.segments[segment];
+        let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
+        let passage = if is_nearer_at_end { passage.turned_round() } else { passage };
+        match segment.kind {
+            SegmentKind::Hole(_) | SegmentKind::Helix(_) if !is_return => passage,
+            _ => passage.starting_at(self.at, self.path, segment),
+        }
     }
 
     fn turn_marker(&mut self) -> Option<usize> {
@@ -160,12 +182,16 @@ impl<'a> Walk<'a> {
         Some(found)
     }
 
-    /// Goes back over the way until something is found; an error when the way back is used up.
+    /// Goes back over the way until something is found; an error when the way back is used up. (spec/50-path-building.md, "Turn markers")
     fn go_back(&mut self, is_found: impl Fn(&Self) -> bool) -> Result<(), ()> {
         loop {
-            let step = self.way_back.pop().ok_or(())?;
-            let traversed = step.traversed.and_then(returned).map(|segment| self.as_met_here(segment));
-            self.follow(Step { segment: step.segment, traversed, is_return: true });
+            let step = &self.steps[self.way_back.pop().ok_or(())?];
+            let segment = step.segment;
+            let passage = match self.path.segments[segment].kind {
+                SegmentKind::Hole(_) => None,
+                _ => step.passage.clone().map(Passage::turned_round),
+            };
+            self.follow(segment, passage, true);
             if is_found(self) {
                 return Ok(());
             }
@@ -184,17 +210,4 @@ impl<'a> Walk<'a> {
         let idle = self.path.turns.iter().zip(&self.has_acted).filter(|(_, has_acted)| !**has_acted);
         idle.map(|(turn, _)| turn.origin.at(Diagnostic::new(&messages::TURN_WITHOUT_EFFECT))).collect()
     }
-}
-
-/// What going back over a segment is. (spec/50-path-building.md, "Turn markers")
-fn returned(segment: Segment) -> Option<Segment> {
-    let sweep = |start, end, height| SegmentKind::Sweep(Sweep { start, end, height });
-    let kind = match &segment.kind {
-        SegmentKind::Cut(_) => return Some(segment.turned_round()),
-        SegmentKind::Hole(_) => return None,
-        SegmentKind::Helix(helix) => sweep(helix.centre, helix.centre, None),
-        SegmentKind::Sweep(forwards) => sweep(forwards.end, forwards.start, forwards.height),
-        SegmentKind::Subpath(subpath) => sweep(subpath.end, subpath.start, None),
-    };
-    Some(Segment { kind, ..segment })
 }

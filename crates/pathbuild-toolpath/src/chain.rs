@@ -35,7 +35,7 @@ impl<P: Parts> Fold<'_, P> {
         let strands: Vec<Strand<'_>> =
             chain.segments.iter().map(|segment| self.strand(place, segment, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
-        self.element(ElementKind::MillingChain, &chain.segments[0].origin, bottom, place, None);
+        self.element(ElementKind::MillingChain, chain.segments[0].origin(place.path), bottom, place, None);
         if chain.first_depth.is_some() {
             self.sweepless(place, &strands);
         } else {
@@ -50,15 +50,15 @@ impl<P: Parts> Fold<'_, P> {
         first: f64,
         infeed: f64,
     ) -> Strand<'s> {
-        let cut = &segment.cut;
+        let (cut, curve) = (&segment.cut, segment.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
-            let plan = BarPlan::new(bars, cut.bottom, place.path.tool, cut.curve.length());
+            let plan = BarPlan::new(bars, cut.bottom, place.path.tool, curve.length());
             (place.raised + bars.top, plan)
         });
         Strand {
             segment,
-            curve: place.placement.place_curve(&cut.curve),
+            curve: place.placement.place_curve(&curve),
             depths: depths(first, infeed, bottom),
             bottom,
             bars,

@@ -11,7 +11,7 @@ fn moves(path: &Path, item: &Item) -> u64 {
     match item {
         Item::Chain(chain) => chain_moves(path, chain),
         Item::Helix { helix, .. } => helix_moves(path, helix),
-        Item::Hole { .. } | Item::Sweep { .. } | Item::Subpath(_) => 4,
+        Item::Hole { .. } | Item::Sweep(_) | Item::Subpath(_) => 4,
     }
 }
 
@@ -19,7 +19,7 @@ fn chain_moves(path: &Path, chain: &Chain) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
     let segments = chain.segments.iter().map(|member| {
         let cut = &member.cut;
-        let sections = cut.bars.map_or(1.0, |bars| 4.0 * bars.count(cut.curve.length()) + 1.0);
+        let sections = cut.bars.map_or(1.0, |bars| 4.0 * bars.count(member.curve(path).length()) + 1.0);
         passes(first - cut.bottom, chain.infeed).saturating_mul(whole(sections).saturating_add(1))
     });
     let once = segments.fold(0, u64::saturating_add);

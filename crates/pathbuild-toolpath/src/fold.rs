@@ -128,12 +128,13 @@ impl<'a, P: Parts> Fold<'a, P> {
             feed: probe.feed,
             label: probe.label.clone(),
         }));
+        let origin = |segment: usize| path.origin(&path.segments[segment]);
         for item in self.parts.items(id) {
             match item {
                 Item::Chain(chain) => self.chain(&place, chain),
-                Item::Hole { origin, hole } => self.hole(&place, origin, hole),
-                Item::Helix { origin, helix } => self.helix(&place, origin, helix),
-                Item::Sweep { sweep, .. } => self.sweep_along(&place, sweep),
+                Item::Hole { segment, hole } => self.hole(&place, origin(*segment), hole),
+                Item::Helix { segment, helix } => self.helix(&place, origin(*segment), helix),
+                Item::Sweep(sweep) => self.sweep_along(&place, sweep),
                 Item::Subpath(subpath) => self.subpath(&place, id, subpath),
             }
         }

@@ -260,7 +260,7 @@ impl<'db> Embedder<'db> {
     }
 
     fn at(&self, segment: &Segment, diagnostic: Diagnostic, text: Option<&TextFault>) -> Diagnostic {
-        let diagnostic = segment.origin.at(diagnostic.in_path(self.outer.name.as_str()));
+        let diagnostic = self.outer.origin(segment).at(diagnostic.in_path(self.outer.name.as_str()));
         match text {
             Some(text) => diagnostic.with_text(text.clone()),
             None => diagnostic,

@@ -172,7 +172,7 @@ fn parse(
 ) -> Result<pathbuild_path::RawFile, Box<Diagnostic>> {
     let read = || {
         let options = Options {
-            keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
+            keep_layer: &|layer| language.path_pattern.is_layer(layer),
             units: reading.units,
             approximate_curves: reading.approximate_curves,
             max_entities: reading.entities,

@@ -11,6 +11,6 @@ use crate::settings::Settings;
 #[salsa::tracked]
 pub fn assigned_texts(db: &dyn Db, file: SourceFile) -> Vec<AssignedText> {
     let language = Settings::get(db).language(db);
-    let drawing = read_layers(db, file, &|layer| language.path_pattern.layer(layer).is_some());
+    let drawing = read_layers(db, file, &|layer| language.path_pattern.is_layer(layer));
     pathbuild_path::assigned_texts(&drawing, language)
 }

@@ -1,6 +1,5 @@
 //! The entities of each path, and what each means.
 
-use std::collections::BTreeMap;
 use std::sync::Arc as Shared;
 
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -8,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Value, words};
 use pathbuild_dxf::{Arc as DxfArc, Drawing, Entity, Geometry, Point3};
 
 use super::Starts;
-use super::texts::Texts;
+use super::texts::{Count, Texts};
 use crate::approx::near;
 use crate::assign::Candidate;
 use crate::element::{
@@ -21,10 +20,12 @@ use crate::raw::{Language, Position, RawPath, SourceMap};
 use crate::text::ParameterText;
 
 /// A path while its entities are being collected.
-pub(crate) struct Collected {
+pub(crate) struct Collected<'d> {
     pub(crate) raw: RawPath,
+    /// In file order until texts are assigned.
+    pub(crate) elements: Vec<Element>,
     pub(crate) map: SourceMap,
-    pub(crate) texts: Texts,
+    pub(crate) texts: Texts<'d>,
     /// A broken entity may be the marker, or the element of a text, that is missing: what may only follow from it is not reported.
     pub(crate) has_broken_circle: bool,
     pub(crate) has_broken_entity: bool,
@@ -50,24 +51,24 @@ enum Rank {
 }
 
 /// The paths of a drawing in order of first appearance, their texts not yet assigned.
-pub(crate) fn paths(drawing: &Drawing, language: &Language) -> Vec<Collected> {
-    let layers: Vec<Option<PathLayer>> =
-        drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name)).collect();
-    let mut paths: Vec<Collected> = Vec::new();
-    let mut by_name: BTreeMap<PathName, usize> = BTreeMap::new();
-    let mut index_of_layer = vec![None; layers.len()];
-    for (index, layer) in layers.iter().enumerate() {
-        let Some(layer) = layer else { continue };
-        let path = *by_name.entry(layer.path.clone()).or_insert_with(|| {
-            paths.push(Collected::new(layer.path.clone(), &drawing.layers[index].name));
+pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
+    let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
+    let counts = counts(drawing);
+    let mut paths: Vec<Collected<'_>> = Vec::new();
+    let mut index_of_layer = vec![None; names.len()];
+    for (index, layer) in (0_u32..).zip(&drawing.layers) {
+        let Some(PathLayer { path: name, .. }) = language.path_pattern.layer(&layer.name) else { continue };
+        let at = index as usize;
+        let path = paths.iter().position(|path| path.raw.name == name).unwrap_or_else(|| {
+            paths.push(Collected::new(name, &layer.name));
             paths.len() - 1
         });
-        index_of_layer[index] = Some(path);
-        if drawing.layers[index].hidden {
-            paths[path].hidden_layer(&drawing.layers[index].name);
+        index_of_layer[at] = Some(path);
+        paths[path].add_layer(index, &names[at], counts[at]);
+        if layer.hidden {
+            paths[path].hidden_layer(&layer.name);
         }
     }
-    let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
         if let Some(path) = index_of_layer[entity.layer as usize] {
             let position = Position { line: origin.line, handle: origin.handle };
@@ -88,7 +89,20 @@ pub(crate) fn paths(drawing: &Drawing, language: &Language) -> Vec<Collected> {
     paths
 }
 
-impl Collected {
+/// How much is on each layer.
+fn counts(drawing: &Drawing) -> Vec<Count> {
+    let mut counts = vec![Count::default(); drawing.layers.len()];
+    for entity in &drawing.entities {
+        let count = &mut counts[entity.layer as usize];
+        match entity.geometry {
+            Geometry::Text(_) | Geometry::MText(_) => count.texts += 1,
+            _ => count.others += 1,
+        }
+    }
+    counts
+}
+
+impl<'d> Collected<'d> {
     fn new(name: PathName, layer: &str) -> Self {
         let raw = RawPath {
             name,
@@ -97,7 +111,7 @@ impl Collected {
             end: None,
             turns: Vec::new(),
             probes: Vec::new(),
-            elements: Vec::new(),
+            elements: Shared::new([]),
             texts: Vec::new(),
             parameters: ParameterText::default(),
             parameters_at: None,
@@ -107,12 +121,19 @@ impl Collected {
         };
         Self {
             raw,
+            elements: Vec::new(),
             map: SourceMap::default(),
             texts: Texts::default(),
             has_broken_circle: false,
             has_broken_entity: false,
             has_elements: false,
         }
+    }
+
+    fn add_layer(&mut self, layer: u32, name: &Shared<str>, count: Count) {
+        self.texts.add_layer(layer, name, count);
+        self.elements.reserve_exact(count.others);
+        self.map.reserve(count.texts + count.others);
     }
 
     /// Whether there is anything but texts: a layer with texts alone is no path.
@@ -122,7 +143,7 @@ impl Collected {
 
     /// What is wrong with a group of layers that holds texts only.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
-        self.texts.assign(&mut self.raw);
+        std::mem::take(&mut self.texts).assign(&mut self);
         let mut diagnostics = std::mem::take(&mut self.raw.diagnostics);
         for diagnostic in &mut diagnostics {
             self.map.locate(diagnostic);
@@ -133,6 +154,7 @@ impl Collected {
 
     /// Checks what needs no values.
     pub(crate) fn finish(mut self, starts: &Starts) -> (RawPath, SourceMap) {
+        self.raw.elements = std::mem::take(&mut self.elements).into();
         self.check_markers();
         self.check_parameters(starts);
         (self.raw, self.map)
@@ -178,7 +200,7 @@ impl Collected {
         self.add_located(diagnostic);
     }
 
-    fn add(&mut self, entity: &Entity, layer: &Shared<str>, position: Position, language: &Language) {
+    fn add(&mut self, entity: &'d Entity, layer: &Shared<str>, position: Position, language: &Language) {
         let id = self.next_id(position);
         let origin =
             |point: Xy| Origin { id, entity: entity.kind, layer: layer.clone(), point: shown(point) };
@@ -286,9 +308,9 @@ impl Collected {
 
     fn add_element(&mut self, entity: &Entity, origin: Origin, shape: Shape, role: Role) {
         if role != Role::SilentSweep {
-            self.candidate(entity, &origin, shape, Owner::Element(self.raw.elements.len()));
+            self.candidate(entity, &origin, shape, Owner::Element(self.elements.len()));
         }
-        self.raw.elements.push(Element { origin, shape, role, text: None });
+        self.elements.push(Element { origin, shape, role, text: None });
     }
 
     fn candidate(&mut self, entity: &Entity, origin: &Origin, shape: Shape, owner: Owner) {
@@ -302,7 +324,7 @@ impl Collected {
         // A broken entity may be what the text belongs to.
         let is_blamed_on_text = !self.has_broken_entity;
         let before = self.raw.diagnostics.len();
-        texts.assign(&mut self.raw);
+        texts.assign(self);
         if !is_blamed_on_text {
             self.raw.diagnostics.truncate(before);
         }
@@ -310,7 +332,7 @@ impl Collected {
         for diagnostic in &mut self.raw.diagnostics[before..] {
             diagnostic.path = Some(name.into());
         }
-        self.raw.elements.sort_by_key(|element| match element.shape {
+        self.elements.sort_by_key(|element| match element.shape {
             Shape::Circle { .. } => Rank::Circle,
             Shape::Curve(Curve::Line(_)) => Rank::Line,
             Shape::Curve(Curve::Arc(_)) => Rank::Arc,

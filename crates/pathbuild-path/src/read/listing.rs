@@ -60,7 +60,7 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
 
 fn assigned(
     path: &PathName,
-    found: Match,
+    found: Match<'_>,
     entities: &[&Entity],
     at: &impl Fn(ElementId) -> Position,
 ) -> AssignedText {

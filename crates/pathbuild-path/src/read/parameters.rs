@@ -12,20 +12,21 @@ use crate::name::PathName;
 use crate::raw::tool;
 use crate::text::{ParameterText, Piece};
 
-impl Collected {
+impl Collected<'_> {
     pub(crate) fn check_parameters(&mut self, starts: &Starts) {
         // Without the path's parameters it is not known what most elements are, so their letters are not judged.
-        let Some(start) = self.raw.start.clone() else { return };
-        let Some(text) = self.raw.text_of(start.text).cloned() else {
+        let Some(start) = &self.raw.start else { return };
+        let Some(text) = self.raw.text_of(start.text) else {
+            let problem = start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS));
             if !self.has_broken_entity {
-                self.report(start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS)));
+                self.report(problem);
             }
             return;
         };
         let parameters_at = match text.piece(Letter::At) {
-            None => Ok((self.raw.name.clone(), (text, start.origin))),
-            Some(piece) => referenced(&text, piece, starts)
-                .map_err(|problem| start.origin.at(problem.with_text(text.fault(piece)))),
+            None => Ok((self.raw.name.clone(), (text.clone(), start.origin.clone()))),
+            Some(piece) => referenced(text, &piece, starts)
+                .map_err(|problem| start.origin.at(problem.with_text(text.fault(&piece)))),
         };
         match parameters_at {
             Ok((name, (parameters, origin))) => {
@@ -43,22 +44,23 @@ impl Collected {
 
     fn check_elements(&mut self, tool: Option<f64>) {
         let mut found = Vec::new();
+        let mut check = |origin: &Origin, text: Option<u32>, class: ElementClass| {
+            let problems = self.raw.text_of(text).map(|text| text.problems(class)).unwrap_or_default();
+            if !problems.is_empty() {
+                found.push((origin.clone(), problems));
+            }
+        };
         let mut seen = None;
-        for element in &self.raw.elements {
+        for element in &*self.raw.elements {
             // The parts of a polyline share one text, which is checked once.
             if element.text.is_some() && element.text == seen {
                 continue;
             }
             seen = element.text.or(seen);
-            let class = element.class(tool);
-            if let Some(text) = self.raw.text_of(element.text) {
-                found.push((element.origin.clone(), text.problems(class)));
-            }
+            check(&element.origin, element.text, element.class(tool));
         }
         for probe in &self.raw.probes {
-            if let Some(text) = self.raw.text_of(probe.text) {
-                found.push((probe.origin.clone(), text.problems(ElementClass::Probe)));
-            }
+            check(&probe.origin, probe.text, ElementClass::Probe);
         }
         for (origin, problems) in found {
             self.report_all(&origin, problems);
@@ -72,13 +74,18 @@ impl Collected {
     }
 
     fn define_variables(&mut self) {
-        let parameters = self.raw.parameters.clone();
-        for piece in parameters.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable)) {
-            match Definition::parse(parameters.value(piece)) {
+        let parameters = &self.raw.parameters;
+        let pieces = parameters.pieces().filter(|piece| piece.letter == Some(Letter::Variable));
+        let defined: Vec<_> = pieces
+            .map(|piece| {
+                Definition::parse(parameters.value(&piece))
+                    .map_err(|problem| self.raw.at_parameters(problem.with_text(parameters.fault(&piece))))
+            })
+            .collect();
+        for definition in defined {
+            match definition {
                 Ok(definition) => self.raw.definitions.push(definition),
-                Err(problem) => {
-                    self.report(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
-                }
+                Err(problem) => self.report(problem),
             }
         }
     }
@@ -90,7 +97,7 @@ fn referenced(
     piece: &Piece,
     starts: &Starts,
 ) -> Result<(PathName, (ParameterText, Origin)), Box<Diagnostic>> {
-    if text.pieces().len() > 1 {
+    if text.pieces().nth(1).is_some() {
         return Err(Box::new(Diagnostic::new(&messages::AT_WITH_OTHERS)));
     }
     let name = PathName::new(text.value(piece));

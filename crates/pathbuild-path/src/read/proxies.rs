@@ -1,6 +1,7 @@
 //! Proxy lines: drawn beside a component's path, to be copied into projects. (spec/20-paths-and-files.md, "Q-projects")
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::{ElementId, TextFault};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
@@ -38,15 +39,14 @@ impl ProxyLine {
 
     /// What it says of a letter. A value that refers to variables of whoever copies it says nothing.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
-        let piece = self.text.piece(letter)?;
-        self.known(piece)
+        self.known(&self.text.piece(letter)?)
     }
 
     /// The values that it sets, by variable.
     pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
-        let pieces = self.text.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
+        let pieces = self.text.pieces().filter(|piece| piece.letter == Some(Letter::Variable));
         pieces.filter_map(|piece| {
-            let mut value = self.known(piece)?.0.chars();
+            let mut value = self.known(&piece)?.0.chars();
             Some((value.next()?, value.as_str()))
         })
     }
@@ -60,14 +60,16 @@ impl ProxyLine {
 /// The proxy lines of a drawing, of which all layers are there, in file order. Other texts and lines beside them are not looked at.
 pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
     let is_path: Vec<bool> =
-        drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name).is_some()).collect();
+        drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
+    let names: Vec<Arc<str>> = drawing.layers.iter().map(|layer| Arc::from(&*layer.name)).collect();
     let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
     for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
         if is_path[entity.layer as usize] {
             continue;
         }
-        let layer = &*drawing.layers[entity.layer as usize].name;
-        let origin = |point| Origin { id, entity: entity.kind, layer: layer.into(), point: shown(point) };
+        let layer = &names[entity.layer as usize];
+        let origin =
+            |point| Origin { id, entity: entity.kind, layer: Arc::clone(layer), point: shown(point) };
         match &entity.geometry {
             Geometry::Text(text) if is_subpath(&text.string) => {
                 texts.add_text(text, entity.layer, origin(xy(text.anchor)));

@@ -1,76 +1,83 @@
 //! The texts of a path's layers, and the elements they are given to.
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind};
 use pathbuild_dxf::{MText, Text};
 
-use super::collect::{Owner, candidate_word};
+use super::collect::{Collected, Owner, candidate_word};
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, shown};
-use crate::raw::RawPath;
 use crate::text::{ParameterText, without_percent_codes};
 use crate::text_circle::TextCircle;
 
-/// Texts and candidates of the layers of one path. Tilde layers are layers of their own: what is on them find only each other.
+/// Texts and candidates of the layers of one path, in order of the layers' numbers. Tilde layers are layers of their own: what is on
+/// them find only each other.
 #[derive(Default)]
-pub(crate) struct Texts {
-    layers: BTreeMap<u32, LayerTexts>,
+pub(crate) struct Texts<'d> {
+    layers: Vec<(u32, LayerTexts<'d>)>,
 }
 
-#[derive(Default)]
-struct LayerTexts {
-    name: Box<str>,
+struct LayerTexts<'d> {
+    name: Arc<str>,
     candidates: Vec<Candidate>,
-    /// Where they lie, once all are there.
+    /// Where they lie, once that is asked for.
     boxes: Boxes,
     owners: Vec<Owner>,
-    texts: Vec<FoundText>,
+    texts: Vec<FoundText<'d>>,
 }
 
-struct FoundText {
+struct FoundText<'d> {
     circle: TextCircle,
-    string: String,
+    string: Cow<'d, str>,
     origin: Origin,
 }
 
 /// A text and what it belongs to.
-pub(crate) struct Match {
-    pub(crate) string: String,
+pub(crate) struct Match<'d> {
+    pub(crate) string: Cow<'d, str>,
     pub(crate) circle: TextCircle,
     pub(crate) origin: Origin,
     pub(crate) owners: Vec<(ElementId, Shape)>,
 }
 
-impl Texts {
-    pub(crate) fn add_text(&mut self, text: &Text, layer: u32, origin: Origin) {
-        let found = FoundText {
-            circle: TextCircle::of_text(text),
-            string: without_percent_codes(&text.string),
-            origin,
-        };
-        self.layer(layer, &found.origin.layer.clone()).texts.push(found);
+/// How many entities there are on a layer.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Count {
+    pub(crate) texts: usize,
+    pub(crate) others: usize,
+}
+
+impl<'d> Texts<'d> {
+    /// A layer of which it is known how much is on it.
+    pub(crate) fn add_layer(&mut self, layer: u32, name: &Arc<str>, count: Count) {
+        self.layers.push((layer, LayerTexts::new(name, count)));
     }
 
-    pub(crate) fn add_mtext(&mut self, text: &MText, layer: u32, origin: Origin) {
-        let found = FoundText {
-            circle: TextCircle::of_mtext(text),
-            string: without_percent_codes(&text.plain),
-            origin,
-        };
-        self.layer(layer, &found.origin.layer.clone()).texts.push(found);
+    pub(crate) fn add_text(&mut self, text: &'d Text, layer: u32, origin: Origin) {
+        let circle = TextCircle::of_text(text);
+        let string = without_percent_codes(&text.string);
+        self.layer(layer, &origin.layer).texts.push(FoundText { circle, string, origin });
+    }
+
+    pub(crate) fn add_mtext(&mut self, text: &'d MText, layer: u32, origin: Origin) {
+        let circle = TextCircle::of_mtext(text);
+        let string = without_percent_codes(&text.plain);
+        self.layer(layer, &origin.layer).texts.push(FoundText { circle, string, origin });
     }
 
     /// Each text with its circle and the candidates that it belongs to, layer by layer.
-    pub(crate) fn matched(mut self) -> Vec<Match> {
-        let layers = self.layers.values_mut();
+    pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
+        let layers = self.layers.iter_mut().map(|(_, layer)| layer);
         let matched = layers.flat_map(|layer| {
             let matched = layer.matched();
-            let owned = |owners: Vec<usize>| owners.iter().map(|index| layer.owned(*index)).collect();
+            let owned = |owners: Range<usize>| owners.map(|index| layer.owned(index)).collect();
             matched.into_iter().map(|(text, owners)| (text, owned(owners))).collect::<Vec<_>>()
         });
-        let shown = |(text, owners): (FoundText, Vec<(ElementId, Shape)>)| Match {
+        let shown = |(text, owners): (FoundText<'d>, Vec<(ElementId, Shape)>)| Match {
             string: text.string,
             circle: text.circle,
             origin: text.origin,
@@ -79,70 +86,95 @@ impl Texts {
         matched.map(shown).collect()
     }
 
-    pub(crate) fn add_candidate(&mut self, layer: u32, name: &str, candidate: Candidate, owner: Owner) {
+    pub(crate) fn add_candidate(&mut self, layer: u32, name: &Arc<str>, candidate: Candidate, owner: Owner) {
         let layer = self.layer(layer, name);
         layer.candidates.push(candidate);
         layer.owners.push(owner);
     }
 
-    fn layer(&mut self, layer: u32, name: &str) -> &mut LayerTexts {
-        self.layers.entry(layer).or_insert_with(|| LayerTexts { name: name.into(), ..LayerTexts::default() })
+    fn layer(&mut self, layer: u32, name: &Arc<str>) -> &mut LayerTexts<'d> {
+        let place = self.layers.binary_search_by_key(&layer, |(number, _)| *number);
+        let place = place.unwrap_or_else(|place| {
+            self.layers.insert(place, (layer, LayerTexts::new(name, Count::default())));
+            place
+        });
+        &mut self.layers[place].1
     }
 
     /// Gives each text to its element; what finds none is PB107.
-    pub(crate) fn assign(mut self, raw: &mut RawPath) {
-        for layer in self.layers.values_mut() {
-            layer.assign(raw);
+    pub(crate) fn assign(mut self, path: &mut Collected<'_>) {
+        path.raw.texts.reserve_exact(self.layers.iter().map(|(_, layer)| layer.texts.len()).sum());
+        for (_, layer) in &mut self.layers {
+            layer.assign(path);
+        }
+        if self.layers.iter().all(|(_, layer)| layer.texts.is_empty()) {
+            return;
+        }
+        for (_, layer) in &mut self.layers {
+            layer.boxes = Boxes::new(&layer.candidates);
         }
         for (number, layer) in &self.layers {
             for text in &layer.texts {
-                let elsewhere = self.layers.iter().filter(|(other, _)| *other != number);
-                raw.diagnostics.push(layer.without_element(text, elsewhere.map(|(_, other)| other)));
+                let elsewhere = self.layers.iter().filter(|(other, _)| other != number);
+                let problem = layer.without_element(text, elsewhere.map(|(_, other)| other));
+                path.raw.diagnostics.push(problem);
             }
         }
     }
 }
 
-impl LayerTexts {
+impl<'d> LayerTexts<'d> {
+    fn new(name: &Arc<str>, count: Count) -> Self {
+        Self {
+            name: Arc::clone(name),
+            candidates: Vec::with_capacity(count.others),
+            boxes: Boxes::default(),
+            owners: Vec::with_capacity(count.others),
+            texts: Vec::with_capacity(count.texts),
+        }
+    }
+
     /// Gives each text to its element. What finds no element stays in `texts`.
-    fn assign(&mut self, raw: &mut RawPath) {
+    fn assign(&mut self, path: &mut Collected<'_>) {
         for (text, owners) in self.matched() {
             if owners.is_empty() {
                 self.texts.push(text);
             } else {
-                self.give(&text, &owners, raw);
+                self.give(&text, owners, path);
             }
         }
     }
 
     /// All TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    fn matched(&mut self) -> Vec<(FoundText, Vec<usize>)> {
-        self.boxes = Boxes::new(&self.candidates);
+    fn matched(&mut self) -> Vec<(FoundText<'d>, Range<usize>)> {
         let mut texts = std::mem::take(&mut self.texts);
+        if texts.is_empty() {
+            return Vec::new();
+        }
+        self.boxes = Boxes::new(&self.candidates);
         texts.sort_by_key(|text| text.origin.entity == EntityKind::MText);
         let mut matched = Vec::with_capacity(texts.len());
         for text in texts {
-            let owners = find(&text.circle, &self.candidates, &self.boxes)
-                .map_or_else(Vec::new, |index| self.parts(index));
-            for owner in &owners {
-                self.candidates[*owner].is_taken = true;
+            let owners =
+                find(&text.circle, &self.candidates, &self.boxes).map_or(0..0, |index| self.parts(index));
+            for owner in &mut self.candidates[owners.clone()] {
+                owner.is_taken = true;
             }
             matched.push((text, owners));
         }
         matched
     }
 
-    /// A candidate, and what is part of the same polyline.
-    fn parts(&self, index: usize) -> Vec<usize> {
-        match self.candidates[index].group {
-            None => vec![index],
-            group => {
-                // They were read one after the other.
-                let is_part = |other: &usize| self.candidates[*other].group == group;
-                let before = (0..index).rev().take_while(is_part).last().unwrap_or(index);
-                (before..self.candidates.len()).take_while(is_part).collect()
-            }
+    /// A candidate, and what is part of the same polyline: they were read one after the other.
+    fn parts(&self, index: usize) -> Range<usize> {
+        let group = self.candidates[index].group;
+        if group.is_none() {
+            return index..index + 1;
         }
+        let is_part = |other: &usize| self.candidates[*other].group == group;
+        let first = (0..index).rev().take_while(is_part).last().unwrap_or(index);
+        let behind = (index..self.candidates.len()).take_while(is_part).last().unwrap_or(index) + 1;
+        first..behind
     }
 
     fn owned(&self, index: usize) -> (ElementId, Shape) {
@@ -150,14 +182,15 @@ impl LayerTexts {
         (candidate.id, candidate.shape)
     }
 
-    fn give(&self, text: &FoundText, owners: &[usize], raw: &mut RawPath) {
+    fn give(&self, text: &FoundText<'_>, owners: Range<usize>, path: &mut Collected<'_>) {
+        let raw = &mut path.raw;
         let number = u32::try_from(raw.texts.len()).unwrap_or(u32::MAX);
         raw.texts.push(ParameterText::new(&text.string));
-        for owner in owners {
-            let owner = match self.owners[*owner] {
+        for owner in &self.owners[owners] {
+            let owner = match *owner {
                 Owner::Start => raw.start.as_mut().map(|start| &mut start.text),
                 Owner::Probe(probe) => Some(&mut raw.probes[probe].text),
-                Owner::Element(element) => Some(&mut raw.elements[element].text),
+                Owner::Element(element) => Some(&mut path.elements[element].text),
                 Owner::Faulty => None,
             };
             if let Some(owner) = owner {
@@ -166,7 +199,14 @@ impl LayerTexts {
         }
     }
 
-    fn without_element<'a>(&self, text: &FoundText, elsewhere: impl Iterator<Item = &'a Self>) -> Diagnostic {
+    fn without_element<'a>(
+        &self,
+        text: &FoundText<'_>,
+        elsewhere: impl Iterator<Item = &'a Self>,
+    ) -> Diagnostic
+    where
+        'd: 'a,
+    {
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
             .with("text", text.string.replace('\n', " "))
             .with("centre", shown(text.circle.centre))
@@ -187,7 +227,7 @@ impl LayerTexts {
     }
 
     /// Notes that a text would have found its element, had it been on this layer.
-    fn would_take(&self, text: &FoundText, diagnostic: Diagnostic) -> Diagnostic {
+    fn would_take(&self, text: &FoundText<'_>, diagnostic: Diagnostic) -> Diagnostic {
         let Some(index) = find(&text.circle, &self.candidates, &self.boxes) else { return diagnostic };
         let shape = &self.candidates[index].shape;
         diagnostic.note(

@@ -2,10 +2,14 @@
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
-use crate::path::Segment;
+use crate::path::Path;
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
-pub(super) struct Ends(Vec<(Square, u32)>);
+pub(super) struct Ends {
+    /// Start and end of each segment, as drawn.
+    drawn: Vec<[Xy; 2]>,
+    squares: Vec<(Square, u32)>,
+}
 
 /// A column, and a row in it.
 type Square = (i64, i64);
@@ -14,39 +18,46 @@ type Square = (i64, i64);
 const SIDE: f64 = 0.0001;
 
 impl Ends {
-    pub(super) fn new(segments: &[Segment]) -> Self {
-        let mut ends = Vec::with_capacity(2 * segments.len());
-        for (index, segment) in segments.iter().enumerate() {
-            let index = u32::try_from(index).unwrap_or(u32::MAX);
-            let (start, end) = (square(segment.start()), square(segment.end()));
-            ends.push((start, index));
+    pub(super) fn new(path: &Path) -> Self {
+        let drawn: Vec<[Xy; 2]> = path.segments.iter().map(|segment| path.ends(segment)).collect();
+        let mut squares = Vec::with_capacity(2 * drawn.len());
+        for (index, [start, end]) in (0_u32..).zip(&drawn) {
+            let (start, end) = (square(*start), square(*end));
+            squares.push((start, index));
             if end != start {
-                ends.push((end, index));
+                squares.push((end, index));
             }
         }
-        ends.sort_unstable();
-        Self(ends)
+        squares.sort_unstable();
+        Self { drawn, squares }
+    }
+
+    /// Where a segment starts and where it ends, as drawn.
+    pub(super) fn of(&self, segment: usize) -> [Xy; 2] {
+        self.drawn[segment]
     }
 
     /// Segments with an end at a point; one whose ends are close together may be named twice.
-    pub(super) fn near<'a>(&'a self, point: Xy, segments: &'a [Segment]) -> impl Iterator<Item = usize> + 'a {
+    pub(super) fn near(&self, point: Xy) -> impl Iterator<Item = usize> + '_ {
         let (x, y) = square(point);
         let columns = (-1..=1).map(move |dx: i64| x.saturating_add(dx));
         let (low, high) = (y.saturating_sub(1), y.saturating_add(1));
         let named = columns.flat_map(move |column| {
-            let first = self.0.partition_point(|(square, _)| *square < (column, low));
-            self.0[first..].iter().take_while(move |(square, _)| *square <= (column, high))
+            let first = self.squares.partition_point(|(square, _)| *square < (column, low));
+            self.squares[first..].iter().take_while(move |(square, _)| *square <= (column, high))
         });
-        named.map(|(_, index)| *index as usize).filter(move |index| {
-            coincide(segments[*index].start(), point) || coincide(segments[*index].end(), point)
-        })
+        let segments = named.map(|(_, segment)| *segment as usize);
+        segments.filter(move |segment| self.drawn[*segment].iter().any(|end| coincide(*end, point)))
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "saturates: all that is so far off falls into one square"
-)]
 fn square(point: Xy) -> Square {
-    ((point.x / SIDE).floor() as i64, (point.y / SIDE).floor() as i64)
+    (floor(point.x / SIDE), floor(point.y / SIDE))
+}
+
+/// The whole number below. All that is very far off falls into one square.
+#[expect(clippy::cast_possible_truncation, reason = "saturates")]
+fn floor(number: f64) -> i64 {
+    let towards_zero = number as i64;
+    towards_zero.saturating_sub(i64::from(number < towards_zero as f64))
 }

@@ -1,13 +1,13 @@
 //! Why a walk does not arrive, and what helps to see it.
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk as messages;
+use pathbuild_diagnostic::{Diagnostic, Word, words};
 
 use super::Walk;
-use crate::approx::coincide;
+use crate::approx::{coincide, near};
 use crate::element::shown;
 use crate::geometry::Xy;
-use crate::path::{Segment, SegmentKind};
+use crate::path::SegmentKind;
 
 impl Walk<'_> {
     pub(super) fn empty(&self) -> Diagnostic {
@@ -16,7 +16,7 @@ impl Walk<'_> {
 
     pub(super) fn nothing_continues(&self) -> Diagnostic {
         let problem = Diagnostic::new(&messages::NOTHING_CONTINUES).with("left", self.left);
-        let last = self.steps.last().map(|step| &self.path.segments[step.segment].origin);
+        let last = self.steps.last().map(|step| self.path.origin(&self.path.segments[step.segment]));
         let mut problem = last.unwrap_or(&self.path.start_origin).at(problem);
         problem.place.point = Some(shown(self.at));
         self.with_hints(problem)
@@ -31,7 +31,8 @@ impl Walk<'_> {
         let one = self.open().next();
         let mut problem = Diagnostic::new(&messages::UNREACHED).with("left", self.left);
         if let Some(segment) = one {
-            problem = problem.with("element", word(segment)).with("point", shown(segment.start()));
+            let [start, _] = self.ends.of(segment);
+            problem = problem.with("element", self.word(segment)).with("point", shown(start));
         }
         self.with_duplicate(self.path.end_origin.at(problem))
     }
@@ -43,13 +44,10 @@ impl Walk<'_> {
         self.path.end_origin.at(problem)
     }
 
-    fn open(&self) -> impl Iterator<Item = &Segment> {
-        self.path
-            .segments
-            .iter()
-            .zip(&self.is_traversed)
-            .filter(|(_, traversed)| !**traversed)
-            .map(|(open, _)| open)
+    /// The segments that were not reached.
+    pub(super) fn open(&self) -> impl Iterator<Item = usize> {
+        let open = self.is_traversed.iter().enumerate().filter(|(_, traversed)| !**traversed);
+        open.map(|(segment, _)| segment)
     }
 
     fn with_hints(&self, problem: Diagnostic) -> Diagnostic {
@@ -59,7 +57,7 @@ impl Walk<'_> {
     }
 
     fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
-        let ends = self.open().flat_map(|segment| [(segment, segment.start()), (segment, segment.end())]);
+        let ends = self.open().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
         let nearest = distances.reduce(|best, other| if other.2 < best.2 { other } else { best });
         let Some((segment, end, distance)) = nearest else { return problem };
@@ -68,22 +66,22 @@ impl Walk<'_> {
             vec![
                 ("point", shown(end).into()),
                 ("distance", distance.into()),
-                ("element", word(segment).into()),
+                ("element", self.word(segment).into()),
             ],
         )
     }
 
     /// A segment drawn twice is left over, and looks just like the one that was traversed.
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
-        let segments = &self.path.segments;
         let duplicate = self.open().find(|open| {
-            let mut beside = self.ends.near(open.start(), segments);
-            beside.any(|other| self.is_traversed[other] && is_same_curve(open, &segments[other]))
+            let [start, _] = self.ends.of(*open);
+            self.ends.near(start).any(|other| self.is_traversed[other] && self.is_same_curve(*open, other))
         });
         let Some(segment) = duplicate else { return problem };
+        let [start, _] = self.ends.of(segment);
         problem.note(
             &messages::DUPLICATE,
-            vec![("element", word(segment).into()), ("point", shown(segment.start()).into())],
+            vec![("element", self.word(segment).into()), ("point", shown(start).into())],
         )
     }
 
@@ -97,27 +95,28 @@ impl Walk<'_> {
         let Some((kind, begin)) = nearest else { return problem };
         problem.note(&messages::LEFT_OUT_HERE, vec![("kind", kind.name().into()), ("point", (*begin).into())])
     }
-}
 
-fn is_same_curve(a: &Segment, b: &Segment) -> bool {
-    let (SegmentKind::Cut(first), SegmentKind::Cut(second)) = (&a.kind, &b.kind) else { return false };
-    let ends = |segment: &Segment| (segment.start(), segment.end());
-    let ((a, b), (c, d)) = (ends(a), ends(b));
-    let is_between_same = (coincide(a, c) && coincide(b, d)) || (coincide(a, d) && coincide(b, c));
-    is_between_same && crate::approx::near(first.curve.length(), second.curve.length())
-}
+    fn is_same_curve(&self, a: usize, b: usize) -> bool {
+        let length = |segment: usize| {
+            let segment = &self.path.segments[segment];
+            match segment.kind {
+                SegmentKind::Cut(_) => self.path.curve(segment).map(|curve| curve.length()),
+                _ => None,
+            }
+        };
+        let (Some(first), Some(second)) = (length(a), length(b)) else { return false };
+        let ([a, b], [c, d]) = (self.ends.of(a), self.ends.of(b));
+        let is_between_same = (coincide(a, c) && coincide(b, d)) || (coincide(a, d) && coincide(b, c));
+        is_between_same && near(first, second)
+    }
 
-fn word(segment: &Segment) -> &'static pathbuild_diagnostic::Word {
-    use pathbuild_diagnostic::words;
-    match &segment.kind {
-        SegmentKind::Cut(cut) => match cut.cut {
-            crate::Cut::Mill => &words::MILLING_SEGMENT,
-            crate::Cut::Mark => &words::MARKING_SEGMENT,
-            crate::Cut::Support => &words::SUPPORT_SEGMENT,
-        },
-        SegmentKind::Hole(_) => &words::DRILLED_HOLE,
-        SegmentKind::Helix(_) => &words::HELICAL_CIRCLE,
-        SegmentKind::Sweep(_) => &words::SWEEP,
-        SegmentKind::Subpath(_) => &words::SUBPATH,
+    fn word(&self, segment: usize) -> &'static Word {
+        match &self.path.segments[segment].kind {
+            SegmentKind::Cut(parameters) => parameters.word(),
+            SegmentKind::Hole(_) => &words::DRILLED_HOLE,
+            SegmentKind::Helix(_) => &words::HELICAL_CIRCLE,
+            SegmentKind::Sweep { .. } => &words::SWEEP,
+            SegmentKind::Subpath(_) => &words::SUBPATH,
+        }
     }
 }

@@ -13,17 +13,16 @@ impl Walk<'_> {
         if self.join_tolerance <= 0.0 {
             return None;
         }
-        let open = self.path.segments.iter().enumerate().filter(|(index, _)| !self.is_traversed[*index]);
-        let distances = open.map(|(index, segment)| {
-            let (start, end) = (segment.start() - self.at, segment.end() - self.at);
-            (index, start.norm().min(end.norm()))
+        let distances = self.open().map(|segment| {
+            let [to_start, to_end] = self.ends.of(segment).map(|end| (end - self.at).norm());
+            (segment, to_start.min(to_end))
         });
         let (nearest, distance) =
             distances.reduce(|best, other| if other.1 < best.1 { other } else { best })?;
         if above(distance, self.join_tolerance) {
             return None;
         }
-        self.report_join(&self.path.segments[nearest].origin, distance);
+        self.report_join(self.path.origin(&self.path.segments[nearest]), distance);
         Some(nearest)
     }
 

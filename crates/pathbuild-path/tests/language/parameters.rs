@@ -1,6 +1,6 @@
 //! Which value holds: the element's own, else the path's. (spec/30-parameters.md)
 
-use pathbuild_path::{CutSegment, Path, SegmentKind};
+use pathbuild_path::{CutParameters, Path, SegmentKind};
 
 use crate::support::{compile, path, read, wrong};
 
@@ -51,7 +51,9 @@ fn known(parameters: &str, statements: &str) -> String {
     assert!(errors.is_empty(), "{errors:?} with {parameters}\n{statements}");
     let path: Path = compiled.path.unwrap();
     let segment = match path.segments[0].kind.clone() {
-        SegmentKind::Cut(cut) => format!("{:?}", CutSegment { own_chain_letters: Vec::new(), ..cut }),
+        SegmentKind::Cut(cut) => {
+            format!("{:?}", CutParameters { own_chain_letters: Vec::new(), ..(*cut).clone() })
+        }
         SegmentKind::Subpath(subpath) => {
             format!("{} {} {:?}", subpath.thickness, subpath.tool, subpath.material)
         }
@@ -124,8 +126,8 @@ fn a_sweep_has_its_own_height_or_that_of_the_path() {
     let height = |text: &str| {
         let path =
             compile(&path("T5 O3 S20", &format!("line DASHED 0,0 40,0 {text}\nend 40,0"))).path.unwrap();
-        let SegmentKind::Sweep(sweep) = path.segments[0].kind.clone() else { panic!() };
-        sweep.height
+        let SegmentKind::Sweep { height } = path.segments[0].kind else { panic!() };
+        height
     };
     assert_eq!((height(""), height("\"S12\"")), (None, Some(12.0)));
 }

@@ -4,7 +4,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_draw::Sheet;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Xy, bind, raw_file, walk,
+    Bindings, Curve, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Xy, bind,
+    raw_file, walk,
 };
 
 /// What became of a path.
@@ -13,6 +14,15 @@ pub(crate) struct Compiled {
     pub(crate) items: Vec<Item>,
     /// What was found, stage by stage.
     pub(crate) found: Vec<Diagnostic>,
+}
+
+impl Compiled {
+    /// The curves of the chain that the path begins with.
+    #[track_caller]
+    pub(crate) fn first_chain(&self) -> Vec<Curve> {
+        let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.items.first()) else { panic!() };
+        chain.segments.iter().map(|member| member.curve(path)).collect()
+    }
 }
 
 pub(crate) fn language() -> Language {
@@ -96,21 +106,23 @@ pub(crate) fn items(drawing: &str) -> Vec<String> {
     let compiled = compile(drawing);
     let errors: Vec<&Diagnostic> = compiled.found.iter().filter(|found| found.is_error()).collect();
     assert!(errors.is_empty(), "{errors:?} in\n{drawing}");
-    compiled.items.iter().map(item).collect()
+    let path = compiled.path.as_ref().expect("there are no errors");
+    compiled.items.iter().map(|it| item(path, it)).collect()
 }
 
-fn item(item: &Item) -> String {
+fn item(path: &Path, item: &Item) -> String {
     match item {
         Item::Chain(chain) => {
             let member = |member: &pathbuild_path::ChainSegment| {
                 let back = if member.is_return { " back" } else { "" };
-                format!("{}{back}", ends(member.cut.curve.start(), member.cut.curve.end()))
+                let curve = member.curve(path);
+                format!("{}{back}", ends(curve.start(), curve.end()))
             };
             format!("[{}]", chain.segments.iter().map(member).collect::<Vec<_>>().join(", "))
         }
         Item::Hole { hole, .. } => format!("hole {}", point(hole.centre)),
         Item::Helix { helix, .. } => format!("helix {} r{}", point(helix.centre), helix.radius),
-        Item::Sweep { sweep, .. } => format!("sweep {}", ends(sweep.start, sweep.end)),
+        Item::Sweep(sweep) => format!("sweep {}", ends(sweep.start, sweep.end)),
         Item::Subpath(subpath) => format!("subpath {}", ends(subpath.start, subpath.end)),
     }
 }

@@ -7,10 +7,10 @@ use crate::support::{codes, compile, path, raw, wrong};
 /// The pieces of a text: letters with their values, `?` for what is no letter.
 fn pieces(text: &str) -> Vec<String> {
     let text = ParameterText::new(text);
-    let piece = |piece: &pathbuild_path::Piece| {
-        format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(piece))
+    let piece = |piece: pathbuild_path::Piece| {
+        format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(&piece))
     };
-    text.pieces().iter().map(piece).collect()
+    text.pieces().map(piece).collect()
 }
 
 #[test]

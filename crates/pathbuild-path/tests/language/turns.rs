@@ -31,10 +31,9 @@ fn an_arc_is_run_back_the_other_way() {
         P,
         "mill 0,0 20,0\nmill arc 20,0 20,10 r 5\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0",
     ));
-    let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
-    let clockwise: Vec<bool> = chain.segments[1..3]
+    let clockwise: Vec<bool> = compiled.first_chain()[1..3]
         .iter()
-        .map(|member| matches!(member.cut.curve, pathbuild_path::Curve::Arc(arc) if arc.clockwise))
+        .map(|curve| matches!(curve, pathbuild_path::Curve::Arc(arc) if arc.clockwise))
         .collect();
     assert_eq!(clockwise, [false, true]);
 }
@@ -49,7 +48,7 @@ fn a_sweep_is_swept_back_at_its_own_height() {
         .items
         .iter()
         .filter_map(|item| match item {
-            pathbuild_path::Item::Sweep { sweep, .. } => Some(sweep.height),
+            pathbuild_path::Item::Sweep(sweep) => Some(sweep.height),
             _ => None,
         })
         .collect();

@@ -115,7 +115,7 @@ fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
 fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
     match compiled.path.map(|path| path.segments[0].kind.clone()) {
-        Some(SegmentKind::Cut(cut)) => cut.comment.unwrap().into(),
+        Some(SegmentKind::Cut(cut)) => cut.comment.clone().unwrap().into(),
         _ => codes(&compiled.found).join(" "),
     }
 }

@@ -28,8 +28,7 @@ fn segments_follow_each_other_whatever_way_they_are_drawn() {
 fn an_arc_is_turned_round_with_its_direction() {
     let arc = |statement: &str| {
         let compiled = compile(&path(P, &format!("{statement}\nend 20,0")));
-        let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
-        let pathbuild_path::Curve::Arc(arc) = chain.segments[0].cut.curve else { panic!() };
+        let pathbuild_path::Curve::Arc(arc) = compiled.first_chain()[0] else { panic!() };
         (arc.clockwise, arc.degrees.round())
     };
     assert_eq!(arc("mill arc centre 10,0 r 10 from 180 to 0"), (false, 180.0));

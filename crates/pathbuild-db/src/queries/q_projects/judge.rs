@@ -68,11 +68,11 @@ impl<'db> Judge<'db> {
     /// PB517, without a place.
     fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
         let language = Settings::get(self.component.db).language(self.component.db);
-        let written = proxy.text.piece(Letter::Embed).map(|piece| (piece, proxy.text.value(piece)));
-        let Some((piece, written)) = written.filter(|(_, written)| !written.contains('=')) else {
+        let written = proxy.text.piece(Letter::Embed);
+        let written = written.map(|piece| (proxy.text.value(&piece), proxy.text.fault(&piece)));
+        let Some((written, fault)) = written.filter(|(written, _)| !written.contains('=')) else {
             return Vec::new();
         };
-        let fault = proxy.text.fault(piece);
         let known = |name: &PathName| self.component.names.contains(name);
         let Some(name) = proxy.name(language).filter(known) else {
             let names: Value = self.component.names.iter().map(PathName::as_str).collect();
@@ -145,7 +145,7 @@ impl<'db> Judge<'db> {
             return;
         }
         let place = |problem: Diagnostic| {
-            let problem = segment.origin.at(problem.in_path(path.name.as_str()));
+            let problem = path.origin(segment).at(problem.in_path(path.name.as_str()));
             problem.in_file(self.q_project.path(self.component.db))
         };
         let placed: Vec<Diagnostic> = compared.swap_remove(0).into_iter().map(place).collect();

@@ -1,0 +1,120 @@
+//! Milling, marking and support segments: most of a path's segments, many of them milled alike.
+
+use std::sync::Arc;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::walk;
+
+use super::Binder;
+use super::segments::{Scope, UNNUMBERED};
+use crate::approx::at_least;
+use crate::element::{Cut, Element, Origin};
+use crate::geometry::Curve;
+use crate::letter::{ElementClass, Letter};
+use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
+use crate::text::ParameterText;
+
+/// How the last segments were milled, so that what says the same shares it. Only what nothing was wrong with is known.
+#[derive(Default)]
+pub(super) struct KnownCuts<'a> {
+    /// The last with a text of its own.
+    with_text: Option<Known<'a>>,
+    /// The last without, of each kind.
+    without_text: [Option<Known<'a>>; 3],
+}
+
+struct Known<'a> {
+    text: Option<&'a ParameterText>,
+    cut: Cut,
+    order: f64,
+    parameters: Arc<CutParameters>,
+}
+
+impl<'a> KnownCuts<'a> {
+    fn get(&self, text: Option<&ParameterText>, cut: Cut) -> Option<(f64, Arc<CutParameters>)> {
+        let known = match text {
+            Some(_) => &self.with_text,
+            None => &self.without_text[cut as usize],
+        };
+        let known = known.as_ref().filter(|known| known.text == text && known.cut == cut)?;
+        Some((known.order, Arc::clone(&known.parameters)))
+    }
+
+    fn insert(&mut self, known: Known<'a>) {
+        let place = match known.text {
+            Some(_) => &mut self.with_text,
+            None => &mut self.without_text[known.cut as usize],
+        };
+        *place = Some(known);
+    }
+}
+
+impl<'a> Binder<'a> {
+    /// A segment of a milling chain, with its order at a star.
+    pub(super) fn cut(
+        &mut self,
+        element: &Element,
+        cut: Cut,
+        curve: &Curve,
+        tool: Option<f64>,
+    ) -> Option<(f64, SegmentKind)> {
+        let text = self.raw.text_of(element.text);
+        if let Some((order, parameters)) = self.known_cuts.get(text, cut) {
+            if let (Some(bars), Some(tool)) = (&parameters.bars, tool) {
+                self.check_room(&element.origin, bars, curve.length(), tool);
+            }
+            return Some((order, SegmentKind::Cut(parameters)));
+        }
+        let reported = self.reported;
+        let class = element.class(tool);
+        let values = self.element_values(&element.origin, text, class == ElementClass::Support);
+        let scope = Scope { origin: &element.origin, class, values: &values, tool };
+        let parameters = Arc::new(self.cut_parameters(&scope, cut, curve)?);
+        let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
+        if self.reported == reported {
+            self.known_cuts.insert(Known { text, cut, order, parameters: Arc::clone(&parameters) });
+        }
+        Some((order, SegmentKind::Cut(parameters)))
+    }
+
+    fn cut_parameters(&mut self, scope: &Scope<'_>, cut: Cut, curve: &Curve) -> Option<CutParameters> {
+        let bottom = self.needed(scope, if cut == Cut::Mark { Letter::D } else { Letter::B });
+        let bars = if cut == Cut::Support { Some(self.bars(scope, curve.length())?) } else { None };
+        let own = scope.values;
+        let own_letter = |letter: Letter| Some((letter.as_char(), own.fault(letter)?));
+        Some(CutParameters {
+            cut,
+            feed: self.allowed(scope, Letter::F),
+            bottom: bottom?,
+            bars,
+            chain: ChainParameters {
+                infeed: self.allowed(scope, Letter::I),
+                peck: self.allowed(scope, Letter::C),
+                first_depth: self.allowed(scope, Letter::W),
+            },
+            own_chain_letters: [Letter::I, Letter::C, Letter::W].into_iter().filter_map(own_letter).collect(),
+            comment: own.text(Letter::Q).map(Into::into),
+        })
+    }
+
+    /// The bars of a segment of this length, with room for the cutter between each two.
+    pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64) -> Option<Bars> {
+        let (top, bar, distance) =
+            (self.needed(scope, Letter::D), self.needed(scope, Letter::P), self.needed(scope, Letter::U));
+        let bars = Bars { top: top?, length: bar?, distance: distance? };
+        self.check_room(scope.origin, &bars, length, scope.tool?);
+        Some(bars)
+    }
+
+    fn check_room(&mut self, origin: &Origin, bars: &Bars, length: f64, tool: f64) {
+        let count = bars.count(length);
+        let gap = length / count - bars.length;
+        if count > 0.0 && !at_least(gap, tool) {
+            let problem = Diagnostic::new(&walk::NO_ROOM_BETWEEN_BARS)
+                .with("count", count)
+                .with("gap", gap)
+                .with("tool", tool);
+            self.report(origin, problem);
+        }
+    }
+}

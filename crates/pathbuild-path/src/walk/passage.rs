@@ -1,0 +1,50 @@
+//! A segment as it is gone along.
+
+use crate::geometry::{Curve, Xy};
+use crate::path::{Path, Segment, SegmentKind};
+
+/// From where the tool is to where it comes.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    pub(crate) start: Xy,
+    pub(crate) end: Xy,
+    /// Whether it is gone along against the direction in which it is drawn.
+    pub(crate) is_turned: bool,
+    /// What is milled, where that is not what is drawn: a gap before it is closed by moving its start.
+    pub(crate) moved: Option<Box<Curve>>,
+}
+
+impl Passage {
+    /// From start to end as drawn.
+    pub(super) fn drawn([start, end]: [Xy; 2]) -> Self {
+        Self { start, end, is_turned: false, moved: None }
+    }
+
+    /// The other way. A subpath is then embedded the other way round: its start comes to lie where the walk comes from.
+    pub(super) fn turned_round(self) -> Self {
+        let moved = self.moved.map(|curve| Box::new(curve.reversed()));
+        Self { start: self.end, end: self.start, is_turned: !self.is_turned, moved }
+    }
+
+    /// The same from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its own.
+    pub(super) fn starting_at(self, start: Xy, path: &Path, segment: &Segment) -> Self {
+        let moved = match segment.kind {
+            SegmentKind::Cut(_) => self.curve(path, segment).map(|curve| Box::new(curve.starting_at(start))),
+            _ => None,
+        };
+        Self { start, moved, ..self }
+    }
+
+    fn curve(&self, path: &Path, segment: &Segment) -> Option<Curve> {
+        curve(path, segment, self.is_turned, self.moved.as_deref())
+    }
+}
+
+/// The curve of a segment in the direction in which it is gone along; `None` for circles.
+pub(crate) fn curve(path: &Path, segment: &Segment, is_turned: bool, moved: Option<&Curve>) -> Option<Curve> {
+    if let Some(moved) = moved {
+        return Some(*moved);
+    }
+    let drawn = path.curve(segment)?;
+    Some(if is_turned { drawn.reversed() } else { drawn })
+}
