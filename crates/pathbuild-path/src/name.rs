@@ -99,7 +99,7 @@ impl PathName {
 
     /// In the one spelling by which equal names are found and ordered.
     pub fn folded(&self) -> String {
-        self.0.to_uppercase()
+        if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 
     /// Whether a regular expression of E or --restrict is found anywhere in it, with regard to case.
@@ -122,8 +122,10 @@ impl fmt::Debug for PathName {
 
 impl PartialEq for PathName {
     fn eq(&self, other: &Self) -> bool {
-        self.0 == other.0
-            || self.0.chars().flat_map(char::to_uppercase).eq(other.0.chars().flat_map(char::to_uppercase))
+        if self.0.is_ascii() && other.0.is_ascii() {
+            return self.0.eq_ignore_ascii_case(&other.0);
+        }
+        self.cmp(other).is_eq()
     }
 }
 

@@ -49,7 +49,7 @@ impl<'a> KnownCuts<'a> {
     }
 }
 
-impl<'a> Binder<'a> {
+impl Binder<'_> {
     /// A segment of a milling chain, with its order at a star.
     pub(super) fn cut(
         &mut self,

@@ -76,17 +76,18 @@ impl Collected<'_> {
     fn define_variables(&mut self) {
         let parameters = &self.raw.parameters;
         let pieces = parameters.pieces().filter(|piece| piece.letter == Some(Letter::Variable));
-        let defined: Vec<_> = pieces
-            .map(|piece| {
-                Definition::parse(parameters.value(&piece))
-                    .map_err(|problem| self.raw.at_parameters(problem.with_text(parameters.fault(&piece))))
-            })
-            .collect();
-        for definition in defined {
-            match definition {
-                Ok(definition) => self.raw.definitions.push(definition),
-                Err(problem) => self.report(problem),
+        let (mut definitions, mut problems) = (Vec::new(), Vec::new());
+        for piece in pieces {
+            match Definition::parse(parameters.value(&piece)) {
+                Ok(definition) => definitions.push(definition),
+                Err(problem) => {
+                    problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(&piece))));
+                }
             }
+        }
+        self.raw.definitions = definitions;
+        for problem in problems {
+            self.report(problem);
         }
     }
 }
