@@ -2,11 +2,11 @@
 //! an edit that changes none of it ends here.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Definition, Path, PathName};
+use pathbuild_path::{Definition, Path, PathName, SegmentKind};
 use pathbuild_toolpath::own_moves;
 
 use super::hints::with_other_layers;
-use super::instance::{Instance, chains, path};
+use super::instance::{BoundPath, Instance, bind, walk};
 use super::raw::{NameKey, raw_path};
 use crate::database::Db;
 use crate::inputs::SourceFile;
@@ -50,6 +50,8 @@ pub struct Brief {
     pub needs_feed: bool,
     /// Whether it has Z-probes of its own.
     pub has_probes: bool,
+    /// Whether it has subpath segments.
+    pub has_subpaths: bool,
     /// What is wrong with the sweep height that it has where it is embedded or checked.
     pub sweep_problems: Vec<Diagnostic>,
     /// What is wrong with the way along it.
@@ -71,27 +73,25 @@ pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Optio
 /// Binds a path, walks along it, and keeps what others need to know.
 #[salsa::tracked]
 pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
-    let bound = path(db, instance);
-    Summary {
-        problems: bound.diagnostics.clone(),
-        brief: bound.path.as_ref().map(|path| brief(db, instance, path)),
-    }
+    let BoundPath { path, diagnostics } = bind(db, instance);
+    Summary { problems: diagnostics, brief: path.map(|path| brief(db, instance, path)) }
 }
 
-fn brief<'db>(db: &'db dyn Db, instance: Instance<'db>, path: &Path) -> Brief {
-    let walked = chains(db, instance);
-    let with_hints = |found: &Diagnostic| with_other_layers(db, instance, found.clone());
+fn brief<'db>(db: &'db dyn Db, instance: Instance<'db>, path: Path) -> Brief {
+    let walked = walk(db, &path);
+    let with_hints = |found| with_other_layers(db, instance, found);
     Brief {
-        name: path.name.clone(),
-        tool: path.tool,
-        thickness: path.thickness,
-        material: path.material.clone(),
-        output_suffix: path.output_suffix.clone(),
         size: (path.end - path.start).norm(),
         needs_feed: path.needs_feed(),
         has_probes: !path.probes.is_empty(),
+        has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
         sweep_problems: path.check_sweep_height(path.embedded_sweep_height()),
-        walk_problems: walked.diagnostics.iter().map(with_hints).collect(),
-        moves: own_moves(path, &walked.items),
+        moves: own_moves(&path, &walked.items),
+        walk_problems: walked.diagnostics.into_iter().map(with_hints).collect(),
+        name: path.name,
+        tool: path.tool,
+        thickness: path.thickness,
+        material: path.material,
+        output_suffix: path.output_suffix,
     }
 }

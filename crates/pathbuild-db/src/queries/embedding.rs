@@ -51,8 +51,14 @@ pub enum Outcome<'db> {
 const CHORD_TOLERANCE: f64 = 0.001;
 
 /// What a path embeds, segment by segment; not what those embed.
+pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
+    // Most paths embed nothing, and need not be asked for once more.
+    let embeds_any = summary(db, instance).brief.as_ref().is_some_and(|brief| brief.has_subpaths);
+    if embeds_any { embeddings(db, instance) } else { &[] }
+}
+
 #[salsa::tracked]
-pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
+fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
     let Some(outer) = &path(db, instance).path else { return Vec::new() };
     let embedder = Embedder { db, instance, outer };
     let subpaths = outer.segments.iter().enumerate().filter_map(|(index, segment)| match &segment.kind {
@@ -93,7 +99,8 @@ impl<'db> Embedder<'db> {
                 self.named(segment, subpath, name, text)
             }
         };
-        Embedding { segment: index, origin: segment.origin.clone(), name: named(subpath), outcome, warnings }
+        let origin = self.outer.origin(segment).clone();
+        Embedding { segment: index, origin, name: named(subpath), outcome, warnings }
     }
 
     fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName, text: &TextFault) -> Outcome<'db> {

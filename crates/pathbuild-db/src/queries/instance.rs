@@ -43,6 +43,17 @@ pub struct BoundPath {
 /// Binds and checks a path's parameters.
 #[salsa::tracked(lru = 0)]
 pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
+    bind(db, instance)
+}
+
+/// Walks along a path. Empty where there is no sound path.
+#[salsa::tracked(lru = 0)]
+pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
+    path(db, instance).path.as_ref().map(|path| walk(db, path)).unwrap_or_default()
+}
+
+/// What [`path`] gives, not kept: whoever judges a path needs it once, and making it again takes less than keeping it.
+pub(super) fn bind<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     let Some(raw) = instance.raw(db) else { return BoundPath::default() };
     let mut diagnostics = raw.diagnostics.clone();
     if !raw.is_sound() {
@@ -56,10 +67,8 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     BoundPath { path, diagnostics }
 }
 
-/// Walks along a path. Empty where there is no sound path.
-#[salsa::tracked(lru = 0)]
-pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
-    let Some(path) = &path(db, instance).path else { return Walked::default() };
+/// What [`chains`] gives, not kept.
+pub(super) fn walk(db: &dyn Db, path: &Path) -> Walked {
     let join_tolerance = Settings::get(db).language(db).join_tolerance;
     catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path, join_tolerance))).unwrap_or_else(|payload| {
         Walked { items: Vec::new(), diagnostics: vec![internal_error(&*payload).in_path(path.name.as_str())] }

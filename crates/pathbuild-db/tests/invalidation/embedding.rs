@@ -34,14 +34,13 @@ fn world() -> World {
     world
 }
 
-const OF_SIBLING: [&str; 9] = [
+const OF_SIBLING: [&str; 8] = [
     "raw_file sibling",
     "path_entry sibling",
     "head sibling",
     "path sibling",
     "chains sibling",
     "summary sibling",
-    "embeds sibling",
     "closure sibling",
     "program sibling",
 ];
@@ -72,10 +71,9 @@ fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
             "path component",
             "chains component",
             "summary component",
-            "embeds component",
             "closure component",
             "program component",
-            "embeds project",
+            "embeddings project",
             "closure project",
             "program project",
             "closure outer",
@@ -84,7 +82,7 @@ fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
         &[
             &OF_SIBLING[..],
             &OF_PROJECT,
-            &["name_table project", "path outer", "chains outer", "embeds outer", "find_path outer"],
+            &["name_table project", "path outer", "chains outer", "embeddings outer", "find_path outer"],
         ]
         .concat(),
     );
@@ -102,7 +100,7 @@ fn a_remark_in_a_component_runs_only_the_reader() {
         &["raw_file component", "path_entry component", "path_names project"],
         &[
             &OF_PROJECT[..],
-            &["head component", "path component", "embeds project", "closure project", "program outer"],
+            &["head component", "path component", "embeddings project", "closure project", "program outer"],
         ]
         .concat(),
     );
@@ -117,7 +115,7 @@ fn a_new_unrelated_file_runs_only_lookups() {
         &[
             &OF_SIBLING[..],
             &OF_PROJECT[..7],
-            &["find_path outer", "embeds project", "closure project", "program project", "program outer"],
+            &["find_path outer", "embeddings project", "closure project", "program project", "program outer"],
         ]
         .concat(),
     );
@@ -137,7 +135,7 @@ fn a_new_file_that_could_hold_the_path_is_read() {
             "find_path project",
             "raw_file new",
             "path_names new",
-            "embeds project",
+            "embeddings project",
         ],
         &[&OF_SIBLING[..], &["find_path outer", "closure project", "program project", "program outer"]]
             .concat(),
@@ -155,7 +153,7 @@ fn a_file_that_makes_a_path_ambiguous_makes_its_users_fail_and_removing_it_mends
         "files_for project",
         "files_for outer",
         "find_path project",
-        "embeds project",
+        "embeddings project",
         "closure project",
         "program project",
         "closure outer",
@@ -193,7 +191,7 @@ fn a_component_that_is_gone_makes_its_users_fail_and_putting_it_back_mends_them(
             "files_for project",
             "files_for outer",
             "find_path project",
-            "embeds project",
+            "embeddings project",
             "closure project",
             "program project",
             "closure outer",
@@ -226,16 +224,15 @@ fn a_cycle_is_found_when_it_is_made_and_forgotten_when_it_is_mended() {
             "path component",
             "chains component",
             "summary component",
-            "embeds component",
             "closure component",
             "program component",
-            "embeds project",
+            "embeddings project",
             "closure project",
             "program project",
             "closure outer",
             "program outer",
         ],
-        &[&OF_SIBLING[..], &OF_PROJECT, &["path outer", "embeds outer"]].concat(),
+        &[&OF_SIBLING[..], &OF_PROJECT, &["path outer", "embeddings outer"]].concat(),
     );
     assert_eq!(["component", "project", "outer"].map(|label| world.outcome(label)), before);
 }

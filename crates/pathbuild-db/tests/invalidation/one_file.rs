@@ -30,15 +30,14 @@ fn world() -> World {
 }
 
 /// Everything that is asked of the first path.
-const OF_PATH: [&str; 7] =
-    ["head path", "path path", "chains path", "summary path", "embeds path", "closure path", "program path"];
+const OF_PATH: [&str; 6] =
+    ["head path", "path path", "chains path", "summary path", "closure path", "program path"];
 
-const OF_SIBLING: [&str; 7] = [
+const OF_SIBLING: [&str; 6] = [
     "head sibling",
     "path sibling",
     "chains sibling",
     "summary sibling",
-    "embeds sibling",
     "closure sibling",
     "program sibling",
 ];
@@ -46,14 +45,13 @@ const OF_SIBLING: [&str; 7] = [
 /// The drawing, and its paths taken out of it.
 const READING: [&str; 3] = ["raw_file sibling", "path_entry path", "path_entry sibling"];
 
-const OF_OTHER: [&str; 9] = [
+const OF_OTHER: [&str; 8] = [
     "raw_file other",
     "path_entry other",
     "head other",
     "path other",
     "chains other",
     "summary other",
-    "embeds other",
     "closure other",
     "program other",
 ];
@@ -106,7 +104,7 @@ fn a_remark_in_a_drawing_with_a_gap_runs_the_reader_and_the_search_for_ends() {
     world.draw(FILE, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{gap}"));
     world.expect(
         &["raw_file path", "path_entry path", "all_ends path"],
-        &["head path", "path path", "chains path", "summary path", "closure path", "program path"],
+        &["head path", "path path", "summary path", "closure path", "program path"],
     );
 }
 

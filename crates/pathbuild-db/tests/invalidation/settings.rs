@@ -34,7 +34,7 @@ fn another_feed_reads_no_drawing_again() {
     settings.set_fold(&mut world.db).to(fold);
     world.expect(
         &["closure component", "closure project", "program component", "program project"],
-        &[&READING[..], &VALUES, &["embeds project", "find_path project", "name_table project"]].concat(),
+        &[&READING[..], &VALUES, &["embeddings project", "find_path project", "name_table project"]].concat(),
     );
     assert_ne!(world.outcome("project").program, before.program);
 }
@@ -45,7 +45,7 @@ fn a_restriction_runs_only_the_embedding() {
     let settings = Settings::get(&world.db);
     settings.set_restrictions(&mut world.db).to(vec![Restriction::new("^8", "^2").unwrap()]);
     world.expect(
-        &["embeds project", "closure project", "program project"],
+        &["embeddings project", "closure project", "program project"],
         &[&READING[..], &VALUES, &["find_path project", "closure component", "program component"]].concat(),
     );
     assert_eq!(world.codes("project"), ["PB507"]);
@@ -58,7 +58,7 @@ fn a_search_directory_runs_only_lookups() {
     let settings = Settings::get(&world.db);
     settings.set_lookup(&mut world.db).to(lookup);
     world.expect(
-        &["name_table project", "find_path project", "name_table new", "files_for new", "embeds project"],
+        &["name_table project", "find_path project", "name_table new", "files_for new", "embeddings project"],
         &[&READING[..], &VALUES, &["files_for project", "closure project", "program project"]].concat(),
     );
 }
