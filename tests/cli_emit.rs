@@ -64,6 +64,7 @@ fn library(from: &str, to: &str) -> Place {
 }
 
 /// The names of all files below a place, and what is in them.
+/// Every file, kept results aside.
 fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     let mut open = vec![place.path().to_owned()];
@@ -71,7 +72,7 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
         for entry in fs::read_dir(directory).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
-                open.push(path);
+                open.extend((!path.ends_with(".pathbuild")).then_some(path));
             } else {
                 let name = path.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned();
                 files.push((name, fs::read(&path).unwrap()));

@@ -1,6 +1,6 @@
 //! What a kept result was made from.
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 
 use crate::stamp::Stamp;
 
@@ -77,8 +77,9 @@ impl ListingKind {
     pub fn counts(self, name: &str) -> bool {
         const EXTENSION: &str = "dxf";
         if self == Self::Files {
-            // What programs write beside before they rename it.
-            return !name.starts_with('.');
+            // What is written beside before it is renamed does not.
+            let is_temporary = Utf8Path::new(name).extension() == Some("tmp");
+            return !(is_temporary && name.starts_with('.'));
         }
         let stem = name.len().checked_sub(EXTENSION.len() + 1).filter(|stem| *stem > 0);
         stem.is_some_and(|stem| {

@@ -16,10 +16,7 @@ pub fn encode_diagnostic(encoder: &mut Encoder, diagnostic: &Diagnostic) {
     encoder.text(diagnostic.message.key);
     encoder.u8(u8::from(diagnostic.is_error()));
     arguments(encoder, &diagnostic.arguments);
-    encoder.list(diagnostic.notes.iter(), |encoder, note| {
-        encoder.text(note.message.key);
-        arguments(encoder, &note.arguments);
-    });
+    encoder.list(diagnostic.notes.iter(), encode_note);
     encoder.option(diagnostic.file.as_ref(), |encoder, file| encoder.text(file.as_str()));
     encoder.option(diagnostic.path.as_ref(), |encoder, path| encoder.text(path));
     place(encoder, &diagnostic.place);
@@ -43,8 +40,7 @@ pub fn decode_diagnostic(decoder: &mut Decoder<'_>) -> Result<Diagnostic, Corrup
     let mut diagnostic = Diagnostic::new(message(decoder)?);
     diagnostic.severity = if decoder.u8()? == 0 { Severity::Warning } else { Severity::Error };
     diagnostic.arguments = decoded_arguments(decoder)?;
-    diagnostic.notes = decoder
-        .list(|decoder| Ok(Note { message: message(decoder)?, arguments: decoded_arguments(decoder)? }))?;
+    diagnostic.notes = decoder.list(decode_note)?;
     diagnostic.file = decoder.option(|decoder| Ok(decoder.text()?.into()))?;
     diagnostic.path = decoder.option(|decoder| Ok(decoder.text()?.into()))?;
     diagnostic.place = decoded_place(decoder)?;
@@ -59,6 +55,20 @@ pub fn decode_diagnostic(decoder: &mut Decoder<'_>) -> Result<Diagnostic, Corrup
         })
     })?;
     Ok(diagnostic)
+}
+
+/// Adds a note.
+pub fn encode_note(encoder: &mut Encoder, note: &Note) {
+    encoder.text(note.message.key);
+    arguments(encoder, &note.arguments);
+}
+
+/// Reads what [`encode_note`] wrote.
+///
+/// # Errors
+/// As [`decode_diagnostic`].
+pub fn decode_note(decoder: &mut Decoder<'_>) -> Result<Note, Corrupt> {
+    Ok(Note { message: message(decoder)?, arguments: decoded_arguments(decoder)? })
 }
 
 fn message(decoder: &mut Decoder<'_>) -> Result<&'static Message, Corrupt> {

@@ -19,7 +19,7 @@ mod verify;
 
 pub use codec::{Corrupt, Decoder, Encoder};
 pub use facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
-pub use findings::{decode_diagnostic, encode_diagnostic};
+pub use findings::{decode_diagnostic, decode_note, encode_diagnostic, encode_note};
 pub use format::{Key, Unusable};
 pub use kept::{Kept, KeptDirectory, KeptFile, KeptRecord};
 pub use listing::{Listing, Listings};

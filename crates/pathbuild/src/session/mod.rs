@@ -29,7 +29,7 @@ use crate::context::Context;
 use crate::progress::Progress;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{BUILD, Coverage, DrawingResult, Facts, Keeper, Made, Programs};
+pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Keeper, Made, Programs, is_passing};
 pub use library::by_place;
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
@@ -72,6 +72,11 @@ impl<'a> Session<'a> {
     /// A session whose results may be kept for later runs: what they were made from is noted.
     pub fn traced(context: &'a Context) -> Self {
         Self { is_traced: true, ..Self::over(context, true, Arc::new(OsSystem)) }
+    }
+
+    /// From now on it is noted what targets are made from.
+    pub fn note_traces(&mut self) {
+        self.is_traced = true;
     }
 
     /// A session that goes on while drawings change.

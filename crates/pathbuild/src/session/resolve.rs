@@ -37,6 +37,8 @@ pub struct Wanted {
 pub struct Found {
     /// Each once, in order.
     pub drawings: Vec<Utf8PathBuf>,
+    /// The directories themselves, and those below.
+    pub directories: Vec<Utf8PathBuf>,
     /// What is in each directory, as far as it was looked at.
     pub listings: Listings,
 }
@@ -104,6 +106,7 @@ impl Session<'_> {
                 return None;
             }
             found.drawings.extend(walked.drawings.into_iter().map(|drawing| self.normalised(drawing)));
+            found.directories.extend(walked.directories.into_iter().map(|below| self.normalised(below)));
             let listed = walked.listings.into_iter();
             found.listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
         }

@@ -22,7 +22,7 @@ pub(super) fn check(
     context: &Context,
     session: &mut Session<'_>,
     args: &CheckArgs,
-    Found { drawings, listings }: Found,
+    Found { drawings, listings, .. }: Found,
 ) -> Result<Checked, String> {
     let since = |revision: &String| Changed::since(context, session, revision);
     let changed = args.changed_since.as_ref().map(since).transpose()?;

@@ -14,7 +14,7 @@ use super::compare;
 use super::job::Job;
 use crate::args::EmitArgs;
 use crate::posting::Poster;
-use crate::session::{OutputKind, Writing};
+use crate::session::{Content, OutputKind, Writing};
 
 /// What is done with the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub(super) enum Task {
 pub(super) struct Delivered {
     /// Each file.
     pub(super) files: Vec<(Utf8PathBuf, State)>,
+    /// What lies on disk now under the name of each, for whoever keeps it.
+    pub(super) contents: Vec<Content>,
     /// The program's length in mm.
     pub(super) length: f64,
     /// The program's time.
@@ -124,7 +126,8 @@ fn finish(db: &Database, outputs: Vec<Output>, task: Task, means: &Means<'_>, de
         }
         Task::Compare { moves_only } => {
             for output in outputs.iter().filter(|output| !moves_only || output.kind != OutputKind::Values) {
-                let (state, problems) = compare::compare(db, output, moves_only, means.poster);
+                let ((state, content), problems) = compare::compare(db, output, moves_only, means.poster);
+                delivered.contents.push(content);
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
             }
@@ -244,6 +247,7 @@ fn write(
             if is_kept { Ok(Written::Unchanged) } else { db.system().write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), &reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
+        delivered.contents.push(if is_kept { Content::Unknown } else { Content::of(&output.text) });
         delivered.files.push((output.path.clone(), state));
     }
     Ok(())

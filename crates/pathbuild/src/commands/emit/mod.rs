@@ -5,6 +5,7 @@ mod compare;
 mod deliver;
 mod deps;
 mod job;
+mod kept;
 mod options;
 mod stale;
 
@@ -22,6 +23,7 @@ use crate::session::{CheckedTarget, Session};
 use asked::Asked;
 use deliver::{Delivered, Means, State, Task, deliver};
 use job::Maker;
+use kept::{Memory, Run};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
@@ -54,7 +56,16 @@ fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
 }
 
 fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStatus {
-    let session = Session::with_hashes(context);
+    let mut session = Session::with_hashes(context);
+    let memory = Memory::open(context, &session, args, poster);
+    let outcome = memory.as_ref().filter(|_| args.check).and_then(|memory| memory.outcome(context, &session));
+    if let Some((delivered, mut diagnostics)) = outcome {
+        let is_current = show_all(context, &[delivered], &mut diagnostics);
+        return conclude(context, session, diagnostics, is_current);
+    }
+    if memory.is_some() {
+        session.note_traces();
+    }
     let mut diagnostics = Vec::new();
     let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
     let Some(asked) = ask(context, &session, &args.inputs, &mut diagnostics) else {
@@ -88,7 +99,25 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
         let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
         diagnostics.extend(deps::write(context, &session, file, &jobs, poster, &inserted));
     }
-    diagnostics.extend(stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale));
+    let (stale, looked) = stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale);
+    diagnostics.extend(stale);
+    if let Some(memory) = memory {
+        let covered = &asked.covered;
+        memory.keep(
+            &session,
+            &Run { task, covered, checked, jobs, delivered, diagnostics: &diagnostics, looked },
+        );
+    }
+    conclude(context, session, diagnostics, is_current)
+}
+
+/// Says what was found; the status of the run.
+fn conclude(
+    context: &Context,
+    session: Session<'_>,
+    diagnostics: Vec<Diagnostic>,
+    is_current: bool,
+) -> ExitStatus {
     let findings = context.findings(session.with_elsewhere(diagnostics));
     context.show(&findings);
     session.tell_scans();

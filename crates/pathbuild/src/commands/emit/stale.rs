@@ -15,7 +15,16 @@ use super::asked::Asked;
 use super::job::{Job, output_directory};
 use crate::context::Context;
 use crate::posting::Poster;
-use crate::session::{HEAD, OutputKind, Provenance, Session, title};
+use crate::session::{Content, HEAD, OutputKind, Provenance, Session, title};
+
+/// What was looked at to know what is stale.
+#[derive(Default)]
+pub(super) struct Looked {
+    /// The directories, of which all names count.
+    pub(super) directories: Vec<Utf8PathBuf>,
+    /// The programs of which the beginning was read.
+    pub(super) programs: Vec<(Utf8PathBuf, Content)>,
+}
 
 /// Reports what is stale, or removes it.
 pub(super) fn deal_with(
@@ -25,8 +34,8 @@ pub(super) fn deal_with(
     jobs: &[Job],
     poster: Option<&Poster>,
     is_removed: bool,
-) -> Vec<Diagnostic> {
-    let stale = stale(context, session, asked, jobs, poster);
+) -> (Vec<Diagnostic>, Looked) {
+    let (stale, looked) = stale(context, session, asked, jobs, poster);
     let deal_with = |path: Utf8PathBuf| {
         let name = path.file_name().unwrap_or_default();
         if !is_removed {
@@ -44,7 +53,7 @@ pub(super) fn deal_with(
             }
         }
     };
-    stale.into_iter().filter_map(deal_with).collect()
+    (stale.into_iter().filter_map(deal_with).collect(), looked)
 }
 
 fn stale(
@@ -53,9 +62,10 @@ fn stale(
     asked: &Asked,
     jobs: &[Job],
     poster: Option<&Poster>,
-) -> Vec<Utf8PathBuf> {
+) -> (Vec<Utf8PathBuf>, Looked) {
+    let mut looked = Looked::default();
     if asked.covered.is_empty() && asked.directories.is_empty() {
-        return Vec::new();
+        return (Vec::new(), looked);
     }
     let writers = Writers::new(context, session, asked, jobs, poster.is_none());
     let directories = match &context.settings.general.out_dir.value {
@@ -70,14 +80,20 @@ fn stale(
         names.sort_unstable();
         for name in names.iter().filter(|name| is_gcode(name, poster)) {
             let path = directory.join(name);
-            let head = system.head(&path, HEAD).unwrap_or_default();
-            let title = Provenance::of_program(&head).map(|(_, title)| title);
-            if title.is_some_and(|title| writers.have_left(&directory, &path, &title, &names)) {
-                stale.push(path);
+            if writers.outputs.contains(&path) {
+                continue;
             }
+            let head = system.head(&path, HEAD).unwrap_or_default();
+            let content = if (1..HEAD).contains(&head.len()) { Content::of(&head) } else { Content::Unknown };
+            let title = Provenance::of_program(&head).map(|(_, title)| title);
+            if title.is_some_and(|title| writers.have_left(&directory, &title, &names)) {
+                stale.push(path.clone());
+            }
+            looked.programs.push((path, content));
         }
+        looked.directories.push(directory);
     }
-    stale
+    (stale, looked)
 }
 
 fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
@@ -136,17 +152,14 @@ impl Writers {
         }
     }
 
-    /// Whether nothing would write a program now. `beside`: what lies in its directory.
-    fn have_left(&self, directory: &Utf8Path, path: &Utf8Path, title: &str, beside: &[String]) -> bool {
+    /// Whether nothing would write a program now that no path of the run becomes. `beside`: what lies in its directory.
+    fn have_left(&self, directory: &Utf8Path, title: &str, beside: &[String]) -> bool {
         let title = without_case(&comment(title, Charset::Ascii));
         let Some((drawing, _)) = title[1..].rsplit_once(": ") else { return false };
         let named = |text: String| (directory.to_owned(), text);
         let drawing = named(format!("({drawing})"));
         let is_beside = beside.iter().any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
-        if self.outputs.contains(path)
-            || self.idle.contains(&named(title.clone()))
-            || self.others.contains(&drawing)
-        {
+        if self.idle.contains(&named(title.clone())) || self.others.contains(&drawing) {
             return false;
         }
         // A drawing that is there, but that the run does not know (an ignored one), is left alone.

@@ -18,7 +18,7 @@ use pathbuild_db::Trace;
 use super::Session;
 use crate::context::Context;
 
-pub use payload::DrawingResult;
+pub use payload::{DrawingResult, is_passing};
 use question::whole_question;
 pub use question::{BUILD, Coverage};
 use writing::Writing;
@@ -59,13 +59,31 @@ pub struct Facts<'a> {
     pub lookups: Vec<(&'a Utf8Path, Box<str>)>,
 }
 
-/// Programs that a result depends on.
+/// Files beside drawings that a result depends on.
 #[derive(Clone, Debug, Default)]
 pub struct Programs {
-    /// The files, there or not.
-    pub files: Vec<Utf8PathBuf>,
-    /// The directories whose names of programs count.
+    /// The files, with what was found in each.
+    pub files: Vec<(Utf8PathBuf, Content)>,
+    /// The directories whose names count, all of them.
     pub directories: Vec<Utf8PathBuf>,
+}
+
+/// What was found under a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Nothing.
+    Missing,
+    /// Bytes, of which this is the blake3 hash.
+    Hashed([u8; 32]),
+    /// Bytes that nobody hashed.
+    Unknown,
+}
+
+impl Content {
+    /// That of bytes.
+    pub fn of(bytes: &[u8]) -> Self {
+        Self::Hashed(*blake3::hash(bytes).as_bytes())
+    }
 }
 
 impl Keeper {

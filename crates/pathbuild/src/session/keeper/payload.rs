@@ -37,7 +37,7 @@ impl DrawingResult {
 }
 
 /// Whether a finding may pass though nothing changes: a file that somebody else had open, a machine that was busy, a bug.
-pub(super) fn is_passing(diagnostic: &Diagnostic) -> bool {
+pub fn is_passing(diagnostic: &Diagnostic) -> bool {
     match diagnostic.code() {
         Code::UnreadableFile | Code::InternalError => true,
         Code::LimitReached => {

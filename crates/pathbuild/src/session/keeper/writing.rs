@@ -8,7 +8,7 @@ use pathbuild_cache::{
 };
 use pathbuild_db::{Db, SourceFile, content_hash, drawing_names};
 
-use super::{Keeper, Made};
+use super::{Content, Keeper, Made};
 use crate::session::Session;
 
 /// A catalogue while it is put together.
@@ -72,7 +72,7 @@ impl<'a> Writing<'a> {
                 }
             }
         }
-        files.extend(made.programs.files.iter().map(|file| self.program(file)));
+        files.extend(made.programs.files.iter().map(|(file, content)| self.program(file, *content)));
         for directory in &made.programs.directories {
             let directory = self.directory(directory, ListingKind::Files);
             lookups.insert(Lookup { directory, name: "".into() });
@@ -116,15 +116,29 @@ impl<'a> Writing<'a> {
     }
 
     /// A program that was looked at now.
-    fn program(&mut self, path: &Utf8Path) -> usize {
-        self.new_file(path, None)
+    fn program(&mut self, path: &Utf8Path, content: Content) -> usize {
+        let number = match content {
+            Content::Hashed(hash) => self.new_file(path, Some(hash)),
+            Content::Missing | Content::Unknown => self.new_file(path, None),
+        };
+        let fact = &mut self.catalogue.files[number];
+        // It may have come or gone since it was looked at.
+        if (fact.stamp == Stamp::MISSING) != (content == Content::Missing) {
+            fact.stamp = Stamp::UNKNOWN;
+        }
+        number
     }
 
     fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> usize {
         if let Some(known) = self.files.get(path) {
             return *known;
         }
-        self.push_file(FileFact { path: path.to_owned(), stamp: Stamp::settled(path, self.begun), hash })
+        let mut stamp = Stamp::settled(path, self.begun);
+        // What was read was there.
+        if hash.is_some() && stamp == Stamp::MISSING {
+            stamp = Stamp::UNKNOWN;
+        }
+        self.push_file(FileFact { path: path.to_owned(), stamp, hash })
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
