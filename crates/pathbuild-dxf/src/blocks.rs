@@ -11,7 +11,8 @@ use crate::fields::{Fields, Want};
 use crate::item::{Item, Shape};
 use crate::layers::LayerId;
 use crate::names::folded;
-use crate::pairs::{Pairs, Stop};
+use crate::groups::Groups;
+use crate::pairs::{Pair, Pairs, Stop};
 use crate::trouble::Trouble;
 
 /// The blocks of a file.
@@ -29,22 +30,25 @@ pub(crate) struct BlockId(usize);
 
 struct Block<'a> {
     base: Result<Point3, Trouble<'a>>,
-    records: Records<'a>,
+    /// The pairs behind its own, and the first of its records.
+    pairs: Pairs<'a>,
+    head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
 }
 
 impl<'a> Blocks<'a> {
     /// Finds the blocks of the section that begins here.
-    pub(crate) fn index(mut pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Stop<'a>> {
+    pub(crate) fn index(pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Stop<'a>> {
+        let mut groups = Groups::new(pairs);
         let mut blocks = Self::default();
         let mut fields = Fields::new(0);
-        let mut head = pairs.next_zero()?;
+        let mut head = groups.next_zero()?;
         while !head.is("ENDSEC") {
             if head.is("BLOCK") {
-                (head, _) = fields.fill(&mut pairs, head.line, 0, |_| Want::Keep)?;
-                blocks.add(&fields, Records { pairs: pairs.clone(), head }, decoder);
+                (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
+                blocks.add(&fields, groups.pairs(), head, decoder);
             } else {
-                head = pairs.next_zero()?;
+                head = groups.next_zero()?;
             }
         }
         Ok(blocks)
@@ -71,13 +75,14 @@ impl<'a> Blocks<'a> {
             return Ok(items.clone());
         }
         let mut items = Vec::new();
+        let mut records = Records { groups: Groups::new(block.pairs), head: block.head };
         while let Some(item) =
-            reader.next_item(&mut block.records, Space::Block).map_err(|stop| stopped(stop, "BLOCKS"))?
+            reader.next_item(&mut records, Space::Block).map_err(|stop| stopped(stop, "BLOCKS"))?
         {
             items.push(item);
         }
-        if !block.records.head.is("ENDBLK") {
-            return Err(not_ended("BLOCK", &block.records.head));
+        if !records.head.is("ENDBLK") {
+            return Err(not_ended("BLOCK", &records.head));
         }
         let items: Rc<[Item<'a>]> = items.into();
         block.items = Some(items.clone());
@@ -120,11 +125,11 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    fn add(&mut self, fields: &Fields<'a>, records: Records<'a>, decoder: &mut Decoder<'_>) {
+    fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = fields.get(2) else { return };
         let name = folded(decoder.decode(name.bytes, name.line).trim());
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
-        self.all.push(Block { base: base.map_err(Trouble::from), records, items: None });
+        self.all.push(Block { base: base.map_err(Trouble::from), pairs, head, items: None });
         self.by_name.entry(name).or_insert(BlockId(self.all.len() - 1));
     }
 }

@@ -8,6 +8,7 @@ use crate::item::{Item, Shape, Traits};
 use crate::kind::Kind;
 use crate::layers::{LayerId, Layers};
 use crate::line_types::LineTypes;
+use crate::groups::Groups;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::trouble::Trouble;
@@ -30,22 +31,22 @@ pub(crate) enum Space {
 }
 
 /// The records of a section or block: `head` is the `0` pair of the one that comes next.
-#[derive(Clone)]
 pub(crate) struct Records<'a> {
-    pub(crate) pairs: Pairs<'a>,
+    pub(crate) groups: Groups<'a>,
     pub(crate) head: Pair<'a>,
 }
 
 impl<'a> Records<'a> {
     /// Begins with the next `0` pair.
-    pub(crate) fn new(mut pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
-        let head = pairs.next_zero()?;
-        Ok(Self { pairs, head })
+    pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
+        let mut groups = Groups::new(pairs);
+        let head = groups.next_zero()?;
+        Ok(Self { groups, head })
     }
 
     /// Passes over the record, which is no item.
     fn skip(&mut self) -> Result<Option<Item<'a>>, Stop<'a>> {
-        self.head = self.pairs.next_zero()?;
+        self.head = self.groups.next_zero()?;
         Ok(None)
     }
 }
@@ -129,7 +130,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             found = Some(id);
             want(layers, id, kind, space)
         };
-        let (next, want) = fields.fill(&mut records.pairs, records.head.line, kind.repeated_codes(), want)?;
+        let (next, want) = fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
         Ok((want, found))
     }
@@ -166,7 +167,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let mut polyline = OpenPolyline::begin(&self.fields);
         while Kind::of(records.head.value) == Some(Kind::Vertex) {
             let always = |_| Want::Keep;
-            let (next, _) = self.fields.fill(&mut records.pairs, records.head.line, 0, always)?;
+            let (next, _) = self.fields.fill(&mut records.groups, records.head.line, 0, always)?;
             records.head = next;
             let vertex = polyline.as_mut().map(|polyline| polyline.vertex(&self.fields));
             if let Ok(Err(trouble)) = vertex {

@@ -7,7 +7,9 @@ use pathbuild_diagnostic::Handle;
 
 use crate::Point3;
 use crate::number::{NotANumber, real, whole};
-use crate::pairs::{Pair, Pairs, Stop};
+use crate::code::Role;
+use crate::groups::{Group, Groups};
+use crate::pairs::{Pair, Stop, without_cr};
 
 /// The value of a group.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,19 +70,8 @@ pub(crate) enum Want {
     Skip,
 }
 
-const SLOTS: usize = 83;
-
-/// The slot of a code: itself below 80, then those of an extrusion.
-#[inline]
-fn slot(code: i32) -> Option<usize> {
-    match code {
-        0..80 => usize::try_from(code).ok(),
-        210 => Some(80),
-        220 => Some(81),
-        230 => Some(82),
-        _ => None,
-    }
-}
+/// One for each role whose values are kept, and one for all others.
+const SLOTS: usize = 84;
 
 impl<'a> Value<'a> {
     /// The value of a pair.
@@ -100,7 +91,7 @@ impl<'a> Fields<'a> {
     #[inline]
     pub(crate) fn fill(
         &mut self,
-        pairs: &mut Pairs<'a>,
+        groups: &mut Groups<'a>,
         line: u32,
         repeats: u64,
         mut want: impl FnMut(Value<'a>) -> Want,
@@ -109,29 +100,45 @@ impl<'a> Fields<'a> {
         self.begin_entity();
         self.repeated.clear();
         loop {
-            let pair = pairs.next()?;
-            let Some(slot) = slot(pair.code) else {
-                match pair.code {
-                    // An embedded object (of R2018's MTEXT) lasts until the entity ends.
-                    101 => return Ok((pairs.next_zero()?, Want::Keep)),
-                    102 if pair.trimmed().starts_with(b"{") => match skip_application_group(pairs)? {
-                        Some(next) => return Ok((next, Want::Keep)),
-                        None => continue,
-                    },
-                    _ => continue,
+            let group = groups.next()?;
+            let Some(slot) = self.slots.get_mut(group.role.slot()) else {
+                match self.special(&group, groups, &mut want)? {
+                    Some(end) => return Ok(end),
+                    None => continue,
                 }
             };
-            let value = Value { bytes: pair.value, line: pair.line, entity: self.entity };
-            match slot {
-                0 => return Ok((pair, Want::Keep)),
-                8 if want(value) == Want::Skip => return Ok((pairs.next_zero()?, Want::Skip)),
-                _ => {}
-            }
-            self.slots[slot] = value;
-            if slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
-                self.repeated.push(pair);
+            *slot = Value { bytes: group.raw, line: group.line, entity: self.entity };
+            let slot = group.role.slot();
+            if repeats != 0 && slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
+                self.repeated.push(group.pair());
             }
         }
+    }
+
+    /// Does what a group says. Gives back the end of the entity if it brings it about.
+    #[inline]
+    fn special(
+        &mut self,
+        group: &Group<'a>,
+        groups: &mut Groups<'a>,
+        want: &mut impl FnMut(Value<'a>) -> Want,
+    ) -> Result<Option<(Pair<'a>, Want)>, Stop<'a>> {
+        match group.role {
+            Role::BEGIN => return Ok(Some((group.pair(), Want::Keep))),
+            Role::LAYER => {
+                let value = Value { bytes: without_cr(group.raw), line: group.line, entity: self.entity };
+                if want(value) == Want::Skip {
+                    return Ok(Some((groups.next_zero()?, Want::Skip)));
+                }
+            }
+            // An embedded object (of R2018's MTEXT) lasts until the entity ends.
+            Role::EMBEDDED => return Ok(Some((groups.next_zero()?, Want::Keep))),
+            _ if group.raw.trim_ascii().starts_with(b"{") => {
+                return Ok(skip_application_group(groups)?.map(|next| (next, Want::Keep)));
+            }
+            _ => {}
+        }
+        Ok(None)
     }
 
     /// Whether there may be more repeated groups than those that are kept.
@@ -151,8 +158,8 @@ impl<'a> Fields<'a> {
     /// A group, if the entity has it; the last, if it has several.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
-        let slot = slot(code)?;
-        Some(self.slots[slot]).filter(|value| value.entity == self.entity)
+        let value = self.slots.get(Role::of(code).slot()).filter(|value| value.entity == self.entity)?;
+        Some(Value { bytes: without_cr(value.bytes), ..*value })
     }
 
     /// A number that may be missing.
@@ -205,12 +212,12 @@ impl<'a> Fields<'a> {
 }
 
 /// Skips `102/{NAME` up to `102/}`, whose codes an application chose. Gives back a `0` if that comes first.
-fn skip_application_group<'a>(pairs: &mut Pairs<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
+fn skip_application_group<'a>(groups: &mut Groups<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
     loop {
-        let pair = pairs.next()?;
-        match pair.code {
-            0 => return Ok(Some(pair)),
-            102 => return Ok(None),
+        let group = groups.next()?;
+        match group.role {
+            Role::BEGIN => return Ok(Some(group.pair())),
+            Role::APPLICATION => return Ok(None),
             _ => {}
         }
     }

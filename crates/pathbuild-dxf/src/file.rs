@@ -120,7 +120,7 @@ impl<'a> File<'a> {
     /// Reads or passes over a section before the entities.
     fn pass(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
         let section = shown(name.value);
-        let begin = self.pairs.clone();
+        let begin = self.pairs;
         match self.pairs.skip_section() {
             SectionEnd::Ended => {}
             SectionEnd::Missing(next) => return Err(not_ended(&section, &next)),
@@ -160,7 +160,7 @@ impl<'a> File<'a> {
         drawing.diagnostics.extend(model.reader.decoder.into_doubt());
         drawing
             .diagnostics
-            .extend((!ends_with_eof(&records.pairs)).then(|| Diagnostic::new(&NO_END_OF_FILE)));
+            .extend((!ends_with_eof(&records.groups.pairs())).then(|| Diagnostic::new(&NO_END_OF_FILE)));
         Ok(drawing)
     }
 }

@@ -18,7 +18,7 @@ impl<'a> Header<'a> {
     /// Finds the variables in the section that begins here.
     pub(crate) fn find(&mut self, section: &Pairs<'a>) {
         for variable in ["$ACADVER", "$DWGCODEPAGE", "$INSUNITS"] {
-            let mut pairs = section.clone();
+            let mut pairs = *section;
             if let (Some(_), Ok(value)) = (pairs.find("9", variable), pairs.next()) {
                 self.set(variable.as_bytes(), value);
             }

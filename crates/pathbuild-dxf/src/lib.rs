@@ -8,6 +8,7 @@
 mod angle;
 mod binary;
 mod blocks;
+mod code;
 mod collect;
 mod curves;
 mod drawing;
@@ -16,6 +17,7 @@ mod entities;
 mod faults;
 mod fields;
 mod file;
+mod groups;
 mod header;
 mod item;
 mod kind;
@@ -32,7 +34,7 @@ mod shapes;
 mod tables;
 mod trouble;
 mod units;
-mod words;
+mod window;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,

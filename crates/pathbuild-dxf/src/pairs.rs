@@ -1,11 +1,10 @@
-//! Bytes to pairs of group code and value: the innermost loop, without allocation. (reference/dxf.md section 4, point 1)
+//! Bytes to pairs of group code and value, one by one and with care; [`crate::groups`] goes through many. (reference/dxf.md section 4,
+//! point 1)
 //!
 //! A line ends with LF, CRLF, CRCRLF, or, in files of old Macs, with CR alone; which of the two bytes ends lines is decided once a
 //! file. Codes may be padded, values are given as they stand.
 
-use memchr::memchr_iter;
-
-use crate::words::{line_length, short_number};
+use memchr::{memchr, memchr_iter};
 
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +35,7 @@ pub(crate) enum Stop<'a> {
 }
 
 /// The pairs of a file or of a part of one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Pairs<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -63,30 +62,19 @@ impl<'a> Pairs<'a> {
     }
 
     /// The next pair.
-    #[inline]
     pub(crate) fn next(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         let line = self.line;
         let code = self.code()?;
         if self.at >= self.bytes.len() {
             return Err(Stop::End { line: line.saturating_add(1) });
         }
-        let value = self.value();
+        let value = without_cr(self.next_line());
         self.line = line.saturating_add(2);
         Ok(Pair { code, line, value })
     }
 
-    /// Skips pairs up to the next whose code is 0, and returns that one.
-    #[inline]
-    pub(crate) fn next_zero(&mut self) -> Result<Pair<'a>, Stop<'a>> {
-        loop {
-            let pair = self.next()?;
-            if pair.code == 0 {
-                return Ok(pair);
-            }
-        }
-    }
-
     /// The whole input.
+    #[inline]
     pub(crate) fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
@@ -101,14 +89,25 @@ impl<'a> Pairs<'a> {
         self.line
     }
 
+    /// The line of the pair behind so many others.
+    #[inline]
+    pub(crate) fn line_after(&self, pairs: usize) -> u32 {
+        self.line.saturating_add(u32::try_from(2 * pairs).unwrap_or(u32::MAX))
+    }
+
     /// The byte that ends lines.
     pub(crate) fn line_end(&self) -> u8 {
         self.line_end
     }
 
+    /// Those behind so many, beginning here.
+    pub(crate) fn after(&self, pairs: usize, at: usize) -> Self {
+        Self { at, line: self.line_after(pairs), ..*self }
+    }
+
     /// These pairs, ending where those others of the same file are.
     pub(crate) fn until(&self, end: &Self) -> Self {
-        Self { bytes: &self.bytes[..end.at], ..self.clone() }
+        Self { bytes: &self.bytes[..end.at], ..*self }
     }
 
     /// Goes on at a later place, which must be the beginning of a line.
@@ -118,43 +117,27 @@ impl<'a> Pairs<'a> {
         self.at = at;
     }
 
-    /// Reads the line of a group code.
-    #[inline]
+    /// Reads the line of a group code, however it is padded.
     fn code(&mut self) -> Result<i32, Stop<'a>> {
-        match short_number(&self.bytes[self.at..], self.line_end) {
-            Some((code, length)) => {
-                self.at += length;
-                Ok(code)
-            }
-            None => self.unusual_code(),
-        }
-    }
-
-    /// The same for any code: negative, with tabs or blanks around it, at the end of the file.
-    #[cold]
-    fn unusual_code(&mut self) -> Result<i32, Stop<'a>> {
-        let rest = &self.bytes[self.at..];
-        let line = &rest[..line_length(rest, self.line_end)];
+        let at = self.at;
+        let line = self.next_line();
         let digits = std::str::from_utf8(line.trim_ascii()).ok();
-        let Some(code) = digits.and_then(|digits| digits.parse().ok()) else {
-            return Err(self.no_code(line));
-        };
-        self.at = (self.at + line.len() + 1).min(self.bytes.len());
-        Ok(code)
+        digits.and_then(|digits| digits.parse().ok()).ok_or_else(|| self.no_code(at, line))
     }
 
-    /// Reads the line of a value.
-    #[inline]
-    fn value(&mut self) -> &'a [u8] {
+    /// The next line without its end.
+    fn next_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let length = line_length(rest, self.line_end);
+        let length = memchr(self.line_end, rest).unwrap_or(rest.len());
         self.at = (self.at + length + 1).min(self.bytes.len());
-        without_cr(&rest[..length])
+        &rest[..length]
     }
 
+    /// There is no code on this line, which is not consumed.
     #[cold]
-    fn no_code(&self, line: &'a [u8]) -> Stop<'a> {
-        let rest = &self.bytes[self.at..];
+    fn no_code(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
+        self.at = at;
+        let rest = &self.bytes[at..];
         if rest.len() <= LONGEST_PADDING && rest.trim_ascii_start().is_empty() {
             return Stop::End { line: self.line };
         }
@@ -175,8 +158,9 @@ fn line_end(bytes: &[u8]) -> u8 {
     if after == Some(&b'\n') { b'\n' } else { b'\r' }
 }
 
+/// A line without the CR of its end.
 #[inline]
-fn without_cr(mut line: &[u8]) -> &[u8] {
+pub(crate) fn without_cr(mut line: &[u8]) -> &[u8] {
     while let [before @ .., b'\r'] = line {
         line = before;
     }

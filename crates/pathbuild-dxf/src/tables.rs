@@ -3,6 +3,7 @@
 use crate::encoding::Decoder;
 use crate::faults::{Fatal, stopped};
 use crate::fields::{Fields, Want};
+use crate::groups::Groups;
 use crate::layers::LayerTable;
 use crate::pairs::{Pairs, Stop};
 
@@ -15,10 +16,12 @@ fn read_records<'a>(mut pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<L
     let mut table = LayerTable::default();
     let mut fields = Fields::new(0);
     while let Some(mut head) = pairs.find("0", "LAYER") {
+        let mut groups = Groups::new(pairs);
         while head.is("LAYER") {
-            (head, _) = fields.fill(&mut pairs, head.line, 0, |_| Want::Keep)?;
+            (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
             table.add(&fields, decoder);
         }
+        pairs = groups.pairs();
     }
     Ok(table)
 }
