@@ -8,10 +8,10 @@ use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, not_ended, stopped};
 use crate::fields::{Fields, Want};
+use crate::groups::Groups;
 use crate::item::{Item, Shape};
 use crate::layers::LayerId;
 use crate::names::folded;
-use crate::groups::Groups;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::trouble::Trouble;
 

@@ -6,6 +6,12 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
+impl Default for Role {
+    fn default() -> Self {
+        Self::UNUSUAL
+    }
+}
+
 impl Role {
     /// Nothing is known of it.
     pub(crate) const OTHER: Self = Self(83);
@@ -36,27 +42,31 @@ impl Role {
         }
     }
 
-    /// The role of the code on the line of this length that these bytes begin with, if it is a usual one: at most three bytes, blanks
-    /// and then digits, and maybe a CR.
+    /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if it is a usual
+    /// one: at most three bytes, blanks and then digits, and maybe a CR.
     #[inline]
-    pub(crate) fn of_line(bytes: &[u8], length: usize) -> Option<Self> {
-        let chunk = bytes.first_chunk::<4>()?;
+    pub(crate) fn of_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
+        let [first, second, third, a, b, ..] = line;
+        let text = u32::from_le_bytes([first, second, third, 0]);
         // Nearly all programs pad their codes to three characters.
-        if length == 3 || (length == 4 && chunk[3] == b'\r') {
-            return Self::of_text(u32::from_le_bytes(*chunk) & THREE);
+        if a == line_end {
+            return Some((4, Self::of_text(text)?));
         }
-        Self::of_short_line(*chunk, length)
+        if a == b'\r' && b == line_end {
+            return Some((5, Self::of_text(text)?));
+        }
+        Self::of_short_line(line, line_end)
     }
 
     /// The same for less than three characters.
-    fn of_short_line(chunk: [u8; 4], length: usize) -> Option<Self> {
-        let line = chunk.get(..length.min(3))?;
-        let digits = line.strip_suffix(b"\r").unwrap_or(line).len();
+    fn of_short_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
+        let length = line[..4].iter().position(|byte| *byte == line_end)?;
+        let digits = line[..length].strip_suffix(b"\r").unwrap_or(&line[..length]);
         // The last digit in the last byte, and blanks before the first.
-        let padded = (u64::from(u32::from_le_bytes(chunk)) << 32 | BLANKS) >> (8 * digits + 8);
-        #[expect(clippy::cast_possible_truncation, reason = "the lowest bytes")]
-        let text = padded as u32 & THREE;
-        if length <= 3 { Self::of_text(text) } else { None }
+        let mut padded = *b"   ";
+        padded.get_mut(3_usize.checked_sub(digits.len())?..)?.copy_from_slice(digits);
+        let [first, second, third] = padded;
+        Some((length + 1, Self::of_text(u32::from_le_bytes([first, second, third, 0]))?))
     }
 
     /// The role of a code of three characters, in the lower bytes.
@@ -70,6 +80,12 @@ impl Role {
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)
+    }
+
+    /// Whether its value is only kept, or not even that.
+    #[inline]
+    pub(crate) fn is_plain(self) -> bool {
+        self.0 <= Self::OTHER.0
     }
 
     /// Its code, unless it has several.
@@ -90,8 +106,6 @@ impl Role {
 
 /// The bytes of three characters.
 const THREE: u32 = 0x00FF_FFFF;
-
-const BLANKS: u64 = 0x2020_2020;
 
 /// Each code from 0 to 999 as three characters in the lower bytes, with its role in the highest. What is no code is found at no place.
 static USUAL: [u32; 1 << 12] = usual();

@@ -30,6 +30,9 @@ pub(crate) struct Collector {
     limits: Limits,
 }
 
+/// How many entities a drawing of paths usually has.
+const USUAL: usize = 64;
+
 /// The configured limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -68,7 +71,11 @@ impl Collector {
     /// Nothing is gathered yet.
     pub(crate) fn new(limits: Limits) -> Self {
         Self {
-            drawing: Drawing::default(),
+            drawing: Drawing {
+                entities: Vec::with_capacity(USUAL),
+                origins: Vec::with_capacity(USUAL),
+                ..Drawing::default()
+            },
             layers: HashMap::new(),
             has_invisible: Vec::new(),
             last: None,

@@ -4,11 +4,11 @@ use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
+use crate::groups::Groups;
 use crate::item::{Item, Shape, Traits};
 use crate::kind::Kind;
 use crate::layers::{LayerId, Layers};
 use crate::line_types::LineTypes;
-use crate::groups::Groups;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::trouble::Trouble;
@@ -130,7 +130,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             found = Some(id);
             want(layers, id, kind, space)
         };
-        let (next, want) = fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
+        let (next, want) =
+            fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
         Ok((want, found))
     }

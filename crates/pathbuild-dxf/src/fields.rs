@@ -6,9 +6,9 @@
 use pathbuild_diagnostic::Handle;
 
 use crate::Point3;
-use crate::number::{NotANumber, real, whole};
 use crate::code::Role;
 use crate::groups::{Group, Groups};
+use crate::number::{NotANumber, real, whole};
 use crate::pairs::{Pair, Stop, without_cr};
 
 /// The value of a group.
@@ -100,18 +100,25 @@ impl<'a> Fields<'a> {
         self.begin_entity();
         self.repeated.clear();
         loop {
+            groups.take_plain(|group| self.keep(group, repeats));
             let group = groups.next()?;
-            let Some(slot) = self.slots.get_mut(group.role.slot()) else {
-                match self.special(&group, groups, &mut want)? {
-                    Some(end) => return Ok(end),
-                    None => continue,
-                }
-            };
-            *slot = Value { bytes: group.raw, line: group.line, entity: self.entity };
-            let slot = group.role.slot();
-            if repeats != 0 && slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
-                self.repeated.push(group.pair());
+            if group.role.is_plain() {
+                self.keep(&group, repeats);
+            } else if let Some(end) = self.special(&group, groups, &mut want)? {
+                return Ok(end);
             }
+        }
+    }
+
+    /// Keeps the value of a group.
+    #[inline]
+    fn keep(&mut self, group: &Group<'a>, repeats: u64) {
+        let slot = group.role.slot();
+        if let Some(value) = self.slots.get_mut(slot) {
+            *value = Value { bytes: group.raw, line: group.line, entity: self.entity };
+        }
+        if repeats != 0 && slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
+            self.repeated.push(group.pair());
         }
     }
 

@@ -44,7 +44,7 @@ impl<'a> Groups<'a> {
 
     /// Where the next one begins.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
-        self.begin.after(self.next, self.at())
+        self.begin.after(number(self.next), self.at())
     }
 
     /// The next one.
@@ -53,6 +53,18 @@ impl<'a> Groups<'a> {
         match self.window.roles().get(self.next) {
             Some(role) if *role != Role::UNUSUAL => Ok(self.take(*role)),
             _ => self.next_carefully(),
+        }
+    }
+
+    /// Takes those whose values are only kept, up to one with which more is to be done or one that is read with care.
+    #[inline]
+    pub(crate) fn take_plain(&mut self, mut keep: impl FnMut(&Group<'a>)) {
+        let plain = self.window.ahead(self.next).take_while(|(role, _)| role.is_plain());
+        let bytes = self.begin.bytes();
+        for (role, value) in plain {
+            let line = self.begin.line_after(number(self.next));
+            keep(&Group { role, line, raw: &bytes[value] });
+            self.next += 1;
         }
     }
 
@@ -72,10 +84,10 @@ impl<'a> Groups<'a> {
     /// The next one, which is in the window.
     #[inline]
     fn take(&mut self, role: Role) -> Group<'a> {
-        let [code_end, value_end] = self.window.line_ends(self.next);
-        let group = Group { role, line: self.begin.line_after(self.next), raw: &self.begin.bytes()[code_end + 1..value_end] };
+        let line = self.begin.line_after(number(self.next));
+        let raw = &self.begin.bytes()[self.window.value(self.next)];
         self.next += 1;
-        group
+        Group { role, line, raw }
     }
 
     /// The next one, be it unusual or behind the window.
@@ -104,8 +116,15 @@ impl<'a> Groups<'a> {
     /// Where the next one begins.
     fn at(&self) -> usize {
         match self.next.checked_sub(1) {
-            Some(last) => (self.window.line_ends(last)[1] + 1).min(self.begin.bytes().len()),
+            Some(last) => (self.window.end(last) + 1).min(self.begin.bytes().len()),
             None => self.begin.consumed(),
         }
     }
+}
+
+/// The number of a pair in a window, which is small.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "it is small")]
+fn number(pair: usize) -> u32 {
+    pair as u32
 }

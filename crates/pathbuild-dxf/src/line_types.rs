@@ -1,11 +1,14 @@
 //! The line types of entities. (spec/10-drawing.md, "Line types")
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::encoding::Decoder;
 use crate::fields::Value;
-use crate::layers::{CONTINUOUS, line_type_name};
+use crate::names::{folded, without_xref};
+use crate::spellings::Spellings;
+
+/// What is taken where nothing is said.
+pub(crate) const CONTINUOUS: &str = "CONTINUOUS";
 
 /// What an entity says about its line type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +24,7 @@ pub(crate) enum LineType {
 /// The names of line types found on entities.
 #[derive(Debug)]
 pub(crate) struct LineTypes<'a> {
-    by_spelling: HashMap<&'a [u8], LineType>,
+    by_spelling: Spellings<'a, LineType>,
     last: Option<(&'a [u8], LineType)>,
     /// Shared by the entities that have them: most drawings know three or four.
     names: Vec<Arc<str>>,
@@ -30,8 +33,12 @@ pub(crate) struct LineTypes<'a> {
 
 impl Default for LineTypes<'_> {
     fn default() -> Self {
-        let by_spelling = HashMap::new();
-        Self { by_spelling, last: None, names: Vec::new(), continuous: CONTINUOUS.into() }
+        Self {
+            by_spelling: Spellings::default(),
+            last: None,
+            names: Vec::new(),
+            continuous: CONTINUOUS.into(),
+        }
     }
 }
 
@@ -45,10 +52,8 @@ impl<'a> LineTypes<'a> {
         {
             return line_type;
         }
-        let line_type = match self.by_spelling.get(value.bytes) {
-            Some(line_type) => *line_type,
-            None => self.first_use(value, decoder),
-        };
+        let known = self.by_spelling.get(value.bytes);
+        let line_type = known.unwrap_or_else(|| self.first_use(value, decoder));
         self.last = Some((value.bytes, line_type));
         line_type
     }
@@ -76,4 +81,9 @@ impl<'a> LineTypes<'a> {
         self.by_spelling.insert(value.bytes, line_type);
         line_type
     }
+}
+
+/// A line type's name as it is compared: trimmed, without xref prefix, upper case.
+pub(crate) fn line_type_name(name: &str) -> Box<str> {
+    folded(without_xref(name)).into()
 }

@@ -6,6 +6,9 @@ use crate::encoding::control;
 ///
 /// A command that never ends stays as it stands: it is no command, and to drop the rest of a parameter text would be worse.
 pub(crate) fn plain_text(raw: &str) -> String {
+    if !raw.bytes().any(is_special) {
+        return raw.to_owned();
+    }
     let mut plain = String::with_capacity(raw.len());
     let mut rest = raw;
     while let Some(special) = rest.find(['\\', '{', '}', '^']) {
@@ -20,6 +23,11 @@ pub(crate) fn plain_text(raw: &str) -> String {
     }
     plain.push_str(rest);
     plain
+}
+
+/// Whether a byte may begin something that is not to be taken as it stands.
+fn is_special(byte: u8) -> bool {
+    matches!(byte, b'\\' | b'{' | b'}' | b'^')
 }
 
 /// A command, which `text` begins with: adds what it stands for, and returns its length.

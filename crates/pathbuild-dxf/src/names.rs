@@ -1,8 +1,13 @@
 //! Names of layers, line types and blocks: how they are compared. (spec/10-drawing.md)
 
+use std::cmp::Ordering;
+
 /// A name without blanks around it and without the prefix of an external reference (`FILE$0$NAME`, `FILE|NAME`).
 pub(crate) fn without_xref(name: &str) -> &str {
     let name = name.trim();
+    if !name.bytes().any(|byte| matches!(byte, b'|' | b'$')) {
+        return name;
+    }
     let after_bar = name.rfind('|').map_or(0, |bar| bar + 1);
     let after_bound = bound_prefix(name);
     name[after_bar.max(after_bound)..].trim()
@@ -10,7 +15,12 @@ pub(crate) fn without_xref(name: &str) -> &str {
 
 /// What names are compared by.
 pub(crate) fn folded(name: &str) -> String {
-    name.to_uppercase()
+    if name.is_ascii() { name.to_ascii_uppercase() } else { name.to_uppercase() }
+}
+
+/// The order of ASCII names without regard to case. (Names that are already folded may be anything.)
+pub(crate) fn compare_ascii(a: &str, b: &str) -> Ordering {
+    a.bytes().map(|byte| byte.to_ascii_uppercase()).cmp(b.bytes().map(|byte| byte.to_ascii_uppercase()))
 }
 
 /// Length of everything up to and including the last `$digits$`.

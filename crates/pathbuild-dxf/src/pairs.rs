@@ -91,8 +91,8 @@ impl<'a> Pairs<'a> {
 
     /// The line of the pair behind so many others.
     #[inline]
-    pub(crate) fn line_after(&self, pairs: usize) -> u32 {
-        self.line.saturating_add(u32::try_from(2 * pairs).unwrap_or(u32::MAX))
+    pub(crate) fn line_after(&self, pairs: u32) -> u32 {
+        self.line.saturating_add(2 * pairs)
     }
 
     /// The byte that ends lines.
@@ -101,7 +101,7 @@ impl<'a> Pairs<'a> {
     }
 
     /// Those behind so many, beginning here.
-    pub(crate) fn after(&self, pairs: usize, at: usize) -> Self {
+    pub(crate) fn after(&self, pairs: u32, at: usize) -> Self {
         Self { at, line: self.line_after(pairs), ..*self }
     }
 

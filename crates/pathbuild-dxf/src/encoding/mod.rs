@@ -54,9 +54,12 @@ impl<'a> Decoder<'a> {
 
     /// Decodes a string that begins on this line. What can not be decoded becomes U+FFFD, and one PB008 a file.
     pub(crate) fn decode<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
-        let (text, bytes_known) = match std::str::from_utf8(bytes) {
-            Ok(ascii) if ascii.is_ascii() => (Cow::Borrowed(ascii), true),
-            _ => self.decode_beyond_ascii(bytes),
+        let (has_others, has_backslash) = others_and_backslashes(bytes);
+        let ascii = if has_others { None } else { std::str::from_utf8(bytes).ok() };
+        let (text, bytes_known) = match ascii {
+            Some(ascii) if !has_backslash => return Cow::Borrowed(ascii),
+            Some(ascii) => (Cow::Borrowed(ascii), true),
+            None => self.decode_beyond_ascii(bytes),
         };
         let (text, escapes_known) = escapes::unescape(text);
         if !(bytes_known && escapes_known) {
@@ -83,6 +86,13 @@ impl<'a> Decoder<'a> {
             }
         }
     }
+}
+
+/// Whether there are bytes that are not ASCII, and backslashes.
+fn others_and_backslashes(bytes: &[u8]) -> (bool, bool) {
+    let look = |(others, backslashes), byte: &u8| (others | byte, backslashes | u8::from(*byte == b'\\'));
+    let (others, backslashes) = bytes.iter().fold((0, 0), look);
+    (others >= 0x80, backslashes != 0)
 }
 
 fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
