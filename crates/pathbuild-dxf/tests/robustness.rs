@@ -40,6 +40,7 @@ const PIECES: &[&str] = &[
     "101\nEmbedded Object\n",
     "102\n{X\n",
     "999\nremark\n",
+    "  1\n\n",
     "  8\nx$0$A\n",
     "  1\n\\",
     "\r",
@@ -132,6 +133,30 @@ fn mutate(bytes: &mut Vec<u8>, mutation: &Mutation) {
     }
 }
 
+/// The same file with its codes padded otherwise, so that most are read one by one and with care, not many at a time. Lines that hold no
+/// code stay as they are.
+fn padded_otherwise(file: &[u8], paddings: &[usize]) -> Vec<u8> {
+    const PADDINGS: &[(&str, &str)] =
+        &[("", ""), (" ", ""), ("    ", ""), ("\t", ""), ("", " "), (" ", "\t ")];
+    let lines = file.split(|byte| *byte == b'\n').enumerate().map(|(index, line)| {
+        let text = std::str::from_utf8(line).unwrap_or_default().trim_ascii();
+        if index % 2 == 1
+            || !text.starts_with(|first: char| first.is_ascii_digit())
+            || text.parse::<i32>().is_err()
+        {
+            return line.to_vec();
+        }
+        let (before, after) = PADDINGS[paddings[index / 2 % paddings.len()]];
+        [before, text, after].concat().into_bytes()
+    });
+    lines.collect::<Vec<_>>().join(&b'\n')
+}
+
+/// The same file behind a remark of this length.
+fn behind_a_remark(file: &[u8], length: usize) -> Vec<u8> {
+    [b"999\n", &*vec![b'x'; length], b"\n", file].concat()
+}
+
 /// A drawing with everything in it.
 fn everything() -> Vec<u8> {
     let content = PIECES[9..19].concat();
@@ -154,6 +179,16 @@ fn every_beginning_of_a_file_is_read() {
     let file = everything();
     for length in 0..file.len() {
         check_with(&file[..length], 0.01);
+    }
+}
+
+#[test]
+fn where_a_drawing_lies_in_its_file_makes_no_difference() {
+    let file = everything();
+    let first = check_with(&behind_a_remark(&file, 0), 0.01);
+    assert!(!first.entities.is_empty());
+    for length in 1..130 {
+        assert!(check_with(&behind_a_remark(&file, length), 0.01) == first, "{length}");
     }
 }
 
@@ -183,9 +218,24 @@ proptest! {
         check(&[PIECES[3].as_bytes(), &*bytes].concat());
     }
 
+    /// Whether codes are read many at a time or one by one, what is read and what is said is the same.
+    #[test]
+    fn codes_may_be_padded_in_any_way(
+        mutations in vec(mutation(), 0..4),
+        paddings in vec(0_usize..6, 1..20),
+    ) {
+        let mut bytes = everything();
+        for mutation in &mutations {
+            mutate(&mut bytes, mutation);
+        }
+        // Where lines end is decided by the first.
+        prop_assume!(bytes.iter().find(|byte| matches!(byte, b'\r' | b'\n')) == Some(&b'\n'));
+        prop_assert!(check(&padded_otherwise(&bytes, &paddings)) == check(&bytes));
+    }
+
     /// Reading again, with other line ends, gives the same.
     #[test]
-    fn line_ends_make_no_difference(pieces in vec(prop::sample::select(&PIECES[..30]), 0..20)) {
+    fn line_ends_make_no_difference(pieces in vec(prop::sample::select(&PIECES[..31]), 0..20)) {
         let file = format!("{}{}{}{}", PIECES[3], pieces.concat(), PIECES[7], PIECES[8]);
         prop_assert_eq!(check(file.as_bytes()), check(file.replace('\n', "\r\n").as_bytes()));
         prop_assert_eq!(check(file.as_bytes()), check(file.replace('\n', "\r").as_bytes()));
