@@ -185,6 +185,56 @@ fn another_configuration_begins_anew() {
 }
 
 #[test]
+fn an_edited_post_begins_anew() {
+    let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
+    let place = library()
+        .file("pathbuild.toml", format!("post = \"posts/my.cbpp\"\n{CONFIGURATION}"))
+        .file("posts/my.cbpp", post("bert"));
+    let watch = Watch::begin(&place, "watch --emit");
+    let program = "library/projects/8001_Milling.nc";
+    assert!(place.read(program).starts_with("(bert)"));
+    watch.write("posts/my.cbpp", post("anna"));
+    watch.until("its post changed");
+    watch.until("watching ");
+    assert!(place.read(program).starts_with("(anna)"));
+}
+
+/// More changes while many drawings are asked again: what is still open is asked together with what they concern, and nothing is forgotten.
+#[test]
+fn changes_that_come_while_others_are_worked_on_are_not_lost() {
+    const PROJECTS: usize = 200;
+    let place = (0..PROJECTS).fold(library(), |place, index| {
+        let name = format!("{}.1P", 8100 + index);
+        place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
+    });
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    let difference = |said: &[String]| {
+        let counts = said.iter().filter_map(|line| {
+            let (new, gone) = line.split_once(" new findings, ")?;
+            let number = |text: &str| text.parse::<i64>().unwrap();
+            Some(number(new.rsplit(' ').next().unwrap()) - number(gone.split(' ').next().unwrap()))
+        });
+        counts.sum::<i64>()
+    };
+    let mut said = Vec::new();
+    for pause in [60, 75, 90, 120] {
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+        std::thread::sleep(Duration::from_millis(pause));
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+        std::thread::sleep(Duration::from_millis(pause));
+    }
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    // Whatever comes now comes after everything else.
+    std::thread::sleep(Duration::from_millis(500));
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1999.1P"]));
+    said.extend(watch.until("1002.dxf: changed"));
+    said.retain(|line| line.starts_with('['));
+    // Each project is wrong now, 8001 among them; 1002, and 8002 that embeds it, miss a path.
+    let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
+    assert_eq!(difference(&said), wrong, "{said:#?}");
+}
+
+#[test]
 fn what_cannot_be_watched_is_wrong_usage() {
     let run = Place::new().run("watch");
     assert_eq!(run.status, Some(2), "{run}");

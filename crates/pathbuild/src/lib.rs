@@ -83,9 +83,10 @@ fn watch(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         }
         match commands::watch::run(&context, args) {
             Ended::With(status) => return context.printer.finish(status),
-            Ended::ConfigurationChanged => context
-                .printer
-                .status(context.choose("the configuration changed", "die Konfiguration wurde geändert")),
+            Ended::ConfigurationChanged => context.printer.status(context.choose(
+                "the configuration or its post changed",
+                "die Konfiguration oder ihr Postprozessor wurde geändert",
+            )),
         }
     }
 }

@@ -112,6 +112,15 @@ impl Poster {
         self.file.as_deref()
     }
 
+    /// The files that it is read from: the definition's own, and those that it may insert.
+    pub fn sources(&self) -> Vec<Utf8PathBuf> {
+        let Some(file) = &self.file else { return Vec::new() };
+        let directory = file.parent().unwrap_or(Utf8Path::new(""));
+        let text = String::from_utf8_lossy(&self.definition);
+        let inserted = inserted_names(&text).map(|name| directory.join(name));
+        std::iter::once(file.clone()).chain(inserted).collect()
+    }
+
     /// The extension of the files that it writes, without point.
     pub fn extension(&self) -> &str {
         self.post.extension()
@@ -184,8 +193,12 @@ impl Poster {
 /// What control texts may insert: the content of each file that is named in them, as far as it can be read.
 fn insertions(definition: &[u8], files: &Below<'_>) -> Vec<u8> {
     let text = String::from_utf8_lossy(definition);
-    let names = text.split(INSERTION).skip(1).filter_map(|rest| rest.split_once('*'));
-    names.flat_map(|(name, _)| files.read(Utf8Path::new(name)).unwrap_or_default()).collect()
+    inserted_names(&text).flat_map(|name| files.read(Utf8Path::new(name)).unwrap_or_default()).collect()
+}
+
+/// The files that are named in control texts.
+fn inserted_names(text: &str) -> impl Iterator<Item = &str> {
+    text.split(INSERTION).skip(1).filter_map(|rest| rest.split_once('*')).map(|(name, _)| name)
 }
 
 /// What stands before the name of a file in control texts, with a `*` behind it.

@@ -38,10 +38,9 @@ pub type Pair = [SourceFile; 2];
 /// The drawings that have a Q-project among them, each with it, by their numbers.
 pub fn pairs(drawings: &[&Utf8Path]) -> Vec<[usize; 2]> {
     let stem = |path: &'_ Utf8Path| Some((path.parent()?.to_owned(), path.file_stem()?.to_owned()));
-    let is_q_project =
-        |path: &Utf8Path| path.file_stem().is_some_and(|stem| stem.ends_with("_Q") || stem.ends_with("_q"));
+    let may_be_q_project = |path: &Utf8Path| path.as_str().contains("_Q.") || path.as_str().contains("_q.");
     // A library of ten thousand drawings has few of them, or none.
-    if !drawings.iter().any(|path| is_q_project(path)) {
+    if !drawings.iter().any(|path| may_be_q_project(path)) {
         return Vec::new();
     }
     let by_stem: HashMap<_, usize> =

@@ -20,8 +20,11 @@ pub(super) struct Watcher {
     /// Kept, since nothing is watched once it is dropped.
     _source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    configuration: Option<Utf8PathBuf>,
+    /// The configuration, and what belongs to it.
+    configuration: BTreeSet<Utf8PathBuf>,
     working_directory: Utf8PathBuf,
+    /// What came while a batch was worked on.
+    news: Changes,
     /// Files without their end, and when they are taken as they are.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
@@ -54,8 +57,13 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const GLANCE: Duration = Duration::from_millis(50);
 
 impl Watcher {
-    /// Begins to watch.
-    pub(super) fn new(context: &Context, session: &Session<'_>, args: &WatchArgs) -> notify::Result<Self> {
+    /// Begins to watch. `post`: the files that a post is read from.
+    pub(super) fn new(
+        context: &Context,
+        session: &Session<'_>,
+        args: &WatchArgs,
+        post: &[Utf8PathBuf],
+    ) -> notify::Result<Self> {
         let settings = &context.settings;
         let (sender, events) = channel();
         let is_polling = args.poll || settings.watch.poll.value;
@@ -64,7 +72,8 @@ impl Watcher {
         } else {
             Box::new(RecommendedWatcher::new(sender, Config::default())?)
         };
-        for (directory, mode) in directories(context, session, args) {
+        let post: Vec<Utf8PathBuf> = post.iter().map(|file| session.normal(file)).collect();
+        for (directory, mode) in directories(context, session, args, &post) {
             let place = if directory.as_str().is_empty() { Utf8Path::new(".") } else { &directory };
             watcher.watch(place.as_std_path(), mode)?;
         }
@@ -72,7 +81,8 @@ impl Watcher {
             events,
             _source: watcher,
             debounce: settings.watch.debounce.value,
-            configuration: settings.file.as_ref().map(|file| session.normal(file)),
+            configuration: settings.file.iter().map(|file| session.normal(file)).chain(post).collect(),
+            news: Changes::default(),
             working_directory: context.working_directory.clone(),
             unfinished: BTreeMap::new(),
         })
@@ -80,9 +90,10 @@ impl Watcher {
 
     /// Waits for changes.
     pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
-        let mut changes = Changes::default();
+        let mut changes = std::mem::take(&mut self.news);
         loop {
-            let patience = match (changes.is_empty(), self.unfinished.is_empty()) {
+            let is_idle = changes.is_empty() && !library.is_behind();
+            let patience = match (is_idle, self.unfinished.is_empty()) {
                 (false, _) => self.debounce,
                 (true, false) => GLANCE,
                 (true, true) => Duration::MAX,
@@ -91,16 +102,30 @@ impl Watcher {
                 Ok(event) => self.add(event, library.session(), &mut changes),
                 Err(RecvTimeoutError::Disconnected) => return Batch::Over,
                 Err(RecvTimeoutError::Timeout) => {
-                    if self.configuration.as_ref().is_some_and(|file| changes.paths.contains(file)) {
+                    if !self.configuration.is_disjoint(&changes.paths) {
                         return Batch::ConfigurationChanged;
                     }
                     self.hold_back(&mut changes);
-                    if !changes.is_empty() {
+                    if !changes.is_empty() || library.is_behind() {
                         return Batch::Changes(changes);
                     }
                 }
             }
         }
+    }
+
+    /// Whether drawings changed since the last batch was given out.
+    pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
+        let mut news = std::mem::take(&mut self.news);
+        while let Ok(event) = self.events.try_recv() {
+            self.add(event, session, &mut news);
+        }
+        self.news = news;
+        self.news.is_incomplete || self.news.paths.iter().any(|path| self.is_news(path))
+    }
+
+    fn is_news(&self, path: &Utf8PathBuf) -> bool {
+        Session::is_drawing(path) || self.configuration.contains(path)
     }
 
     fn wait(&self, patience: Duration) -> Result<notify::Result<Event>, RecvTimeoutError> {
@@ -123,7 +148,7 @@ impl Watcher {
                 let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
                 let paths = paths
                     .map(|path| session.normal(&crate::config::clean(&self.working_directory.join(path))));
-                changes.paths.extend(paths.filter(|path| matters(path)));
+                changes.paths.extend(paths.filter(|path| matters(path) || self.configuration.contains(path)));
             }
             Ok(_) => {}
             Err(_) => changes.is_incomplete = true,
@@ -152,11 +177,12 @@ impl Changes {
     }
 }
 
-/// The directories to watch: those that hold drawings, those that are searched, and that of the configuration.
+/// The directories to watch: those that hold drawings, those that are searched, that of the configuration, and those of the post.
 fn directories(
     context: &Context,
     session: &Session<'_>,
     args: &WatchArgs,
+    post: &[Utf8PathBuf],
 ) -> Vec<(Utf8PathBuf, RecursiveMode)> {
     let general = &context.settings.general;
     let mut all: BTreeMap<Utf8PathBuf, RecursiveMode> = BTreeMap::new();
@@ -184,7 +210,9 @@ fn directories(
         add(session.normal(directory), RecursiveMode::Recursive);
     }
     let beside = context.settings.directory().map(|directory| session.normal(directory));
-    for directory in general.search.value.iter().map(|directory| session.normal(directory)).chain(beside) {
+    let posts = post.iter().filter_map(|file| file.parent().map(Utf8Path::to_owned));
+    let searched = general.search.value.iter().map(|directory| session.normal(directory));
+    for directory in searched.chain(beside).chain(posts) {
         add(directory, RecursiveMode::NonRecursive);
     }
     let is_there = |directory: &Utf8PathBuf| directory.as_str().is_empty() || session.is_directory(directory);

@@ -21,7 +21,13 @@ pub(super) struct Library<'a> {
     coverage: Coverage,
     drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
+    /// The drawings that have a Q-project, each with it; `None` until somebody asks.
+    pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
     reverse: Reverse,
+    /// What is still to be asked, in order of name.
+    open: BTreeMap<Utf8PathBuf, SourceFile>,
+    /// The files because of which.
+    late: Vec<Utf8PathBuf>,
 }
 
 /// What came of a batch of changes.
@@ -31,6 +37,8 @@ pub(super) struct Update {
     pub(super) changed: Vec<Utf8PathBuf>,
     /// The drawings that were asked again.
     pub(super) asked: Vec<SourceFile>,
+    /// How many are still to be asked, because there is news.
+    pub(super) open: usize,
     /// The drawings that are no longer there.
     pub(super) removed: Vec<Utf8PathBuf>,
     /// What was found in them before.
@@ -38,6 +46,9 @@ pub(super) struct Update {
     /// What is found in them now.
     pub(super) now: Vec<Diagnostic>,
 }
+
+/// So many drawings are asked before it is looked whether there is news.
+const PORTION: usize = 64;
 
 impl<'a> Library<'a> {
     /// Nothing is known yet.
@@ -48,7 +59,10 @@ impl<'a> Library<'a> {
             coverage: Coverage::new(context),
             drawings: BTreeMap::new(),
             q_projects: BTreeMap::new(),
+            pairs: None,
             reverse: Reverse::default(),
+            open: BTreeMap::new(),
+            late: Vec::new(),
         }
     }
 
@@ -72,14 +86,14 @@ impl<'a> Library<'a> {
         update
     }
 
-    /// Takes over changes, and asks again what they concern.
-    pub(super) fn update(&mut self, changes: &Changes) -> Update {
+    /// Takes over changes; what they concern is to be asked, portion by portion.
+    pub(super) fn take_over(&mut self, changes: &Changes) -> Update {
         let mut update = Update::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
         let mut is_other_library = changes.is_incomplete;
         for path in &files {
-            is_other_library |= self.take_over(path, &mut concerned);
+            is_other_library |= self.take_over_file(path, &mut concerned);
         }
         is_other_library |=
             changes.paths.iter().any(|path| matches!(path.file_name(), Some(".gitignore" | ".ignore")));
@@ -91,11 +105,38 @@ impl<'a> Library<'a> {
             self.drawings.contains_key(file.path(db)) && !update.removed.contains(file.path(db))
                 || update.changed.contains(file.path(db))
         });
-        let mut concerned: Vec<SourceFile> = concerned.collect();
-        concerned.sort_by(|a, b| a.path(db).cmp(b.path(db)));
-        update.changed = files.into_iter().collect();
-        self.ask(concerned, &mut update);
+        self.open.extend(concerned.map(|file| (file.path(db).clone(), file)));
+        self.open.retain(|path, _| !update.removed.contains(path));
+        let late = std::mem::take(&mut self.late).into_iter();
+        let changed: BTreeSet<Utf8PathBuf> = files.into_iter().chain(late).collect();
+        update.changed = changed.into_iter().collect();
         update
+    }
+
+    /// Whether something is still to be asked.
+    pub(super) fn is_behind(&self) -> bool {
+        !self.open.is_empty()
+    }
+
+    /// The drawings that are still to be asked.
+    pub(super) fn open(&self) -> impl Iterator<Item = SourceFile> {
+        self.open.values().copied()
+    }
+
+    /// Asks the next of the drawings that are to be asked; which they were.
+    pub(super) fn ask_portion(&mut self, update: &mut Update) -> Vec<SourceFile> {
+        let portion: Vec<SourceFile> =
+            std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(PORTION).collect();
+        self.ask(portion.clone(), update);
+        portion
+    }
+
+    /// Leaves what is still to be asked for the next batch of changes.
+    pub(super) fn leave(&mut self, update: &mut Update) {
+        update.open = self.open.len();
+        if self.is_behind() {
+            self.late.clone_from(&update.changed);
+        }
     }
 
     /// The files that changes are about: those that were named, and those in directories that were.
@@ -121,7 +162,7 @@ impl<'a> Library<'a> {
     }
 
     /// Tells the database of a file, and collects the drawings that it concerns; whether it came or went.
-    fn take_over(&mut self, path: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
+    fn take_over_file(&mut self, path: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
         let directory = path.parent().unwrap_or(Utf8Path::new("")).to_owned();
         let name = path.file_name().unwrap_or_default();
         let db = self.session.db();
@@ -156,6 +197,7 @@ impl<'a> Library<'a> {
         let gone: Vec<(Utf8PathBuf, DrawingResult)> = self.drawings.extract_if(.., is_gone).collect();
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
+            self.pairs = None;
             update.before.extend(result.diagnostics);
             update.removed.push(drawing);
         }
@@ -168,15 +210,34 @@ impl<'a> Library<'a> {
             self.reverse.set(*file, traces);
             update.now.extend_from_slice(&result.diagnostics);
             let before = self.drawings.insert(file.path(self.session.db()).clone(), result);
+            if before.is_none() {
+                self.pairs = None;
+            }
             update.before.extend(before.into_iter().flat_map(|result| result.diagnostics));
         }
-        update.asked = asked;
-        self.ask_q_projects(update);
+        self.ask_q_projects(&asked, update);
+        update.asked.extend(asked);
     }
 
     /// Holds those Q-projects against their drawings of which either was asked again.
-    fn ask_q_projects(&mut self, update: &mut Update) {
+    fn ask_q_projects(&mut self, asked: &[SourceFile], update: &mut Update) {
+        if self.pairs.is_none() {
+            self.find_pairs(update);
+        }
+        let Some(pairs) = self.pairs.as_ref().filter(|pairs| !pairs.is_empty()) else { return };
         let db = self.session.db();
+        let asked: HashSet<&Utf8PathBuf> = asked.iter().map(|file| file.path(db)).collect();
+        let open = pairs.iter().filter(|pair| pair.iter().any(|path| asked.contains(path)));
+        let open: Vec<[Utf8PathBuf; 2]> = open.cloned().collect();
+        let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
+        for (pair, found) in open.into_iter().zip(self.session.judge_q_projects(&files)) {
+            update.now.extend_from_slice(&found);
+            update.before.extend(self.q_projects.insert(pair, found).into_iter().flatten());
+        }
+    }
+
+    /// Finds which drawings have a Q-project: among ten thousand that takes as long as an edit.
+    fn find_pairs(&mut self, update: &mut Update) {
         let paths: Vec<&Utf8Path> = self.drawings.keys().map(Utf8PathBuf::as_path).collect();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = q_project_pairs(&paths)
             .into_iter()
@@ -184,13 +245,6 @@ impl<'a> Library<'a> {
             .collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();
         update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
-        let asked: HashSet<&Utf8PathBuf> = update.asked.iter().map(|file| file.path(db)).collect();
-        let open: Vec<[Utf8PathBuf; 2]> =
-            pairs.into_iter().filter(|pair| pair.iter().any(|path| asked.contains(path))).collect();
-        let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
-        for (pair, found) in open.into_iter().zip(self.session.judge_q_projects(&files)) {
-            update.now.extend_from_slice(&found);
-            update.before.extend(self.q_projects.insert(pair, found).into_iter().flatten());
-        }
+        self.pairs = Some(pairs);
     }
 }

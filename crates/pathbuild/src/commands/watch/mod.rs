@@ -1,7 +1,8 @@
 //! `pathbuild watch`: keeps checking, and writing with `--emit`, as drawings change. (spec/05-command-line.md)
 //!
 //! One loop: wait for changes, let them come to rest, take them over into the database as one revision, and ask again only those drawings that
-//! the reverse index names. What is shown carries the number of that revision.
+//! the reverse index names. What is shown carries the number of that revision. Those drawings are asked portion by portion: when more changes come
+//! meanwhile, what is still open waits for them and is asked together with what they concern.
 
 mod changes;
 mod library;
@@ -25,7 +26,7 @@ use writing::Writer;
 pub enum Ended {
     /// Nothing can be watched.
     With(ExitStatus),
-    /// The configuration changed: everything has to begin anew.
+    /// The configuration, or a file of the post that it names, changed: everything has to begin anew.
     ConfigurationChanged,
 }
 
@@ -43,7 +44,7 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
         return Ended::With(context.usage(&refusal));
     }
     // Before anything is read, so that no change is missed.
-    let watcher = Watcher::new(context, &session, args);
+    let watcher = Watcher::new(context, &session, args, &writer.sources());
     let mut watcher = match watcher {
         Ok(watcher) => watcher,
         Err(reason) => {
@@ -57,7 +58,7 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
     let begun = Instant::now();
     let mut library = Library::new(context, session, &args.inputs);
     let update = library.begin();
-    let written = writer.write(library.session(), &update);
+    let written = writer.write(library.session(), &update.asked);
     show::begun(context, &library, update, written, begun.elapsed());
     let mut revision = 0;
     loop {
@@ -66,12 +67,22 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
             Batch::Over => return Ended::With(ExitStatus::Success),
             Batch::Changes(changes) => {
                 let begun = Instant::now();
-                let update = library.update(&changes);
-                if update.asked.is_empty() && update.removed.is_empty() {
+                let mut update = library.take_over(&changes);
+                if !library.is_behind() && update.removed.is_empty() {
                     continue;
                 }
                 revision += 1;
-                let written = writer.write(library.session(), &update);
+                writer.release(library.session(), library.open(), &update.removed);
+                let mut written = Vec::new();
+                while library.is_behind() {
+                    let portion = library.ask_portion(&mut update);
+                    written.extend(writer.write(library.session(), &portion));
+                    // What is still open may be something else by now.
+                    if watcher.has_news(library.session()) {
+                        break;
+                    }
+                }
+                library.leave(&mut update);
                 show::updated(context, &library, update, written, revision, begun.elapsed());
             }
         }

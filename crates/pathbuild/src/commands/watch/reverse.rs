@@ -20,6 +20,10 @@ pub(super) struct Reverse {
 impl Reverse {
     /// Says what a drawing's results were made from, instead of what was said before.
     pub(super) fn set(&mut self, drawing: SourceFile, traces: Vec<Trace>) {
+        // Most edits change what is drawn, not what is embedded.
+        if self.traces.get(&drawing) == Some(&traces) {
+            return;
+        }
         self.remove(drawing);
         for trace in &traces {
             for file in &trace.files {

@@ -54,8 +54,12 @@ pub(super) fn updated(
     let count = update.asked.len();
     let milliseconds = time.as_secs_f64() * 1000.0;
     let phrase = |en, de| context.choose(en, de);
+    let open = match update.open {
+        0 => String::new(),
+        open => format!(", {open} {}", phrase("to follow", "folgen")),
+    };
     let tail = format!(
-        "{count} {}, {} {}, {gone} {} ({milliseconds:.1} ms)",
+        "{count} {}{open}, {} {}, {gone} {} ({milliseconds:.1} ms)",
         phrase("drawings checked", "Zeichnungen geprüft"),
         new.len(),
         phrase("new findings", "neue Meldungen"),

@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
+use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::library::Update;
 use crate::commands::emit::{self, Owners};
 use crate::context::Context;
 use crate::posting::{Poster, Wishes};
@@ -36,20 +36,34 @@ impl<'a> Writer<'a> {
             .then(|| "nothing to emit: set `[emit] targets` in pathbuild.toml".to_owned())
     }
 
-    /// Writes the targets among the paths of the drawings that were asked again; what is wrong with them as programs.
-    pub(super) fn write(&mut self, session: &Session<'_>, update: &Update) -> Vec<Diagnostic> {
+    /// The files that the post is read from.
+    pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
+        self.poster.as_ref().map(Poster::sources).unwrap_or_default()
+    }
+
+    /// What the paths of drawings that are asked again, or gone, were written to is free again.
+    pub(super) fn release(
+        &mut self,
+        session: &Session<'_>,
+        asked: impl Iterator<Item = SourceFile>,
+        removed: &[Utf8PathBuf],
+    ) {
+        let db = session.db();
+        let removed = removed.iter().map(|drawing| db.file(drawing));
+        let released: HashSet<SourceFile> = asked.chain(removed).collect();
+        self.owners.retain(|_, owner| !released.contains(&owner.file(db)));
+    }
+
+    /// Writes the targets among the paths of drawings that were asked again; what is wrong with them as programs.
+    pub(super) fn write(&mut self, session: &Session<'_>, asked: &[SourceFile]) -> Vec<Diagnostic> {
         if !self.is_on {
             return Vec::new();
         }
         let db = session.db();
-        // What their paths were written to is free again.
-        let removed = update.removed.iter().map(|drawing| db.file(drawing));
-        let released: HashSet<SourceFile> = update.asked.iter().copied().chain(removed).collect();
-        self.owners.retain(|_, owner| !released.contains(&owner.file(db)));
         let patterns = &self.context.settings.emit.targets.value;
         let is_target = |name: &str| patterns.iter().any(|pattern| pattern.matches(name));
         let mut targets = Vec::new();
-        for file in &update.asked {
+        for file in asked {
             let names = path_names(db, *file).iter().filter(|name| is_target(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
