@@ -5,6 +5,7 @@
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
 
+mod ahead;
 mod brief;
 use crate::database::Db;
 
@@ -23,13 +24,14 @@ mod report;
 mod texts;
 mod traces;
 
+pub use ahead::{mentioned, try_mentioned};
 pub use brief::{Brief, Head, Summary, head, summary};
 pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
 pub use joined::program;
-pub use lookup::{Found, drawing_names, files_for, find_path, holders, name_table};
+pub use lookup::{Found, drawing_names, files_for, find_path, holders, name_table, search_directories};
 pub use q_projects::{QProject, QProjectLine, q_project, q_project_findings};
 pub use raw::{NameKey, PathPlace, content_hash, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};

@@ -54,6 +54,20 @@ impl DefaultPattern {
         })
     }
 
+    /// The match of the file pattern that a text begins with, if there can be no other behind it and no range.
+    pub(crate) fn lone_numbers(self, text: &str) -> Option<NumberPart> {
+        let (first, rest) = text.as_bytes().split_at_checked(4)?;
+        if self != Self::File || !first.iter().all(u8::is_ascii_digit) {
+            return None;
+        }
+        let second = rest.strip_prefix(b".").unwrap_or_default();
+        let (second, rest) = match digits(second, 0, second.len()) {
+            0 => (&[][..], rest),
+            end => second.split_at(end),
+        };
+        (!rest.iter().any(u8::is_ascii_digit)).then(|| NumberPart::new(first, second))?
+    }
+
     /// The pairs of matches with a hyphen between them, from left to right, that do not overlap.
     pub(crate) fn find_ranges(self, text: &str) -> impl Iterator<Item = (Match, Match)> {
         let mut from = 0;

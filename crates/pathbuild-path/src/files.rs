@@ -72,6 +72,9 @@ impl FilePattern {
 
     /// Takes each of these.
     pub fn each_range(&self, stem: &str, mut take: impl FnMut(NameRange)) {
+        if let Some(numbers) = self.0.lone_numbers(stem) {
+            return take(NumberRange::new(numbers, None).into());
+        }
         // A range has a hyphen in it, and most names have none.
         if stem.as_bytes().contains(&b'-') {
             self.0.each_range(stem, |from, to| take(NameRange::new(from, Some(to))));

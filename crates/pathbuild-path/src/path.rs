@@ -297,6 +297,17 @@ impl Path {
 }
 
 impl Segment {
+    /// The path that it names, where it is a subpath segment that names one.
+    pub fn embedded_name(&self) -> Option<&PathName> {
+        match &self.kind {
+            SegmentKind::Subpath(subpath) => match &subpath.name {
+                SubpathName::Found { name, .. } => Some(name),
+                SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
+            },
+            _ => None,
+        }
+    }
+
     /// What of several segments at a point comes first when their orders are equal.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {

@@ -111,6 +111,15 @@ impl Pattern {
         }
     }
 
+    /// The one name in a text that begins with it and has no digits behind it, which is how nearly all files are named: found in a tenth
+    /// of the time.
+    pub(crate) fn lone_numbers(&self, text: &str) -> Option<NumberPart> {
+        match self {
+            Self::Default(pattern) => pattern.lone_numbers(text),
+            Self::Regex(_) => None,
+        }
+    }
+
     /// Both ends of each range in a text: two names with nothing but a hyphen between.
     pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Name<'_>, Name<'_>)) {
         match self {

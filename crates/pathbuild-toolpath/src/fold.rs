@@ -45,8 +45,8 @@ pub enum SupportBars {
     Solid,
 }
 
-/// Makes the program of a path. Every path in it must be free of errors.
-pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions) -> Program {
+/// Makes the program of a path, of about so many moves. Every path in it must be free of errors.
+pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions, moves: u64) -> Program {
     let path = parts.path(root);
     let sweep_height = path.emitted_sweep_height(options.sweep_height).unwrap_or_default();
     let mut program = Program {
@@ -63,7 +63,7 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
         feed: options.feed.unwrap_or_default(),
         support_bars: options.support_bars,
         tip: Tip { at: Xy::origin(), z: program.start_height() },
-        steps: Vec::new(),
+        steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MOST_FORESEEN)),
         names: Names::default(),
         probes: Vec::new(),
         mergeable: None,
@@ -74,6 +74,9 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
     program.probes = probes::in_order(fold.probes);
     program
 }
+
+/// For so many moves there is room from the beginning: beyond, growing costs little against making them.
+const MOST_FORESEEN: usize = 1 << 16;
 
 /// Where the tool is.
 #[derive(Clone, Copy, Debug)]

@@ -100,7 +100,7 @@ impl<'db> Embedder<'db> {
             }
         };
         let origin = self.outer.origin(segment).clone();
-        Embedding { segment: index, origin, name: named(subpath), outcome, warnings }
+        Embedding { segment: index, origin, name: segment.embedded_name().cloned(), outcome, warnings }
     }
 
     fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName, text: &TextFault) -> Outcome<'db> {
@@ -272,13 +272,6 @@ impl<'db> Embedder<'db> {
             Some(text) => diagnostic.with_text(text.clone()),
             None => diagnostic,
         }
-    }
-}
-
-fn named(subpath: &Subpath) -> Option<PathName> {
-    match &subpath.name {
-        SubpathName::Found { name, .. } => Some(name.clone()),
-        SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
     }
 }
 

@@ -22,7 +22,7 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
-    let program = fold(&Embedded { db }, closure.root?, drawing, Settings::get(db).fold(db));
+    let program = fold(&Embedded { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
     Some(Arc::new(program))
 }
 

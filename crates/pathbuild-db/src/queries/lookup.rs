@@ -47,8 +47,8 @@ impl NameTable {
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
     let pattern = &Settings::get(db).lookup(db).file_pattern;
-    let listing = db.system().list(directory.path(db)).unwrap_or_default();
-    let names: Names = listing.files.iter().filter(|name| is_drawing(name)).collect();
+    let mut names = db.system().list(directory.path(db)).unwrap_or_default().files;
+    names.retain(is_drawing);
     let mut ranges = Ranges::default();
     for (number, name) in (0_u32..).zip(names.iter()) {
         let stem = &name[..name.len() - EXTENSION.len()];
@@ -76,6 +76,11 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
     if defines(db, from, name) {
         return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
     }
+    find_in(db, search_directories(db, from), name)
+}
+
+/// The directories in which paths are looked for that a drawing refers to, in order.
+pub fn search_directories(db: &dyn Db, from: SourceFile) -> Vec<Utf8PathBuf> {
     let own = from.path(db).parent().unwrap_or(Utf8Path::new("")).to_owned();
     let mut directories = vec![own];
     for searched in &Settings::get(db).lookup(db).search {
@@ -83,7 +88,7 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
             directories.push(searched.clone());
         }
     }
-    find_in(db, directories, name)
+    directories
 }
 
 /// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would

@@ -58,20 +58,7 @@ const DEEPEST: u32 = 10;
 /// Walks what a target embeds.
 #[salsa::tracked]
 pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
-    let name = NameKey::of(db, &PathName::new(target.name(db)));
-    let file = target.file(db);
-    let Some(head) = head(db, file, name) else { return Closure::default() };
-    let bindings = match target.role(db) {
-        Role::Emitted => Bindings::default(),
-        Role::Checked => Bindings::check_values(&head.definitions),
-        Role::CheckedWith(bindings) => bindings.clone(),
-    };
-    let missing = if head.is_sound && !bindings.cover(&head.definitions) {
-        raw_path(db, file, name).map(|raw| raw.missing_values(&bindings)).unwrap_or_default()
-    } else {
-        Vec::new()
-    };
-    let root = Instance::new(db, file, name, bindings);
+    let Some((root, missing)) = root(db, target) else { return Closure::default() };
     let mut walk = Walk::new(db, target.role(db));
     if missing.is_empty() {
         walk.visit(root, 0);
@@ -87,6 +74,24 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         moves: walk.moves,
         missing_options: walk.missing_options,
     }
+}
+
+/// A target's path with its values, and what is wrong with the values that it has not; `None` when the file has no such path.
+pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
+    let name = NameKey::of(db, &PathName::new(target.name(db)));
+    let file = target.file(db);
+    let head = head(db, file, name).as_ref()?;
+    let bindings = match target.role(db) {
+        Role::Emitted => Bindings::default(),
+        Role::Checked => Bindings::check_values(&head.definitions),
+        Role::CheckedWith(bindings) => bindings.clone(),
+    };
+    let missing = if head.is_sound && !bindings.cover(&head.definitions) {
+        raw_path(db, file, name)?.missing_values(&bindings)
+    } else {
+        Vec::new()
+    };
+    Some((Instance::new(db, file, name, bindings), missing))
 }
 
 impl Closure<'_> {

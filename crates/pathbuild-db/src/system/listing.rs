@@ -44,6 +44,13 @@ impl Names {
         Some(&self.text[begin..end])
     }
 
+    /// Leaves out those that are not wanted.
+    pub fn retain(&mut self, is_wanted: impl Fn(&str) -> bool) {
+        if !self.iter().all(&is_wanted) {
+            *self = self.iter().filter(|name| is_wanted(name)).collect();
+        }
+    }
+
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &str> {
         (0..self.len()).filter_map(|number| self.get(number))

@@ -1,6 +1,8 @@
 //! The files of the operating system. The one place of the program that does IO on drawings and programs.
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
+mod directory;
+
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::SystemTime;
@@ -40,17 +42,7 @@ impl System for OsSystem {
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-        let mut listing = Listing::default();
-        for entry in fs::read_dir(directory)? {
-            let entry = entry?;
-            let kind = entry.file_type()?;
-            // A link is what it leads to; one that leads nowhere is a file that cannot be read.
-            let is_directory = kind.is_dir()
-                || (kind.is_symlink() && fs::metadata(entry.path()).is_ok_and(|data| data.is_dir()));
-            let names = if is_directory { &mut listing.directories } else { &mut listing.files };
-            names.push(&entry.file_name().to_string_lossy());
-        }
-        Ok(listing)
+        Ok(directory::list(directory)?)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

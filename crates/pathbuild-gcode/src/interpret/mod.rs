@@ -30,6 +30,7 @@ use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 pub use codes::{Plane, WorkSystem};
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
+pub(crate) use program::each_move_of;
 pub use program::moves_of;
 pub use step::{Action, Arc, Axes, Coolant, Move, Named, Pace, Path, Position, Spindle, Step, Turning};
 

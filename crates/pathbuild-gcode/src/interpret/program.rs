@@ -14,16 +14,22 @@ const FIRST_FEED: f64 = 150.0;
 /// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0; each with the
 /// number of its step, from 1, in place of a line.
 pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
-    let mut tool = Tool { position: Position::known(0.0, 0.0, program.start_height()), feed: FIRST_FEED };
-    let numbers = 1_u32..;
     let mut moves = Vec::with_capacity(program.steps.len() + 1);
-    moves.extend(numbers.zip(&program.steps).filter_map(|(number, step)| match step {
-        toolpath::Step::Move { to, count } => Some((number, tool.go(to, count.length))),
-        toolpath::Step::Comment(_) => None,
-    }));
-    let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
-    moves.push((last, tool.straight(tool.at(None, program.start_height()), Pace::Rapid)));
+    moves.extend(each_move_of(program));
     moves
+}
+
+/// The same one by one.
+pub(crate) fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
+    let height = program.start_height();
+    let mut tool = Tool { position: Position::known(0.0, 0.0, height), feed: FIRST_FEED };
+    let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
+    let steps = (1_u32..).zip(program.steps.iter().map(Some)).chain(std::iter::once((last, None)));
+    steps.filter_map(move |(number, step)| match step {
+        Some(toolpath::Step::Move { to, count }) => Some((number, tool.go(to, count.length))),
+        Some(toolpath::Step::Comment(_)) => None,
+        None => Some((number, tool.straight(tool.at(None, height), Pace::Rapid))),
+    })
 }
 
 struct Tool {

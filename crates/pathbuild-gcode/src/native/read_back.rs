@@ -6,8 +6,8 @@ use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
 use super::program::LAST_DIGIT;
 use crate::dialect::Dialect;
-use crate::interpret::{self, Heights, Options, Pace, interpret_each, moves_of};
-use crate::verify::{Difference, Tolerance, compare};
+use crate::interpret::{self, Axes, Heights, Options, Pace, each_move_of, interpret_each, moves_of};
+use crate::verify::{Difference, Tolerance, compare, is_near, is_same_move};
 
 /// Digits behind the point.
 const DECIMALS: i32 = 3;
@@ -17,9 +17,14 @@ const DECIMALS: i32 = 3;
 /// # Errors
 /// PB006: where it does not. It is a bug.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
+    let exactly = Tolerance::of_decimals(DECIMALS);
+    let mut abreast = Abreast::new(each_move_of(program), exactly);
+    each_move(text, |_, it| abreast.step(&it))?;
+    if abreast.end_together() {
+        return Ok(());
+    }
     let (found, expected) = (moves(text)?, moves_of(program));
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
-    let exactly = Tolerance::of_decimals(DECIMALS);
     match difference(&exactly) {
         Some(_) if has_longer_arcs(program) => {
             let place = exactly.place + LAST_DIGIT;
@@ -44,17 +49,58 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
     if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
 }
 
-/// The moves of a text, with their lines. Nothing else of it is kept: this is done for every program that is written.
-fn moves(text: &str) -> Result<Vec<(u32, interpret::Move)>, Box<Diagnostic>> {
-    let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
-    let problems = interpret_each(text.as_bytes(), Dialect::Native, &options, &mut |step| {
-        moves.extend(step.as_move());
-    });
-    match problems.iter().find(|problem| problem.is_error()) {
-        Some(problem) => Err(told(problem)),
-        None => Ok(moves),
+/// Goes along the moves that are found and those that are expected, one by one: nearly every program is as it should be, and to keep
+/// both lists to walk along them takes as long as to read the program.
+struct Abreast<E> {
+    expected: E,
+    tolerance: Tolerance,
+    has_begun: bool,
+    is_same: bool,
+}
+
+impl<E: Iterator<Item = (u32, interpret::Move)>> Abreast<E> {
+    fn new(expected: E, tolerance: Tolerance) -> Self {
+        Self { expected, tolerance, has_begun: false, is_same: true }
     }
+
+    fn step(&mut self, found: &interpret::Move) {
+        // The position becomes known bit by bit, on the way to where the program begins.
+        if !self.is_same || found.from.known != Axes::ALL && !self.has_begun {
+            return;
+        }
+        let begins_there = |expected: &interpret::Move| {
+            self.has_begun || is_near(&found.from.at, &expected.from.at, self.tolerance.place)
+        };
+        self.is_same = self.expected.next().is_some_and(|(_, expected)| {
+            found.to.known == Axes::ALL
+                && begins_there(&expected)
+                && is_same_move(found, &expected, &self.tolerance)
+        });
+        self.has_begun = true;
+    }
+
+    /// Whether each had its counterpart. Where not, they may still be the same, cut into other pieces.
+    fn end_together(mut self) -> bool {
+        self.is_same && self.expected.next().is_none()
+    }
+}
+
+/// The moves of a text, with their lines.
+fn moves(text: &str) -> Result<Vec<(u32, interpret::Move)>, Box<Diagnostic>> {
+    let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
+    each_move(text, |line, it| moves.push((line, it)))?;
+    Ok(moves)
+}
+
+fn each_move(text: &str, mut take: impl FnMut(u32, interpret::Move)) -> Result<(), Box<Diagnostic>> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let mut each = |step: interpret::Step| {
+        if let Some((line, it)) = step.as_move() {
+            take(line, it);
+        }
+    };
+    let problems = interpret_each(text.as_bytes(), Dialect::Native, &options, &mut each);
+    problems.iter().find(|problem| problem.is_error()).map_or(Ok(()), |problem| Err(told(problem)))
 }
 
 /// Most lines have at least so many bytes.

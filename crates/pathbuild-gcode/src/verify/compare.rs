@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Word};
 
 use super::walk::{Stretch, Walker};
-use crate::interpret::{Axes, Move, Pace, Position};
+use crate::interpret::{Axes, Move, Pace, Path, Position};
 
 /// How far apart two programs may be and still be the same, in mm and mm/min.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +89,18 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
     }
     let both_are_done = found.stretch().is_none() && expected.stretch().is_none();
     (!both_are_done).then(|| difference(Kind::Place, &found, &expected))
+}
+
+/// Whether two moves that begin at one place are the same from end to end.
+pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance) -> bool {
+    if let (Path::Line, Path::Line) = (found.path, expected.path) {
+        return is_near(&found.to.at, &expected.to.at, tolerance.place)
+            && check_pace(found, expected, tolerance).is_ok();
+    }
+    let (ours, theirs) = (Stretch::whole(*found), Stretch::whole(*expected));
+    ours.end_together(&theirs, tolerance.place)
+        && check_pace(found, expected, tolerance).is_ok()
+        && check_shape(&ours, 1.0, &theirs, 1.0, tolerance).is_ok()
 }
 
 impl Difference {
@@ -273,6 +285,6 @@ fn check_shape(
 }
 
 /// Whether two places agree in each coordinate.
-pub(super) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
+pub(crate) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| libm::fabs(a - b) <= slack)
 }

@@ -19,6 +19,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 pub use coarse::coarse_arcs;
 pub use compare::{Difference, Ends, Kind, Tolerance, compare};
+pub(crate) use compare::{is_near, is_same_move};
 pub use lines::same_move_lines;
 pub use machine::{Machine, Travel};
 pub use stock::{Piece, Stock};

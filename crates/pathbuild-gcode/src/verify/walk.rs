@@ -77,6 +77,10 @@ impl<'m> Walker<'m> {
 }
 
 impl Stretch {
+    pub(super) fn whole(it: Move) -> Self {
+        Self { it, begin: 0.0, length: it.length() }
+    }
+
     pub(super) fn end(&self) -> [f64; 3] {
         self.it.to.at
     }

@@ -1,17 +1,65 @@
 //! Ranges of numbers, by which nearly all files are named.
 
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::number_range::{NumberKey, NumberRange};
 
-/// Ranges in order of their beginnings, and over them a binary tree of their ends.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Ranges of numbers. The first few look-ups look at all of them: a project embeds ten paths, and to put ten thousand ranges in order takes
+/// longer than ten looks.
+#[derive(Debug)]
 pub(super) struct NumberTable {
+    entries: Vec<(NumberRange, u32)>,
+    /// How often it was looked through.
+    looks: AtomicUsize,
+    sorted: OnceLock<Sorted>,
+}
+
+/// Ranges in order of their beginnings, and over them a binary tree of their ends.
+#[derive(Debug)]
+struct Sorted {
     entries: Vec<(NumberRange, u32)>,
     /// `latest[node]`: the last name that any range below that node holds. The leaves are the second half; the root is the second node.
     latest: Vec<NumberKey>,
 }
 
+/// So many looks at all ranges take about as long as putting them in order.
+const LOOKS: usize = 64;
+
 impl NumberTable {
-    pub(super) fn new(mut entries: Vec<(NumberRange, u32)>) -> Self {
+    pub(super) fn new(entries: Vec<(NumberRange, u32)>) -> Self {
+        Self { entries, looks: AtomicUsize::new(0), sorted: OnceLock::new() }
+    }
+
+    pub(super) fn entries(&self) -> impl Iterator<Item = (NumberRange, u32)> {
+        self.entries.iter().copied()
+    }
+
+    /// The files whose ranges hold a path, in no particular order.
+    pub(super) fn files(&self, path: NumberKey) -> Vec<u32> {
+        if self.looks.fetch_add(1, Ordering::Relaxed) < LOOKS {
+            return self.entries().filter(|(range, _)| range.holds(path)).map(|(_, file)| file).collect();
+        }
+        self.sorted.get_or_init(|| Sorted::new(self.entries.clone())).files(path)
+    }
+}
+
+impl Clone for NumberTable {
+    fn clone(&self) -> Self {
+        Self::new(self.entries.clone())
+    }
+}
+
+impl PartialEq for NumberTable {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries == other.entries
+    }
+}
+
+impl Eq for NumberTable {}
+
+impl Sorted {
+    fn new(mut entries: Vec<(NumberRange, u32)>) -> Self {
         entries.sort_unstable();
         let leaves = entries.len().next_power_of_two();
         let mut latest = Vec::with_capacity(2 * leaves);
@@ -24,12 +72,7 @@ impl NumberTable {
         Self { entries, latest }
     }
 
-    pub(super) fn entries(&self) -> impl Iterator<Item = (NumberRange, u32)> {
-        self.entries.iter().copied()
-    }
-
-    /// The files whose ranges hold a path, in no particular order.
-    pub(super) fn files(&self, path: NumberKey) -> Vec<u32> {
+    fn files(&self, path: NumberKey) -> Vec<u32> {
         let begun = self.entries.partition_point(|(range, _)| range.first() <= path);
         let mut files = Vec::new();
         self.collect(1, 0, self.latest.len() / 2, begun, path, &mut files);

@@ -63,7 +63,7 @@ pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
         (path, walked.items)
     };
     let parts = Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect());
-    fold(&parts, 0, "1234.1P.dxf", options)
+    fold(&parts, 0, "1234.1P.dxf", options, 0)
 }
 
 /// A drawing of one path with the text of its start at (0, 0).
