@@ -116,6 +116,46 @@ proptest! {
     }
 }
 
+/// A text with one of its numbers changed by some thousandths.
+fn with_another_number(text: &str, which: usize, thousandths: i32) -> String {
+    let lines =
+        text.find("G00 X0.000 Y0.000").map_or(0, |at| at + 18)..text.find("(Milling").unwrap_or(text.len());
+    let words: Vec<usize> = text[lines.clone()].match_indices('.').map(|(at, _)| at + lines.start).collect();
+    let Some(point) = words.get(which % words.len().max(1)) else { return text.to_owned() };
+    let begin = text[..*point].rfind(char::is_alphabetic).map_or(0, |at| at + 1);
+    let end = point + 4;
+    let number: f64 = text[begin..end].parse().expect("a number with three decimals");
+    format!("{}{:.3}{}", &text[..begin], number + f64::from(thousandths) / 1000.0, &text[end..])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 500, ..ProptestConfig::default() })]
+
+    /// To compare move by move as they are read lets nothing pass that comparing the whole lists would not.
+    #[test]
+    fn reading_back_says_what_the_comparison_says(
+        sketches in sketches(),
+        which in any::<usize>(),
+        thousandths in prop_oneof![-2..3_i32, -2000..2000_i32],
+    ) {
+        let program = program(&sketches);
+        let text = with_another_number(&text_of(&program), which, thousandths);
+        let read = interpret(text.as_bytes(), Native, &Options::default());
+        let expected = moves_of(&program);
+        // Read back, an arc that would be a full circle may be a digit longer than it is.
+        let differs = |place: f64| {
+            let exactly = Tolerance::of_decimals(3);
+            compare(&read.moves(), &expected, &Tolerance { place: exactly.place + place, ..exactly }).is_some()
+        };
+        let has_errors = read.problems.iter().any(Diagnostic::is_error);
+        if !has_errors && !differs(0.0) {
+            prop_assert!(native::read_back(&text, &program).is_ok(), "{}", text);
+        } else if has_errors || differs(0.001) {
+            prop_assert!(native::read_back(&text, &program).is_err(), "{}", text);
+        }
+    }
+}
+
 #[test]
 fn a_written_program_is_recognised() {
     let text = text_of(&program(&[Sketch::Lift(5.0), Sketch::Drill(1.0)]));

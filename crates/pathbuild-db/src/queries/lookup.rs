@@ -49,7 +49,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     let pattern = &Settings::get(db).lookup(db).file_pattern;
     let mut names = db.system().list(directory.path(db)).unwrap_or_default().files;
     names.retain(is_drawing);
-    let mut ranges = Ranges::default();
+    let mut ranges = Ranges::with_capacity(names.len());
     for (number, name) in (0_u32..).zip(names.iter()) {
         let stem = &name[..name.len() - EXTENSION.len()];
         pattern.each_range(stem, |range| ranges.push(range, number));

@@ -30,6 +30,11 @@ pub struct Ranges {
 }
 
 impl Ranges {
+    /// Room for about so many.
+    pub fn with_capacity(ranges: usize) -> Self {
+        Self { numbers: Vec::with_capacity(ranges), others: Vec::new() }
+    }
+
     /// One more range.
     pub fn push(&mut self, range: NameRange, file: u32) {
         match range.numbers() {
