@@ -1,10 +1,10 @@
 //! The database: the system, and the inputs that stand for its files.
 
-use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
+use rustc_hash::FxHashMap;
 use salsa::Setter;
 
 use crate::inputs::{Directory, SourceFile};
@@ -34,11 +34,11 @@ pub struct Database {
     storage: salsa::Storage<Self>,
 }
 
-/// The inputs by path. Only looked up, never iterated.
+/// The inputs by path. Paths are normalised, so that equal ones are equal texts, which are compared sooner than their parts.
 #[derive(Default)]
 struct Inputs {
-    files: HashMap<Utf8PathBuf, SourceFile>,
-    directories: HashMap<Utf8PathBuf, Directory>,
+    files: FxHashMap<Box<str>, SourceFile>,
+    directories: FxHashMap<Box<str>, Directory>,
 }
 
 impl Database {
@@ -60,7 +60,8 @@ impl Database {
     /// The directories in which paths were looked for, in order.
     pub fn directories(&self) -> Vec<Directory> {
         let inputs = self.inputs();
-        let mut known: Vec<(&Utf8PathBuf, &Directory)> = inputs.directories.iter().collect();
+        let mut known: Vec<(&Utf8Path, &Directory)> =
+            inputs.directories.iter().map(|(path, directory)| (Utf8Path::new(path), directory)).collect();
         known.sort_by_key(|(path, _)| *path);
         known.into_iter().map(|(_, directory)| *directory).collect()
     }
@@ -108,12 +109,22 @@ impl Db for Database {
 
     fn file(&self, path: &Utf8Path) -> SourceFile {
         let mut inputs = self.inputs();
-        *inputs.files.entry(path.to_owned()).or_insert_with(|| SourceFile::new(self, path.to_owned(), 0))
+        if let Some(file) = inputs.files.get(path.as_str()) {
+            return *file;
+        }
+        let file = SourceFile::new(self, path.to_owned(), 0);
+        inputs.files.insert(path.as_str().into(), file);
+        file
     }
 
     fn directory(&self, path: &Utf8Path) -> Directory {
         let mut inputs = self.inputs();
-        *inputs.directories.entry(path.to_owned()).or_insert_with(|| Directory::new(self, path.to_owned(), 0))
+        if let Some(directory) = inputs.directories.get(path.as_str()) {
+            return *directory;
+        }
+        let directory = Directory::new(self, path.to_owned(), 0);
+        inputs.directories.insert(path.as_str().into(), directory);
+        directory
     }
 }
 

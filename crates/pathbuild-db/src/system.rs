@@ -23,6 +23,15 @@ pub trait System: Debug + Send + Sync {
     /// When there is no such regular file, it cannot be read, or it has more bytes than `limit`.
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
 
+    /// The same in memory that is there already: what was in `bytes` is replaced. After an error they may be anything.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
+        *bytes = self.read(path, limit)?;
+        Ok(())
+    }
+
     /// The first bytes of a file, at most so many.
     ///
     /// # Errors

@@ -26,8 +26,13 @@ pub(crate) enum Given {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: Option<&'t ParameterText>,
+    /// All that it has.
     letters: Letters,
-    numbers: [Given; Letter::COUNT],
+    /// Those of them that are numbers.
+    given: Letters,
+    /// Those whose number was reported.
+    faulty: Letters,
+    numbers: [f64; Letter::COUNT],
     /// Of text letters; `None` for what was reported.
     texts: Vec<(Letter, Option<Cow<'t, str>>)>,
     /// Values of variables in the order written, with the piece they stand in.
@@ -83,7 +88,13 @@ impl<'t> Values<'t> {
 
     /// A letter's number.
     pub(crate) fn number(&self, letter: Letter) -> Given {
-        self.numbers[letter as usize]
+        if self.given.contains(letter) {
+            Given::Number(self.numbers[letter as usize])
+        } else if self.faulty.contains(letter) {
+            Given::Faulty
+        } else {
+            Given::Absent
+        }
     }
 
     /// A letter's text; `None` where it says nothing or something that was reported.
@@ -128,7 +139,10 @@ impl<'t> Values<'t> {
         let is_integer = letter == Letter::N;
         let number = if is_integer { parse_integer(&value).map(|n| n as f64) } else { parse_number(&value) };
         match number {
-            Some(number) if is_first => self.numbers[letter as usize] = Given::Number(number),
+            Some(number) if is_first => {
+                self.given.insert(letter);
+                self.numbers[letter as usize] = number;
+            }
             Some(_) => {}
             None => {
                 let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
@@ -145,7 +159,7 @@ impl<'t> Values<'t> {
         if letter.is_text() {
             self.texts.push((letter, None));
         } else if is_first {
-            self.numbers[letter as usize] = Given::Faulty;
+            self.faulty.insert(letter);
         }
     }
 }

@@ -116,10 +116,12 @@ impl<'a> Walk<'a> {
         let mut open = self.ends.near(self.at).filter(|segment| !self.is_traversed[*segment]);
         let first = open.next()?;
         let Some(second) = open.next() else { return Some(first) };
-        let mut star: Vec<usize> = [first, second].into_iter().chain(open).collect();
+        let before = |best: usize, other: usize| if self.comes_before(other, best) { other } else { best };
+        let Some(third) = open.next() else { return Some(before(first.min(second), first.max(second))) };
+        let mut star: Vec<usize> = [first, second, third].into_iter().chain(open).collect();
         // One scan in segment order: lengths are compared approximately, which is not transitive.
         star.sort_unstable();
-        star.into_iter().reduce(|best, other| if self.comes_before(other, best) { other } else { best })
+        star.into_iter().reduce(before)
     }
 
     fn comes_before(&self, a: usize, b: usize) -> bool {

@@ -1,5 +1,6 @@
 //! Reading drawings: a file to its raw paths.
 
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -60,14 +61,12 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let settings = Settings::get(db);
     let reading = settings.reading(db);
     let mut hash = None;
-    let read = match db.system().read(file.path(db), reading.file_size) {
-        Ok(bytes) => {
-            // Of these bytes, not of what a second look would find: they are what is compiled.
-            hash = reading.is_hashed.then(|| *blake3::hash(&bytes).as_bytes());
-            parse(&bytes, reading, settings.language(db))
-        }
-        Err(error) => Err(Box::new(unreadable(error, reading))),
-    };
+    let read = with_bytes(db, file, reading.file_size, |bytes| {
+        // Of these bytes, not of what a second look would find: they are what is compiled.
+        hash = reading.is_hashed.then(|| *blake3::hash(bytes).as_bytes());
+        parse(bytes, reading, settings.language(db))
+    });
+    let read = read.unwrap_or_else(|error| Err(Box::new(unreadable(error, reading))));
     let raw = read
         .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![*problem] });
     let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
@@ -162,6 +161,29 @@ pub(super) fn file_diagnostics(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
 /// The hash of the bytes that a file's paths were read from; `None` where it could not be read, or the settings do not ask for hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
     file_report(db, file).hash
+}
+
+thread_local! {
+    /// Where drawings are read into, one after the other.
+    static BYTES: Cell<Vec<u8>> = const { Cell::new(Vec::new()) };
+}
+
+/// As much memory is kept for the next drawing; few have more bytes.
+const KEPT: usize = 1 << 20;
+
+/// Works on the bytes of a drawing.
+fn with_bytes<R>(
+    db: &dyn Db,
+    file: SourceFile,
+    limit: u64,
+    work: impl FnOnce(&[u8]) -> R,
+) -> Result<R, ReadError> {
+    let mut bytes = BYTES.take();
+    let result = db.system().read_into(file.path(db), limit, &mut bytes).map(|()| work(&bytes));
+    if bytes.capacity() <= KEPT {
+        BYTES.set(bytes);
+    }
+    result
 }
 
 /// A panic in here is a bug that one file shows: it must not keep the others from being read.

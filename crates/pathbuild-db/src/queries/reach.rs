@@ -2,7 +2,6 @@
 //! dependencies all come from here.
 
 use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::slice;
 
@@ -10,6 +9,7 @@ use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, PathName};
 use pathbuild_toolpath::FoldOptions;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::brief::{Brief, head, summary};
 use super::embedding::{Embedding, Outcome, embeds};
@@ -122,11 +122,11 @@ struct Walk<'db> {
     reached: Vec<Reached<'db>>,
     diagnostics: Vec<Diagnostic>,
     /// Hashes of what makes them different from each other.
-    known: HashMap<u64, Vec<usize>>,
+    known: FxHashMap<u64, Vec<usize>>,
     moves: u64,
     /// Whether a path at a depth has errors, itself or below: the depth counts since it may be too deep there.
-    visited: HashMap<(Instance<'db>, u32), bool>,
-    seen: HashSet<Instance<'db>>,
+    visited: FxHashMap<(Instance<'db>, u32), bool>,
+    seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
     stack: Vec<Frame<'db>>,
     is_full: bool,
@@ -149,10 +149,10 @@ impl<'db> Walk<'db> {
             limits: settings.limits(db),
             reached: Vec::new(),
             diagnostics: Vec::new(),
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             moves: 0,
-            visited: HashMap::new(),
-            seen: HashSet::new(),
+            visited: FxHashMap::default(),
+            seen: FxHashSet::default(),
             stack: Vec::new(),
             is_full: false,
         }
@@ -336,7 +336,7 @@ impl<'db> Walk<'db> {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
         }
-        self.moves = self.moves_of(root, &mut HashMap::new());
+        self.moves = self.moves_of(root, &mut FxHashMap::default());
         let Limits { moves, .. } = self.limits;
         if self.moves > moves {
             let problem = Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves");
@@ -344,7 +344,7 @@ impl<'db> Walk<'db> {
         }
     }
 
-    fn moves_of(&self, instance: Instance<'db>, known: &mut HashMap<Instance<'db>, u64>) -> u64 {
+    fn moves_of(&self, instance: Instance<'db>, known: &mut FxHashMap<Instance<'db>, u64>) -> u64 {
         if let Some(moves) = known.get(&instance) {
             return *moves;
         }

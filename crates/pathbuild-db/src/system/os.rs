@@ -17,15 +17,25 @@ pub struct OsSystem;
 
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = Vec::new();
+        self.read_into(path, limit, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
         let mut file = File::open(path)?;
         let size = regular_size(&file.metadata()?)?;
         if size > limit {
             return Err(ReadError::TooLarge { size });
         }
-        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0) + 1);
-        // A file may grow between the question for its size and the last byte.
-        let read = Read::by_ref(&mut file).take(limit.saturating_add(1)).read_to_end(&mut bytes)? as u64;
-        if read > limit { Err(ReadError::TooLarge { size: read }) } else { Ok(bytes) }
+        // One byte more than there should be: a file may grow between the question for its size and the last byte.
+        bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).saturating_add(1), 0);
+        let mut read = fill(&mut file, bytes)?;
+        if read == bytes.len() {
+            read += Read::by_ref(&mut file).take(limit.saturating_sub(size)).read_to_end(bytes)?;
+        }
+        bytes.truncate(read);
+        if read as u64 > limit { Err(ReadError::TooLarge { size: read as u64 }) } else { Ok(()) }
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
@@ -82,6 +92,20 @@ impl From<io::Error> for ReadError {
             _ => Self::Other(reason(&error)),
         }
     }
+}
+
+/// Reads until there is no more, or no more room; how much was read.
+fn fill(file: &mut File, bytes: &mut [u8]) -> io::Result<usize> {
+    let mut filled = 0;
+    while filled < bytes.len() {
+        match file.read(&mut bytes[filled..]) {
+            Ok(0) => break,
+            Ok(read) => filled += read,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(filled)
 }
 
 /// The size of a regular file. Pipes and devices are refused: reading them may never end.

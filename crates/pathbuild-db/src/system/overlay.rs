@@ -36,6 +36,14 @@ impl System for Overlay {
         }
     }
 
+    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
+        if path != self.path {
+            return self.below.read_into(path, limit, bytes);
+        }
+        *bytes = self.read(path, limit)?;
+        Ok(())
+    }
+
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         if path == self.path {
             return Ok(self.bytes[..length.min(self.bytes.len())].to_vec());

@@ -54,7 +54,7 @@ enum Rank {
 pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
     let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
     let counts = counts(drawing);
-    let mut paths: Vec<Collected<'_>> = Vec::new();
+    let mut paths: Vec<Collected<'_>> = Vec::with_capacity(names.len());
     let mut index_of_layer = vec![None; names.len()];
     for (index, layer) in (0_u32..).zip(&drawing.layers) {
         let Some(PathLayer { path: name, .. }) = language.path_pattern.layer(&layer.name) else { continue };

@@ -1,5 +1,7 @@
 //! Which segments have an end at a point.
 
+use nalgebra::Vector2;
+
 use crate::approx::coincide;
 use crate::geometry::Xy;
 use crate::path::Path;
@@ -14,8 +16,12 @@ pub(super) struct Ends {
 /// A column, and a row in it.
 type Square = (i64, i64);
 
-/// Side of a square in mm: a few times the distance within which points coincide, so that neighbours of a square suffice.
-const SIDE: f64 = 0.0001;
+/// Side of a square in mm.
+const SIDE: f64 = 0.01;
+/// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
+const SHIFT: f64 = 0.003_7;
+/// Around a point is looked so far, in mm: a few times the distance within which points coincide.
+const REACH: f64 = 0.0001;
 
 impl Ends {
     pub(super) fn new(path: &Path) -> Self {
@@ -39,10 +45,9 @@ impl Ends {
 
     /// Segments with an end at a point; one whose ends are close together may be named twice.
     pub(super) fn near(&self, point: Xy) -> impl Iterator<Item = usize> + '_ {
-        let (x, y) = square(point);
-        let columns = (-1..=1).map(move |dx: i64| x.saturating_add(dx));
-        let (low, high) = (y.saturating_sub(1), y.saturating_add(1));
-        let named = columns.flat_map(move |column| {
+        let reach = Vector2::new(REACH, REACH);
+        let ((left, low), (right, high)) = (square(point - reach), square(point + reach));
+        let named = (left..=right).flat_map(move |column| {
             let first = self.squares.partition_point(|(square, _)| *square < (column, low));
             self.squares[first..].iter().take_while(move |(square, _)| *square <= (column, high))
         });
@@ -52,7 +57,7 @@ impl Ends {
 }
 
 fn square(point: Xy) -> Square {
-    (floor(point.x / SIDE), floor(point.y / SIDE))
+    (floor((point.x + SHIFT) / SIDE), floor((point.y + SHIFT) / SIDE))
 }
 
 /// The whole number below. All that is very far off falls into one square.

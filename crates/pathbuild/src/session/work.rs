@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use pathbuild_db::{
-    Brief, Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, closure, locate,
-    path_names, summary, trace,
+    Brief, Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, check_file, closure,
+    locate, path_names, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -44,9 +44,9 @@ pub struct Emitted {
     pub has_probes: bool,
 }
 
-/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at 30 to 40 KB
-/// each no burden.
-const BATCH: usize = 1024;
+/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at less than
+/// 10 KB each no burden.
+const BATCH: usize = 2048;
 
 /// Stacks of worker threads: queries call each other once for each level of embedding.
 const STACK_SIZE: usize = 16 << 20;
@@ -75,11 +75,17 @@ impl Session<'_> {
         }
     }
 
+    /// Whether it is noted what targets were made from.
+    pub fn is_traced(&self) -> bool {
+        self.is_traced
+    }
+
     /// Reads files ahead, on all cores.
     pub fn read_ahead(&self, files: &[SourceFile]) {
         let progress = self.progress.as_ref();
         let read = |db: &Database, file: &SourceFile| {
             path_names(db, *file);
+            check_file(db, *file);
             progress.inspect(|progress| progress.advance());
         };
         self.timings.measure(&READING, || self.spread(files, read));

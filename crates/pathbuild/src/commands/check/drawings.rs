@@ -1,5 +1,7 @@
 //! Checking drawings: what is found in each, with what it was found from.
 
+use std::borrow::Cow;
+
 use pathbuild_db::{Role, SourceFile, Target, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -7,9 +9,9 @@ use pathbuild_path::PathName;
 use crate::session::{CheckedTarget, DrawingResult, Session};
 
 /// A drawing, or some of its paths.
-pub(super) struct Asked {
+pub(super) struct Asked<'a> {
     pub(super) file: SourceFile,
-    pub(super) names: Vec<PathName>,
+    pub(super) names: Cow<'a, [PathName]>,
 }
 
 /// What is found in drawings, each with what it was found from.
@@ -19,22 +21,23 @@ pub(in crate::commands) fn check_drawings(
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
     session.read_ahead(files);
-    let whole = |file: &SourceFile| Asked { file: *file, names: path_names(session.db(), *file).clone() };
-    let asked: Vec<Asked> = files.iter().map(whole).collect();
+    let names = |file: &SourceFile| Cow::Borrowed(&**path_names(session.db(), *file));
+    let whole = |file: &SourceFile| Asked { file: *file, names: names(file) };
+    let asked: Vec<Asked<'_>> = files.iter().map(whole).collect();
     check_paths(session, &asked, with_all_values)
 }
 
 /// What is found in paths of drawings, and in the drawings.
 pub(super) fn check_paths(
     session: &Session<'_>,
-    asked: &[Asked],
+    asked: &[Asked<'_>],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
     let questions: Vec<Questions> =
         asked.iter().map(|asked| Questions::new(session, asked, with_all_values)).collect();
     let targets: Vec<Target> = questions.iter().flat_map(|of_file| &of_file.targets).copied().collect();
     let mut results = session.check(&targets).into_iter();
-    let mut of_drawing = |(asked, questions): (&Asked, Questions)| {
+    let mut of_drawing = |(asked, questions): (&Asked<'_>, Questions)| {
         let checked: Vec<CheckedTarget> = results.by_ref().take(questions.targets.len()).collect();
         result(session, asked, checked, questions.warnings, with_all_values)
     };
@@ -49,9 +52,9 @@ struct Questions {
 }
 
 impl Questions {
-    fn new(session: &Session<'_>, Asked { file, names }: &Asked, with_all_values: bool) -> Self {
+    fn new(session: &Session<'_>, Asked { file, names }: &Asked<'_>, with_all_values: bool) -> Self {
         let mut questions = Self::default();
-        for name in names {
+        for name in &**names {
             if with_all_values {
                 let (combined, warning) = session.combined_targets(*file, name);
                 questions.targets.extend(combined);
@@ -66,7 +69,7 @@ impl Questions {
 
 fn result(
     session: &Session<'_>,
-    asked: &Asked,
+    asked: &Asked<'_>,
     checked: Vec<CheckedTarget>,
     warnings: Vec<Diagnostic>,
     with_all_values: bool,
@@ -82,13 +85,19 @@ fn result(
         diagnostics.extend(checked.iter().flat_map(|checked| &checked.diagnostics).cloned());
     }
     let mut reached = vec![asked.file];
-    reached.extend(checked.iter().flat_map(|checked| &checked.files).copied());
-    reached.sort_by(|a, b| a.path(db).cmp(b.path(db)));
-    reached.dedup();
+    reached.extend(checked.iter().flat_map(|checked| &checked.files).copied().filter(|it| *it != asked.file));
+    if reached.len() > 1 {
+        reached.sort_by(|a, b| a.path(db).cmp(b.path(db)));
+        reached.dedup();
+    }
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
     let names = asked.names.iter().map(|name| name.as_str().into()).collect();
-    let own = Trace { files: vec![asked.file], lookups: Vec::new() };
-    let traces =
-        std::iter::once(own).chain(checked.into_iter().filter_map(|checked| checked.trace)).collect();
+    let traces = if session.is_traced() { traces(asked.file, checked) } else { Vec::new() };
     (DrawingResult { names, diagnostics }, traces)
+}
+
+/// What a drawing's results were found from.
+fn traces(file: SourceFile, checked: Vec<CheckedTarget>) -> Vec<Trace> {
+    let own = Trace { files: vec![file], lookups: Vec::new() };
+    std::iter::once(own).chain(checked.into_iter().filter_map(|checked| checked.trace)).collect()
 }

@@ -17,7 +17,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
 use crate::session::timings::FINDING;
-use crate::session::{DrawingResult, Session, Wanted, WantedPath};
+use crate::session::{DrawingResult, Session, Wanted, WantedPath, by_place};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -98,19 +98,19 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
         checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths });
         checked.diagnostics.extend(diagnostics);
     }
-    checked.files.sort_by(|a, b| a.file.cmp(&b.file));
+    checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
     checked.diagnostics.extend(session.q_projects(&whole));
     checked
 }
 
 /// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.
-fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked> {
+fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked<'static>> {
     let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
-    let mut single: Vec<Asked> = Vec::new();
+    let mut single: Vec<Asked<'static>> = Vec::new();
     for WantedPath { file, name } in paths.into_iter().filter(|path| !is_whole.contains(&path.file)) {
         match single.iter_mut().find(|asked| asked.file == file) {
-            Some(asked) => asked.names.push(name),
-            None => single.push(Asked { file, names: vec![name] }),
+            Some(asked) => asked.names.to_mut().push(name),
+            None => single.push(Asked { file, names: vec![name].into() }),
         }
     }
     single
