@@ -332,7 +332,7 @@ impl<'d> Collected<'d> {
         for diagnostic in &mut self.raw.diagnostics[before..] {
             diagnostic.path = Some(name.into());
         }
-        self.elements.sort_by_key(|element| match element.shape {
+        self.elements.sort_by_cached_key(|element| match element.shape {
             Shape::Circle { .. } => Rank::Circle,
             Shape::Curve(Curve::Line(_)) => Rank::Line,
             Shape::Curve(Curve::Arc(_)) => Rank::Arc,
