@@ -34,6 +34,19 @@ struct Block<'a> {
     pairs: Pairs<'a>,
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
+    /// The layers of its items, once it was tried to find them without these.
+    layers: Option<Option<Rc<[LayerId]>>>,
+}
+
+impl<'a> Block<'a> {
+    fn records(&self) -> Records<'a> {
+        Records { groups: Groups::new(self.pairs), head: self.head }
+    }
+}
+
+/// What ends a block must be its end.
+fn ended(records: &Records<'_>) -> Result<(), Fatal> {
+    if records.head.is("ENDBLK") { Ok(()) } else { Err(not_ended("BLOCK", &records.head)) }
 }
 
 impl<'a> Blocks<'a> {
@@ -75,15 +88,13 @@ impl<'a> Blocks<'a> {
             return Ok(items.clone());
         }
         let mut items = Vec::new();
-        let mut records = Records { groups: Groups::new(block.pairs), head: block.head };
+        let mut records = block.records();
         while let Some(item) =
             reader.next_item(&mut records, Space::Block).map_err(|stop| stopped(stop, "BLOCKS"))?
         {
             items.push(item);
         }
-        if !records.head.is("ENDBLK") {
-            return Err(not_ended("BLOCK", &records.head));
-        }
+        ended(&records)?;
         let items: Rc<[Item<'a>]> = items.into();
         block.items = Some(items.clone());
         Ok(items)
@@ -103,6 +114,13 @@ impl<'a> Blocks<'a> {
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
         while let Some((block, inherited)) = ahead.pop() {
+            if let Some(layers) = self.layers(block, reader)? {
+                let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
+                for layer in layers.filter(|layer| reader.layers.is_kept(*layer)) {
+                    wanted.extend((!wanted.contains(&layer)).then_some(layer));
+                }
+                continue;
+            }
             for item in self.items(block, reader)?.iter() {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
                 match self.inserted(item) {
@@ -117,6 +135,24 @@ impl<'a> Blocks<'a> {
         Ok(wanted)
     }
 
+    /// The layers of what is in it, as far as it can be wanted, if it is enough to know these.
+    fn layers(
+        &mut self,
+        block: BlockId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> Result<Option<Rc<[LayerId]>>, Fatal> {
+        let block = &mut self.all[block.0];
+        if block.layers.is_none() {
+            let mut records = block.records();
+            let layers = reader.layers_ahead(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?;
+            if layers.is_some() {
+                ended(&records)?;
+            }
+            block.layers = Some(layers.map(Rc::from));
+        }
+        Ok(block.layers.clone().flatten())
+    }
+
     /// The block that an item inserts, if the file has it.
     fn inserted(&self, item: &Item<'_>) -> Option<BlockId> {
         match &item.shape {
@@ -129,7 +165,7 @@ impl<'a> Blocks<'a> {
         let Some(name) = fields.get(2) else { return };
         let name = folded(decoder.decode(name.bytes, name.line).trim());
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
-        self.all.push(Block { base: base.map_err(Trouble::from), pairs, head, items: None });
+        self.all.push(Block { base: base.map_err(Trouble::from), pairs, head, items: None, layers: None });
         self.by_name.entry(name).or_insert(BlockId(self.all.len() - 1));
     }
 }

@@ -6,6 +6,27 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
+/// How the lines of codes usually end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LineEnd {
+    /// With its last byte.
+    last: u8,
+    /// The length of a line of three characters with its end.
+    length: usize,
+    /// The end behind three characters, and the bits of such a line.
+    behind_three: u64,
+    mask: u64,
+}
+
+impl LineEnd {
+    /// With this byte, before which there may be a CR.
+    pub(crate) fn new(last: u8, has_cr: bool) -> Self {
+        let (end, length) =
+            if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };
+        Self { last, length, behind_three: end << 24, mask: (1 << (8 * length)) - 1 }
+    }
+}
+
 impl Default for Role {
     fn default() -> Self {
         Self::UNUSUAL
@@ -45,35 +66,30 @@ impl Role {
     /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if it is a usual
     /// one: at most three bytes, blanks and then digits, and maybe a CR.
     #[inline]
-    pub(crate) fn of_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
-        let [first, second, third, a, b, ..] = line;
-        let text = u32::from_le_bytes([first, second, third, 0]);
-        // Nearly all programs pad their codes to three characters.
-        if a == line_end {
-            return Some((4, Self::of_text(text)?));
+    pub(crate) fn of_line(line: [u8; 8], line_end: LineEnd) -> Option<(usize, Self)> {
+        let word = u64::from_le_bytes(line);
+        #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
+        let entry = USUAL[index(word as u32)];
+        // Nearly all programs pad their codes to three characters, and end all lines in the same way.
+        let usual = u64::from(entry & THREE) | line_end.behind_three;
+        if (word ^ usual) & line_end.mask == 0 {
+            return Some((line_end.length, Self((entry >> 24) as u8)));
         }
-        if a == b'\r' && b == line_end {
-            return Some((5, Self::of_text(text)?));
-        }
-        Self::of_short_line(line, line_end)
+        Self::of_unusual_line(line, line_end.last)
     }
 
-    /// The same for less than three characters.
-    fn of_short_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
-        let length = line[..4].iter().position(|byte| *byte == line_end)?;
+    /// The same for less than three characters, or another end of the line.
+    #[inline(never)]
+    fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
+        let length = line[..5].iter().position(|byte| *byte == line_end)?;
         let digits = line[..length].strip_suffix(b"\r").unwrap_or(&line[..length]);
         // The last digit in the last byte, and blanks before the first.
         let mut padded = *b"   ";
         padded.get_mut(3_usize.checked_sub(digits.len())?..)?.copy_from_slice(digits);
         let [first, second, third] = padded;
-        Some((length + 1, Self::of_text(u32::from_le_bytes([first, second, third, 0]))?))
-    }
-
-    /// The role of a code of three characters, in the lower bytes.
-    #[inline]
-    fn of_text(text: u32) -> Option<Self> {
+        let text = u32::from_le_bytes([first, second, third, 0]);
         let entry = USUAL[index(text)];
-        (entry & THREE == text).then_some(Self((entry >> 24) as u8))
+        (entry & THREE == text).then_some((length + 1, Self((entry >> 24) as u8)))
     }
 
     /// Where the group of an entity is kept. All but [`Role::OTHER`] and those beyond it are kept.
@@ -128,7 +144,7 @@ const fn three_characters(code: i32) -> u32 {
     hundreds | tens << 8 | (b'0' as u32 + (code % 10) as u32) << 16
 }
 
-/// The lower halves of three characters, side by side.
+/// The lower halves of the first three characters, side by side.
 #[inline]
 const fn index(text: u32) -> usize {
     // Each is multiplied to its place; what goes to other places is cut off.

@@ -86,12 +86,48 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
+    /// The layers of all entities ahead that may be wanted, up to a record that ends the block. `None` if there are some of which more
+    /// must be known: insertions, and texts, whose characters may be in doubt.
+    pub(crate) fn layers_ahead(
+        &mut self,
+        records: &mut Records<'a>,
+    ) -> Result<Option<Vec<LayerId>>, Stop<'a>> {
+        let mut layers = Vec::new();
+        loop {
+            let head = records.head;
+            match Kind::of(head.value) {
+                None if is_end(&head) => return Ok(Some(layers)),
+                None | Some(Kind::Vertex | Kind::SequenceEnd) => _ = records.skip()?,
+                Some(Kind::Insert | Kind::Text | Kind::MText) => return Ok(None),
+                Some(kind) => {
+                    let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
+                    layers.extend(layer.filter(|layer| layers.last() != Some(layer)));
+                }
+            }
+        }
+    }
+
     fn item(
         &mut self,
         records: &mut Records<'a>,
         kind: Kind,
         space: Space,
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
+        let Some(traits) = self.traits(records, kind, space)? else { return Ok(None) };
+        let shape = match kind {
+            Kind::Polyline => self.polyline(records)?,
+            _ => self.shape(kind),
+        };
+        Ok(Some(Item { traits, shape }))
+    }
+
+    /// Reads the groups of the head record, and gives back what every entity has, if it may be wanted.
+    fn traits(
+        &mut self,
+        records: &mut Records<'a>,
+        kind: Kind,
+        space: Space,
+    ) -> Result<Option<Traits>, Stop<'a>> {
         let line = records.head.line;
         let (want, layer) = self.fill(records, kind, space)?;
         if want == Want::Skip || self.is_in_paper_space() {
@@ -101,18 +137,13 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
-        let traits = Traits {
+        Ok(Some(Traits {
             layer,
             line_type: self.line_types.get(self.fields.get(6), &mut self.decoder),
             kind: kind.entity_kind(),
             origin: Origin { line, handle: self.fields.handle() },
             is_invisible: self.fields.whole(60).is_ok_and(|flag| flag == Some(1)),
-        };
-        let shape = match kind {
-            Kind::Polyline => self.polyline(records)?,
-            _ => self.shape(kind),
-        };
-        Ok(Some(Item { traits, shape }))
+        }))
     }
 
     /// Reads the groups of the head record, up to its layer if that is not wanted; gives back the layer, if the record names one.

@@ -120,12 +120,12 @@ impl<'a> File<'a> {
 
     /// Reads or passes over a section before the entities.
     fn pass(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
-        let section = shown(name.value);
+        let section = || shown(name.value);
         let begin = self.pairs;
         match self.pairs.skip_section() {
             SectionEnd::Ended => {}
-            SectionEnd::Missing(next) => return Err(not_ended(&section, &next)),
-            SectionEnd::CutOff { line } => return Err(stopped(Stop::End { line }, &section)),
+            SectionEnd::Missing(next) => return Err(not_ended(&section(), &next)),
+            SectionEnd::CutOff { line } => return Err(stopped(Stop::End { line }, &section())),
         }
         let pairs = begin.until(&self.pairs);
         match name.trimmed() {

@@ -1,10 +1,14 @@
 //! The three variables of the HEADER section that matter: version, code page, units.
 
+use std::sync::LazyLock;
+
+use memchr::memmem::Finder;
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::faults;
 use crate::number::whole;
 use crate::pairs::{Pair, Pairs, Stop};
+use crate::sections::Keyword;
 
 /// What the header says; all of it may be missing, as in files of R10 and of scripts.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,13 +18,17 @@ pub(crate) struct Header<'a> {
     units: Option<Pair<'a>>,
 }
 
+static VERSION: Keyword = LazyLock::new(|| Finder::new("$ACADVER"));
+static CODE_PAGE: Keyword = LazyLock::new(|| Finder::new("$DWGCODEPAGE"));
+static UNITS: Keyword = LazyLock::new(|| Finder::new("$INSUNITS"));
+
 impl<'a> Header<'a> {
     /// Finds the variables in the section that begins here.
     pub(crate) fn find(&mut self, section: &Pairs<'a>) {
-        for variable in ["$ACADVER", "$DWGCODEPAGE", "$INSUNITS"] {
+        for variable in [&VERSION, &CODE_PAGE, &UNITS] {
             let mut pairs = *section;
             if let (Some(_), Ok(value)) = (pairs.find("9", variable), pairs.next()) {
-                self.set(variable.as_bytes(), value);
+                self.set(variable.needle(), value);
             }
         }
     }

@@ -50,8 +50,11 @@ impl Pair<'_> {
     }
 
     /// Whether this is `0/KEYWORD`.
+    #[inline]
     pub(crate) fn is(&self, keyword: &str) -> bool {
-        self.code == 0 && self.trimmed().eq_ignore_ascii_case(keyword.as_bytes())
+        self.code == 0
+            && self.value.len() >= keyword.len()
+            && (self.value == keyword.as_bytes() || self.trimmed().eq_ignore_ascii_case(keyword.as_bytes()))
     }
 }
 

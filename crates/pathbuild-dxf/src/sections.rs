@@ -4,11 +4,21 @@
 //! So a search for the word finds the pair at the speed of memory.
 
 use std::ops::Range;
+use std::sync::LazyLock;
 
-use memchr::memmem::{self, Finder};
+use memchr::memmem::Finder;
 use memchr::memrchr;
 
 use crate::pairs::{Pair, Pairs};
+
+/// A keyword that is searched for.
+pub(crate) type Keyword = LazyLock<Finder<'static>>;
+
+/// The keyword of a record of the LAYER table.
+pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
+
+static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));
+static EOF: Keyword = LazyLock::new(|| Finder::new("EOF"));
 
 /// The pair that a skipped section ended with, or should have ended before.
 pub(crate) enum SectionEnd<'a> {
@@ -28,7 +38,7 @@ impl<'a> Pairs<'a> {
     pub(crate) fn skip_section(&mut self) -> SectionEnd<'a> {
         let from = self.consumed();
         let bytes = self.bytes();
-        let found = Finder::new("SEC").find_iter(&bytes[from..]).find_map(|at| {
+        let found = SECTION_OR_END.find_iter(&bytes[from..]).find_map(|at| {
             let at = from + at;
             let end = || bytes[..at].ends_with(b"END").then_some(at - 3..at + 3);
             let begin = || bytes[at..].starts_with(b"SECTION").then_some(at..at + 7);
@@ -43,11 +53,11 @@ impl<'a> Pairs<'a> {
     }
 
     /// Jumps behind the next pair of this code and keyword, and returns it.
-    pub(crate) fn find(&mut self, code: &str, keyword: &str) -> Option<Pair<'a>> {
+    pub(crate) fn find(&mut self, code: &str, keyword: &Keyword) -> Option<Pair<'a>> {
         let from = self.consumed();
-        let mut found = memmem::find_iter(&self.bytes()[from..], keyword);
-        let start =
-            found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + keyword.len()))?;
+        let length = keyword.needle().len();
+        let mut found = keyword.find_iter(&self.bytes()[from..]);
+        let start = found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))?;
         self.jump_to(start);
         self.next().ok()
     }
@@ -68,7 +78,7 @@ pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
     const TAIL: usize = 4096;
     let bytes = pairs.bytes();
     let tail = bytes.len().saturating_sub(TAIL).max(pairs.consumed());
-    memmem::find_iter(&bytes[tail..], "EOF").any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
+    EOF.find_iter(&bytes[tail..]).any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
 }
 
 fn trim_blanks(mut bytes: &[u8]) -> &[u8] {

@@ -6,6 +6,7 @@ use crate::fields::{Fields, Want};
 use crate::groups::Groups;
 use crate::layer_table::{LayerRecord, LayerTable};
 use crate::pairs::{Pairs, Stop};
+use crate::sections::LAYER;
 
 /// Reads the records of layers.
 pub(crate) fn read_layers<'a>(pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<LayerTable<'a>, Fatal> {
@@ -18,7 +19,7 @@ fn read_records<'a>(
 ) -> Result<Vec<LayerRecord<'a>>, Stop<'a>> {
     let mut records = Vec::new();
     let mut fields = Fields::new(0);
-    while let Some(mut head) = pairs.find("0", "LAYER") {
+    while let Some(mut head) = pairs.find("0", &LAYER) {
         let mut groups = Groups::new(pairs);
         while head.is("LAYER") {
             (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;

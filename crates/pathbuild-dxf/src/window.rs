@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use wide::u8x16;
 
-use crate::code::Role;
+use crate::code::{LineEnd, Role};
 
 /// Where values are and what codes say, for pairs that follow each other.
 pub(crate) struct Window {
@@ -41,6 +41,7 @@ impl Window {
     /// Looks at so many of the pairs that begin here, or at some more.
     pub(crate) fn fill(&mut self, bytes: &[u8], line_end: u8, at: usize, pairs: usize) {
         self.pairs = self.find_value_ends(bytes, line_end, at, pairs.min(MOST_PAIRS));
+        let line_end = LineEnd::new(line_end, has_cr(bytes, at, line_end));
         let mut code = at;
         let places = self.value_ends.iter().zip(&mut self.value_begins).zip(&mut self.roles);
         for ((value_end, value_begin), role) in places.take(self.pairs) {
@@ -120,6 +121,12 @@ impl Window {
         }
         count
     }
+}
+
+/// Whether the first line ends with a CR and then this byte.
+fn has_cr(bytes: &[u8], at: usize, line_end: u8) -> bool {
+    let first = bytes[at..].iter().take(BLOCK).position(|byte| *byte == line_end);
+    line_end != b'\r' && first.is_some_and(|end| bytes[at..at + end].ends_with(b"\r"))
 }
 
 /// Of these line ends those of values: every second. `is_in_value` has all bits if the first line is a value, or none, and is brought
