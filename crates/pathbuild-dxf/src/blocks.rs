@@ -34,8 +34,19 @@ struct Block<'a> {
     pairs: Pairs<'a>,
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
-    /// The layers of its items, once it was tried to find them without these.
-    layers: Option<Option<Rc<[LayerId]>>>,
+    layers: LayersOf,
+}
+
+/// What is known of the layers of a block's items without these.
+#[derive(Clone, Default)]
+enum LayersOf {
+    /// Nothing yet.
+    #[default]
+    Unknown,
+    /// All of them.
+    Known(Rc<[LayerId]>),
+    /// They cannot be known without the items.
+    Items,
 }
 
 impl<'a> Block<'a> {
@@ -114,7 +125,7 @@ impl<'a> Blocks<'a> {
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
         while let Some((block, inherited)) = ahead.pop() {
-            if let Some(layers) = self.layers(block, reader)? {
+            if let LayersOf::Known(layers) = self.layers(block, reader)? {
                 let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
                 for layer in layers.filter(|layer| reader.layers.is_kept(*layer)) {
                     wanted.extend((!wanted.contains(&layer)).then_some(layer));
@@ -135,22 +146,21 @@ impl<'a> Blocks<'a> {
         Ok(wanted)
     }
 
-    /// The layers of what is in it, as far as it can be wanted, if it is enough to know these.
-    fn layers(
-        &mut self,
-        block: BlockId,
-        reader: &mut EntityReader<'a, '_>,
-    ) -> Result<Option<Rc<[LayerId]>>, Fatal> {
+    /// The layers of what is in it, as far as it can be wanted.
+    fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<LayersOf, Fatal> {
         let block = &mut self.all[block.0];
-        if block.layers.is_none() {
+        if matches!(block.layers, LayersOf::Unknown) {
             let mut records = block.records();
             let layers = reader.layers_ahead(&mut records).map_err(|stop| stopped(stop, "BLOCKS"))?;
-            if layers.is_some() {
-                ended(&records)?;
-            }
-            block.layers = Some(layers.map(Rc::from));
+            block.layers = match layers {
+                Some(layers) => {
+                    ended(&records)?;
+                    LayersOf::Known(layers.into())
+                }
+                None => LayersOf::Items,
+            };
         }
-        Ok(block.layers.clone().flatten())
+        Ok(block.layers.clone())
     }
 
     /// The block that an item inserts, if the file has it.
@@ -165,7 +175,13 @@ impl<'a> Blocks<'a> {
         let Some(name) = fields.get(2) else { return };
         let name = folded(decoder.decode(name.bytes, name.line).trim());
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
-        self.all.push(Block { base: base.map_err(Trouble::from), pairs, head, items: None, layers: None });
+        self.all.push(Block {
+            base: base.map_err(Trouble::from),
+            pairs,
+            head,
+            items: None,
+            layers: LayersOf::Unknown,
+        });
         self.by_name.entry(name).or_insert(BlockId(self.all.len() - 1));
     }
 }
