@@ -6,7 +6,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use crate::letter::{ElementClass, Letter, Use};
+use crate::letter::{ElementClass, Letter, Letters, Use};
 
 /// A parameter text, not yet asked what its values mean.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -73,14 +73,17 @@ impl ParameterText {
         if class == ElementClass::Unread {
             return Vec::new();
         }
+        let mut seen = Letters::default();
         let of_piece = |(index, piece): (usize, Piece)| {
-            let problem = self.problem(index, &piece, class)?;
+            let earlier = if piece.letter.is_none_or(|letter| seen.insert(letter)) { 0 } else { index };
+            let problem = self.problem(earlier, &piece, class)?;
             Some(problem.with_text(self.fault(&piece)))
         };
         self.pieces().enumerate().filter_map(of_piece).collect()
     }
 
-    fn problem(&self, index: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
+    /// `earlier`: how many pieces before it may be of the same letter.
+    fn problem(&self, earlier: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
         let first = self.0[piece.span.start..].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(unknown_letter(first, class));
@@ -89,7 +92,7 @@ impl ParameterText {
         if how == Use::Unknown {
             return Some(unknown_letter(first, class));
         }
-        if self.pieces().take(index).any(|earlier| self.is_same(&earlier, piece)) {
+        if self.pieces().take(earlier).any(|other| self.is_same(&other, piece)) {
             return Some(self.twice(letter, piece));
         }
         if letter.is_literal() && self.value(piece).contains('=') {

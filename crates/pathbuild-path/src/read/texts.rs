@@ -30,6 +30,7 @@ struct LayerTexts<'d> {
     texts: Vec<FoundText<'d>>,
 }
 
+#[derive(Clone)]
 struct FoundText<'d> {
     circle: TextCircle,
     string: Cow<'d, str>,
@@ -71,19 +72,16 @@ impl<'d> Texts<'d> {
 
     /// Each text with its circle and the candidates that it belongs to, layer by layer.
     pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
-        let layers = self.layers.iter_mut().map(|(_, layer)| layer);
-        let matched = layers.flat_map(|layer| {
-            let matched = layer.matched();
-            let owned = |owners: Range<usize>| owners.map(|index| layer.owned(index)).collect();
-            matched.into_iter().map(|(text, owners)| (text, owned(owners))).collect::<Vec<_>>()
-        });
-        let shown = |(text, owners): (FoundText<'d>, Vec<(ElementId, Shape)>)| Match {
-            string: text.string,
-            circle: text.circle,
-            origin: text.origin,
-            owners,
-        };
-        matched.map(shown).collect()
+        let mut matched = Vec::new();
+        for (_, layer) in &mut self.layers {
+            let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
+            layer.each_match(|layer, text, owners| {
+                let owners = layer.candidates[owners].iter().map(candidate).collect();
+                let FoundText { circle, string, origin } = text.clone();
+                matched.push(Match { string, circle, origin, owners });
+            });
+        }
+        matched
     }
 
     pub(crate) fn add_candidate(&mut self, layer: u32, name: &Arc<str>, candidate: Candidate, owner: Owner) {
@@ -136,33 +134,34 @@ impl<'d> LayerTexts<'d> {
 
     /// Gives each text to its element. What finds no element stays in `texts`.
     fn assign(&mut self, path: &mut Collected<'_>) {
-        for (text, owners) in self.matched() {
+        let mut open = Vec::new();
+        self.each_match(|layer, text, owners| {
             if owners.is_empty() {
-                self.texts.push(text);
+                open.push(text.clone());
             } else {
-                self.give(&text, owners, path);
+                layer.give(text, owners, path);
             }
-        }
+        });
+        self.texts = open;
     }
 
-    /// All TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    fn matched(&mut self) -> Vec<(FoundText<'d>, Range<usize>)> {
-        let mut texts = std::mem::take(&mut self.texts);
+    /// Takes all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
+    fn each_match(&mut self, mut take: impl FnMut(&Self, &FoundText<'d>, Range<usize>)) {
+        let texts = std::mem::take(&mut self.texts);
         if texts.is_empty() {
-            return Vec::new();
+            return;
         }
         self.boxes = Boxes::new(&self.candidates);
-        texts.sort_by_key(|text| text.origin.entity == EntityKind::MText);
-        let mut matched = Vec::with_capacity(texts.len());
-        for text in texts {
+        let is_mtext = |text: &&FoundText<'_>| text.origin.entity == EntityKind::MText;
+        let in_order = texts.iter().filter(|text| !is_mtext(text)).chain(texts.iter().filter(is_mtext));
+        for text in in_order {
             let owners =
                 find(&text.circle, &self.candidates, &self.boxes).map_or(0..0, |index| self.parts(index));
             for owner in &mut self.candidates[owners.clone()] {
                 owner.is_taken = true;
             }
-            matched.push((text, owners));
+            take(self, text, owners);
         }
-        matched
     }
 
     /// A candidate, and what is part of the same polyline: they were read one after the other.
@@ -175,11 +174,6 @@ impl<'d> LayerTexts<'d> {
         let first = (0..index).rev().take_while(is_part).last().unwrap_or(index);
         let behind = (index..self.candidates.len()).take_while(is_part).last().unwrap_or(index) + 1;
         first..behind
-    }
-
-    fn owned(&self, index: usize) -> (ElementId, Shape) {
-        let candidate = &self.candidates[index];
-        (candidate.id, candidate.shape)
     }
 
     fn give(&self, text: &FoundText<'_>, owners: Range<usize>, path: &mut Collected<'_>) {
