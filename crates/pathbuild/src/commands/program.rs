@@ -1,11 +1,15 @@
 //! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (spec/90-gcode-import.md)
 
+use std::borrow::Cow;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Evidence, Heights, Interpretation, Options, UnitCodes, guess, interpret};
+use pathbuild_gcode::interpret::{
+    Evidence, Heights, Interpretation, Options, Step, UnitCodes, guess, interpret,
+};
 use pathbuild_gcode::read::quote;
 
 use crate::args::{ReadingArgs, UnitCodesArg};
@@ -26,6 +30,9 @@ pub(super) struct Program {
     pub(super) read: Interpretation,
     options: Options,
 }
+
+/// In whatever dialect, there is no formula without one of them.
+const OF_FORMULAS: &[u8] = b"[#=";
 
 impl Program {
     /// Reads a file.
@@ -48,10 +55,13 @@ impl Program {
         Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
     }
 
-    /// What it does at the heights that it was drawn with, where its own are corrected.
-    pub(super) fn nominal(&self) -> Interpretation {
+    /// What it does at the heights that it was drawn with, where its own are corrected by formulas.
+    pub(super) fn nominal(&self) -> Cow<'_, [Step]> {
+        if !self.text.iter().any(|byte| OF_FORMULAS.contains(byte)) {
+            return Cow::Borrowed(&self.read.steps);
+        }
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
-        interpret(&self.text, self.dialect, &options)
+        Cow::Owned(interpret(&self.text, self.dialect, &options).steps)
     }
 
     /// Shows under diagnostics where in the file they are.

@@ -6,14 +6,13 @@ use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, program}
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Heights, Move, Options, interpret};
+use pathbuild_gcode::interpret::{self, Heights, Move, Options, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_path::PathName;
 use pathbuild_toolpath::{Comment, Correction, Program as Drawn, Step};
 
 use crate::args::Inputs;
-use crate::commands::program::Program;
 use crate::context::Context;
 use crate::session::Session;
 
@@ -62,11 +61,11 @@ impl Against {
         surfaces.all(|surface| surface == thickness).then_some(thickness)
     }
 
-    /// Where a program first moves otherwise than drawn. Heights are compared as they were before correction; programs of other dialects
-    /// have heads and feet of their own.
-    pub(super) fn difference(&self, program: &Program) -> Option<Diagnostic> {
-        let ends = if program.dialect == Dialect::Native { Ends::All } else { Ends::Cutting };
-        let found = program.nominal().moves();
+    /// Where a program of this dialect first moves otherwise than drawn. Its steps are those at the heights before correction; programs of
+    /// other dialects have heads and feet of their own.
+    pub(super) fn difference(&self, dialect: Dialect, steps: &[interpret::Step]) -> Option<Diagnostic> {
+        let ends = if dialect == Dialect::Native { Ends::All } else { Ends::Cutting };
+        let found: Vec<(u32, Move)> = steps.iter().filter_map(interpret::Step::as_move).collect();
         compare(&found, &self.moves, &Tolerance { ends, ..UNIT }).map(|difference| difference.diagnostic())
     }
 }

@@ -58,7 +58,7 @@ impl Wishes {
 /// Everything that is wrong with a program. Of one whose heights are corrected the material is where it was drawn: a plate that is not flat
 /// is not milled by rapid moves that follow it. The machine is asked for what it has to do.
 fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&Against>) -> Vec<Diagnostic> {
-    let drawn = program.nominal().steps;
+    let drawn = program.nominal();
     let stock = stock::stock(context, &program, &drawn, wishes, against);
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
@@ -69,7 +69,8 @@ fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&
         found.extend(verify_machine(&program.read.steps, &machine));
     }
     found.extend(stock::unknown_tools(context, &program));
-    found.extend(against.and_then(|against| against.difference(&program)));
+    found.extend(against.and_then(|against| against.difference(program.dialect, &drawn)));
+    drop(drawn);
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     diagnostics.append(&mut found);
