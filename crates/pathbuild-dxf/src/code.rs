@@ -63,8 +63,8 @@ impl Role {
         }
     }
 
-    /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if it is a usual
-    /// one: at most three bytes, blanks and then digits, and maybe a CR.
+    /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if there are at most
+    /// seven bytes, blanks and then digits, and maybe a CR.
     #[inline]
     pub(crate) fn of_line(line: [u8; 8], line_end: LineEnd) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
@@ -78,18 +78,21 @@ impl Role {
         Self::of_unusual_line(line, line_end.last)
     }
 
-    /// The same for less than three characters, or another end of the line.
-    #[inline(never)]
+    /// The same for any number of characters that there is room for, and another end of the line.
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
-        let length = line[..5].iter().position(|byte| *byte == line_end)?;
-        let digits = line[..length].strip_suffix(b"\r").unwrap_or(&line[..length]);
+        let word = u64::from_le_bytes(line);
+        let other = word ^ (ONES * u64::from(line_end));
+        // The top bit of each byte that ends a line; above the first there may be wrong ones.
+        let ends = other.wrapping_sub(ONES) & !other & (ONES * 0x80);
+        let length = ends.trailing_zeros() as usize / 8;
+        let before = *line.get(length.wrapping_sub(1)).filter(|_| length < line.len())?;
+        let bits = 8 * (length - usize::from(before == b'\r'));
+        if bits == 0 {
+            return None;
+        }
         // The last digit in the last byte, and blanks before the first.
-        let mut padded = *b"   ";
-        padded.get_mut(3_usize.checked_sub(digits.len())?..)?.copy_from_slice(digits);
-        let [first, second, third] = padded;
-        let text = u32::from_le_bytes([first, second, third, 0]);
-        let entry = USUAL[index(text)];
-        (entry & THREE == text).then_some((length + 1, Self((entry >> 24) as u8)))
+        let code = number((word << (64 - bits)) | ((ONES * 0x20) >> bits))?;
+        Some((length + 1, Self::of(code)))
     }
 
     /// Where the group of an entity is kept. All but [`Role::OTHER`] and those beyond it are kept.
@@ -119,6 +122,28 @@ impl Role {
         })
     }
 }
+
+/// The number written in eight bytes: blanks and then digits.
+fn number(padded: u64) -> Option<i32> {
+    // A blank is 20, a digit 30 to 39: bit 4 tells which.
+    let is_digit = (padded >> 4) & ONES;
+    let values = padded & (ONES * 0x0F);
+    let is_blank_or_digit = padded & (ONES * 0xE0) == ONES * 0x20;
+    let is_in_range = (is_digit * 9 + ONES * 0x80 - values) & (ONES * 0x80) == ONES * 0x80;
+    let has_blank_after_digit = (is_digit << 8) & !is_digit != 0;
+    let ends_with_digit = is_digit >> 56 == 1;
+    if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
+        return None;
+    }
+    // Neighbours are joined, what belongs to no pair falls out at the top: digits to numbers of two, these to numbers of four, these to
+    // the whole.
+    let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
+    let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
+    i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()
+}
+
+/// One in each byte.
+const ONES: u64 = u64::from_le_bytes([1; 8]);
 
 /// The bytes of three characters.
 const THREE: u32 = 0x00FF_FFFF;
