@@ -29,7 +29,9 @@ fn libraries(criterion: &mut Criterion) {
     let peaks = SIZES.map(|components| {
         let directory = library(components);
         let directory = directory.path();
-        measure(&mut group, "check --no-cache", components, || pathbuild(directory, &["check", "--no-cache", "-qq"]));
+        measure(&mut group, "check --no-cache", components, || {
+            pathbuild(directory, &["check", "--no-cache", "-qq"]);
+        });
         let peak = peak_memory(directory);
         pathbuild(directory, &["emit", "-qq"]);
         pathbuild(directory, &["check", "-qq"]);

@@ -1,7 +1,7 @@
 //! Is what lies on disk what would be written? (spec/05-command-line.md, `emit --check`)
 
+use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
-use pathbuild_db::{Database, Db};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
@@ -14,18 +14,19 @@ use crate::session::{Content, OutputKind};
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
 /// of another program. Comes with what is on disk, and with where the moves part, or why they cannot be read.
 pub(super) fn compare(
-    db: &Database,
+    system: &dyn System,
     output: &Output,
     moves_only: bool,
     poster: Option<&Poster>,
 ) -> (Compared, Vec<Diagnostic>) {
-    let present = match db.system().read(&output.path, u64::MAX) {
+    let present = match system.read(&output.path, u64::MAX) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing) => return ((State::Missing, Content::Missing), Vec::new()),
         Err(_) => return ((State::Outdated, Content::Unknown), Vec::new()),
     };
     let found = Content::of(&present);
-    let is_same = present == output.text || output.kind == OutputKind::Values && has_same_probes(db, output);
+    let is_same =
+        present == output.text || output.kind == OutputKind::Values && has_same_probes(system, output);
     if is_same {
         return ((State::Current, found), Vec::new());
     }

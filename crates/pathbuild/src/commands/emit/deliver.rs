@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
-use pathbuild_db::{Database, Db, program};
+use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point};
 use pathbuild_gcode::post;
@@ -49,6 +49,13 @@ pub(super) struct Delivered {
 }
 
 impl Delivered {
+    /// Adds what became of the files once they were made.
+    pub(super) fn add(&mut self, written: Self) {
+        self.files.extend(written.files);
+        self.contents.extend(written.contents);
+        self.problems.extend(written.problems);
+    }
+
     /// Whether a file lies on disk now as it should be.
     pub(super) fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
@@ -95,11 +102,11 @@ pub(super) struct Means<'a> {
     pub(super) poster: Option<&'a Poster>,
 }
 
-/// Does a job. Nothing of a path is written when something keeps one of its files from being written.
-pub(super) fn deliver(db: &Database, job: &Job, task: Task, means: &Means<'_>) -> Delivered {
+/// The files of a job, with what is known of its program: none when something keeps one of them from being written.
+pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> (Delivered, Vec<Output>) {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<Arc<Program>>>>() else {
-        return Delivered::default();
+        return (Delivered::default(), Vec::new());
     };
     let mut delivered = Delivered::default();
     let mut time = Total::default();
@@ -109,24 +116,30 @@ pub(super) fn deliver(db: &Database, job: &Job, task: Task, means: &Means<'_>) -
         time.time += sum.time;
     }
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
-    match outputs(db, job, &programs, means, &mut delivered) {
-        Ok(outputs) => finish(db, outputs, task, means, &mut delivered),
-        Err(problems) => delivered.problems.extend(problems),
-    }
-    delivered
+    let outputs = outputs(db, job, &programs, means, &mut delivered).unwrap_or_else(|problems| {
+        delivered.problems.extend(problems);
+        Vec::new()
+    });
+    (delivered, outputs)
 }
 
 /// Writes, compares or prints what a job becomes.
-fn finish(db: &Database, outputs: Vec<Output>, task: Task, means: &Means<'_>, delivered: &mut Delivered) {
+pub(super) fn finish(
+    system: &dyn System,
+    outputs: Vec<Output>,
+    task: Task,
+    poster: Option<&Poster>,
+    delivered: &mut Delivered,
+) {
     match task {
         Task::Write { force } => {
-            if let Err(problem) = write(db, &outputs, force, delivered) {
+            if let Err(problem) = write(system, &outputs, force, delivered) {
                 delivered.problems.push(*problem);
             }
         }
         Task::Compare { moves_only } => {
             for output in outputs.iter().filter(|output| !moves_only || output.kind != OutputKind::Values) {
-                let ((state, content), problems) = compare::compare(db, output, moves_only, means.poster);
+                let ((state, content), problems) = compare::compare(system, output, moves_only, poster);
                 delivered.contents.push(content);
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
@@ -229,22 +242,21 @@ fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
 }
 
 fn write(
-    db: &Database,
+    system: &dyn System,
     outputs: &[Output],
     force: bool,
     delivered: &mut Delivered,
 ) -> Result<(), Box<Diagnostic>> {
     let values = || outputs.iter().filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(lost) = values().find(|output| would_lose_values(db, output)) {
+    if !force && let Some(lost) = values().find(|output| would_lose_values(system, output)) {
         let name = lost.path.file_name().unwrap_or_default();
         return Err(Box::new(
             Diagnostic::new(&probes::VALUES_PRESENT).with("name", name).in_file(&lost.path),
         ));
     }
     for output in outputs {
-        let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(db, output);
-        let written =
-            if is_kept { Ok(Written::Unchanged) } else { db.system().write(&output.path, &output.text) };
+        let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
+        let written = if is_kept { Ok(Written::Unchanged) } else { system.write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), &reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
         delivered.contents.push(if is_kept { Content::Unknown } else { Content::of(&output.text) });
@@ -254,20 +266,20 @@ fn write(
 }
 
 /// Whether there are values that somebody measured, for other probes than now.
-fn would_lose_values(db: &Database, output: &Output) -> bool {
-    let Some(present) = present(db, &output.path) else { return false };
+fn would_lose_values(system: &dyn System, output: &Output) -> bool {
+    let Some(present) = present(system, &output.path) else { return false };
     let probes = without_values(&present);
     probes != without_values(&String::from_utf8_lossy(&output.text)) && probes != present.trim_end()
 }
 
 /// Whether a file of values is there and is for these probes.
-pub(super) fn has_same_probes(db: &Database, output: &Output) -> bool {
+pub(super) fn has_same_probes(system: &dyn System, output: &Output) -> bool {
     let text = String::from_utf8_lossy(&output.text);
-    present(db, &output.path).is_some_and(|present| without_values(&present) == without_values(&text))
+    present(system, &output.path).is_some_and(|present| without_values(&present) == without_values(&text))
 }
 
-fn present(db: &Database, path: &Utf8Path) -> Option<String> {
-    let bytes = db.system().read(path, 1 << 24).ok()?;
+fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
+    let bytes = system.read(path, 1 << 24).ok()?;
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
 }
 

@@ -1,6 +1,7 @@
 //! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
 
 mod asked;
+mod behind;
 mod compare;
 mod deliver;
 mod deps;
@@ -21,7 +22,8 @@ use crate::posting::{Poster, Wishes, run_post_build};
 use crate::session::{CheckedTarget, Session};
 
 use asked::Asked;
-use deliver::{Delivered, Means, State, Task, deliver};
+use behind::deliver_all;
+use deliver::{Delivered, Means, State, Task};
 use job::Maker;
 use kept::{Memory, Run};
 
@@ -89,11 +91,7 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
         return context.usage("`-o -` takes one program: this path has Z-probes and becomes several files");
     }
     let means = Means { writing: options::writing(context), poster };
-    let delivered = session.guarded(&jobs, |db, job| deliver(db, job, task, &means));
-    let delivered = delivered.into_iter().zip(&jobs);
-    let delivered: Vec<Delivered> = delivered
-        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(&session, *problem)))
-        .collect();
+    let delivered = deliver_all(&session, &jobs, task, &means);
     let is_current = show_all(context, &delivered, &mut diagnostics);
     if let Some(file) = &args.deps {
         let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
@@ -169,12 +167,7 @@ pub(in crate::commands) fn write(
     let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
     jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
     let means = Means { writing: options::writing(context), poster };
-    let delivered = session.guarded(&jobs, |db, job| deliver(db, job, task, &means));
-    let delivered: Vec<Delivered> = delivered
-        .into_iter()
-        .zip(&jobs)
-        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(session, *problem)))
-        .collect();
+    let delivered = deliver_all(session, &jobs, task, &means);
     show_all(context, &delivered, &mut diagnostics);
     diagnostics
 }

@@ -1,0 +1,80 @@
+//! Making the files of many paths on all cores, and writing those that are made meanwhile: a file that replaces another waits for the disk, and the
+//! cores need not.
+
+use std::panic::resume_unwind;
+use std::sync::mpsc::{Receiver, SendError, sync_channel};
+use std::thread::{self, Builder};
+
+use pathbuild_db::{Database, Db};
+use pathbuild_diagnostic::Diagnostic;
+
+use super::deliver::{Delivered, Means, Output, Task, finish, make};
+use super::job::Job;
+use crate::session::Session;
+
+/// Does jobs. Nothing of a path is written when something keeps one of its files from being written.
+pub(super) fn deliver_all(
+    session: &Session<'_>,
+    jobs: &[Job],
+    task: Task,
+    means: &Means<'_>,
+) -> Vec<Delivered> {
+    let at_once = |db: &Database, job: &Job| {
+        let (mut delivered, outputs) = make(db, job, means);
+        finish(db.system(), outputs, task, means.poster, &mut delivered);
+        delivered
+    };
+    let delivered = match task {
+        Task::Write { .. } if jobs.len() > 1 => write_behind(session, jobs, task, means),
+        _ => session.guarded(jobs, at_once),
+    };
+    let delivered = delivered.into_iter().zip(jobs);
+    delivered
+        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(session, *problem)))
+        .collect()
+}
+
+/// How many jobs may wait for being written. Their texts are in memory meanwhile.
+const BEHIND: usize = 32;
+
+/// What a job becomes, by its number.
+type Numbered = (usize, Vec<Output>);
+
+fn write_behind(
+    session: &Session<'_>,
+    jobs: &[Job],
+    task: Task,
+    means: &Means<'_>,
+) -> Vec<Result<Delivered, Box<Diagnostic>>> {
+    let system = session.db().system();
+    let finished = |outputs| {
+        let mut delivered = Delivered::default();
+        finish(system, outputs, task, means.poster, &mut delivered);
+        delivered
+    };
+    let (sender, receiver) = sync_channel(BEHIND);
+    let write = move |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {
+        made.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
+    };
+    let numbered: Vec<(usize, &Job)> = jobs.iter().enumerate().collect();
+    let (mut made, written) = thread::scope(|scope| {
+        let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
+        let made = session.guarded(&numbered, |db, (index, job)| {
+            let (mut delivered, outputs) = make(db, job, means);
+            // Where the system has no thread left, nobody receives it.
+            if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
+                delivered.add(finished(outputs));
+            }
+            delivered
+        });
+        drop(sender);
+        let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        (made, written.unwrap_or_default())
+    });
+    for (index, written) in written {
+        if let Ok(made) = &mut made[index] {
+            made.add(written);
+        }
+    }
+    made
+}
