@@ -96,11 +96,8 @@ impl Chance {
     }
 }
 
-/// Edits, creations, deletions and renames, a third of which make a path ambiguous, missing or cyclic.
-#[test]
-fn after_any_edits_results_are_those_without_the_cache() {
-    let mut chance = Chance(0x5EED);
-    let place = library();
+/// An edit, creation, deletion or renaming, a third of which make a path ambiguous, missing or cyclic; what was done.
+fn edit(place: &Place, chance: &mut Chance) -> String {
     let names = ["1001.1P", "1002.1P", "1003.1P", "1004.1P", "1009.1P", "8001.1P"];
     let files = [
         "library/parts/1001.dxf",
@@ -115,38 +112,90 @@ fn after_any_edits_results_are_those_without_the_cache() {
         "spare/1009.dxf",
         "library/parts/unnamed.dxf",
     ];
+    let file = place.path().join(files[chance.below(files.len())]);
+    let name = names[chance.below(names.len())];
+    let other = names[chance.below(names.len())];
+    match chance.below(9) {
+        0 | 1 => write(&file, &[path(name, 5, &[])]),
+        2 => write(&file, &[path(name, 4, &[])]),
+        3 => write(&file, &[path(name, 5, &[other])]),
+        4 => write(&file, &[path(name, 5, &[]), path("8009.1P", 5, &[name, other])]),
+        5 => {
+            _ = fs::remove_file(&file);
+            format!("removing {}", file.display())
+        }
+        6 => {
+            let to = place.path().join(files[chance.below(files.len())]);
+            _ = fs::create_dir_all(to.parent().unwrap());
+            _ = fs::rename(&file, &to);
+            format!("renaming {} to {}", file.display(), to.display())
+        }
+        7 => {
+            for (file, paths) in &drawings() {
+                write(&place.path().join(file), paths);
+            }
+            "mending".to_owned()
+        }
+        _ => {
+            fs::write(&file, "no drawing").ok();
+            format!("breaking {}", file.display())
+        }
+    }
+}
+
+#[test]
+fn after_any_edits_results_are_those_without_the_cache() {
+    let mut chance = Chance(0x5EED);
+    let place = library();
     for step in 0..60 {
-        let file = place.path().join(files[chance.below(files.len())]);
-        let name = names[chance.below(names.len())];
-        let other = names[chance.below(names.len())];
-        let what = match chance.below(9) {
-            0 | 1 => write(&file, &[path(name, 5, &[])]),
-            2 => write(&file, &[path(name, 4, &[])]),
-            3 => write(&file, &[path(name, 5, &[other])]),
-            4 => write(&file, &[path(name, 5, &[]), path("8009.1P", 5, &[name, other])]),
-            5 => {
-                _ = fs::remove_file(&file);
-                format!("removing {}", file.display())
-            }
-            6 => {
-                let to = place.path().join(files[chance.below(files.len())]);
-                _ = fs::create_dir_all(to.parent().unwrap());
-                _ = fs::rename(&file, &to);
-                format!("renaming {} to {}", file.display(), to.display())
-            }
-            7 => {
-                for (file, paths) in &drawings() {
-                    write(&place.path().join(file), paths);
-                }
-                "mending".to_owned()
-            }
-            _ => {
-                fs::write(&file, "no drawing").ok();
-                format!("breaking {}", file.display())
-            }
-        };
+        let what = edit(&place, &mut chance);
         assert_same(&place, &format!("step {step}: {what}"));
     }
+}
+
+/// As above; and programs are written, removed and edited by hand.
+#[test]
+fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
+    const OPTIONS: &str = "./library --feed 150 --rapid 1000 --sweep-height 20 --format json";
+    let mut chance = Chance(0xE417);
+    let place = library();
+    let mut programs = Vec::new();
+    for step in 0..40 {
+        let what = match chance.below(6) {
+            0 | 1 => {
+                place.run(&format!("emit {OPTIONS}"));
+                programs = written(&place);
+                "emit".to_owned()
+            }
+            2 if !programs.is_empty() => {
+                let program = &programs[chance.below(programs.len())];
+                _ = fs::remove_file(program);
+                format!("removing {}", program.display())
+            }
+            3 if !programs.is_empty() => {
+                let program = &programs[chance.below(programs.len())];
+                fs::write(program, format!("(edited {step})\n")).unwrap();
+                format!("editing {}", program.display())
+            }
+            _ => edit(&place, &mut chance),
+        };
+        let without = said(&place.run(&format!("emit --check --no-cache {OPTIONS}")));
+        for time in ["first", "then"] {
+            let with = said(&place.run(&format!("emit --check {OPTIONS}")));
+            assert_eq!(with, without, "{time} after step {step}: {what}");
+        }
+    }
+}
+
+/// The programs on disk.
+fn written(place: &Place) -> Vec<PathBuf> {
+    let directories = ["library/parts", "library/projects", "library/deep/er"];
+    let entries = directories.iter().filter_map(|directory| fs::read_dir(place.path().join(directory)).ok());
+    let files = entries.flatten().map(|entry| entry.unwrap().path());
+    let mut programs: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|extension| extension == "gcode")).collect();
+    programs.sort();
+    programs
 }
 
 fn write(file: &PathBuf, paths: &[(String, u32, Vec<String>)]) -> String {
