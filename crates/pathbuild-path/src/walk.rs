@@ -113,15 +113,23 @@ impl<'a> Walk<'a> {
 
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&self) -> Option<usize> {
-        let mut open = self.ends.near(self.at).filter(|segment| !self.is_traversed[*segment]);
-        let first = open.next()?;
-        let Some(second) = open.next() else { return Some(first) };
+        let (mut first, mut second, mut others) = (None, None, Vec::new());
+        self.ends.each_near(self.at, |segment| match (first, second) {
+            _ if self.is_traversed[segment] => {}
+            (None, _) => first = Some(segment),
+            (Some(_), None) => second = Some(segment),
+            (Some(_), Some(_)) => others.push(segment),
+        });
+        let Some(second) = second else { return first };
+        let first = first?;
         let before = |best: usize, other: usize| if self.comes_before(other, best) { other } else { best };
-        let Some(third) = open.next() else { return Some(before(first.min(second), first.max(second))) };
-        let mut star: Vec<usize> = [first, second, third].into_iter().chain(open).collect();
+        if others.is_empty() {
+            return Some(before(first.min(second), first.max(second)));
+        }
         // One scan in segment order: lengths are compared approximately, which is not transitive.
-        star.sort_unstable();
-        star.into_iter().reduce(before)
+        others.extend([first, second]);
+        others.sort_unstable();
+        others.into_iter().reduce(before)
     }
 
     fn comes_before(&self, a: usize, b: usize) -> bool {

@@ -43,16 +43,21 @@ impl Ends {
         self.drawn[segment]
     }
 
-    /// Segments with an end at a point; one whose ends are close together may be named twice.
-    pub(super) fn near(&self, point: Xy) -> impl Iterator<Item = usize> + '_ {
+    /// Takes the segments with an end at a point; one whose ends are close together may be named twice.
+    pub(super) fn each_near(&self, point: Xy, mut take: impl FnMut(usize)) {
         let reach = Vector2::new(REACH, REACH);
         let ((left, low), (right, high)) = (square(point - reach), square(point + reach));
-        let named = (left..=right).flat_map(move |column| {
+        for column in left..=right {
             let first = self.squares.partition_point(|(square, _)| *square < (column, low));
-            self.squares[first..].iter().take_while(move |(square, _)| *square <= (column, high))
-        });
-        let segments = named.map(|(_, segment)| *segment as usize);
-        segments.filter(move |segment| self.drawn[*segment].iter().any(|end| coincide(*end, point)))
+            for (_, segment) in
+                self.squares[first..].iter().take_while(|(square, _)| *square <= (column, high))
+            {
+                let segment = *segment as usize;
+                if self.drawn[segment].iter().any(|end| coincide(*end, point)) {
+                    take(segment);
+                }
+            }
+        }
     }
 }
 

@@ -74,8 +74,11 @@ impl Walk<'_> {
     /// A segment drawn twice is left over, and looks just like the one that was traversed.
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
         let duplicate = self.open().find(|open| {
-            let [start, _] = self.ends.of(*open);
-            self.ends.near(start).any(|other| self.is_traversed[other] && self.is_same_curve(*open, other))
+            let ([start, _], mut is_found) = (self.ends.of(*open), false);
+            self.ends.each_near(start, |other| {
+                is_found |= self.is_traversed[other] && self.is_same_curve(*open, other);
+            });
+            is_found
         });
         let Some(segment) = duplicate else { return problem };
         let [start, _] = self.ends.of(segment);

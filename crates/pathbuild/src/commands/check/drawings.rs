@@ -6,7 +6,7 @@ use pathbuild_db::{Role, SourceFile, Target, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use crate::session::{CheckedTarget, DrawingResult, Session};
+use crate::session::{CheckedTarget, DrawingResult, Session, by_place};
 
 /// A drawing, or some of its paths.
 pub(super) struct Asked<'a> {
@@ -87,7 +87,7 @@ fn result(
     let mut reached = vec![asked.file];
     reached.extend(checked.iter().flat_map(|checked| &checked.files).copied().filter(|it| *it != asked.file));
     if reached.len() > 1 {
-        reached.sort_by(|a, b| a.path(db).cmp(b.path(db)));
+        reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
         reached.dedup();
     }
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
