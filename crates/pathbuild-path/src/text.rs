@@ -1,6 +1,7 @@
 //! Parameter texts: letters and values. (spec/10-drawing.md, "Inside a text")
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -73,17 +74,21 @@ impl ParameterText {
         if class == ElementClass::Unread {
             return Vec::new();
         }
-        let mut seen = Letters::default();
-        let of_piece = |(index, piece): (usize, Piece)| {
-            let earlier = if piece.letter.is_none_or(|letter| seen.insert(letter)) { 0 } else { index };
-            let problem = self.problem(earlier, &piece, class)?;
+        let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
+        let of_piece = |piece: Piece| {
+            // Letters are the same letter; variables only when they are the same variable.
+            let is_repeated = match piece.letter {
+                None => false,
+                Some(Letter::Variable) => !variables.insert(self.value(&piece).chars().next()),
+                Some(letter) => !letters.insert(letter),
+            };
+            let problem = self.problem(&piece, is_repeated, class)?;
             Some(problem.with_text(self.fault(&piece)))
         };
-        self.pieces().enumerate().filter_map(of_piece).collect()
+        self.pieces().filter_map(of_piece).collect()
     }
 
-    /// `earlier`: how many pieces before it may be of the same letter.
-    fn problem(&self, earlier: usize, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
+    fn problem(&self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
         let first = self.0[piece.span.start..].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(unknown_letter(first, class));
@@ -92,20 +97,13 @@ impl ParameterText {
         if how == Use::Unknown {
             return Some(unknown_letter(first, class));
         }
-        if self.pieces().take(earlier).any(|other| self.is_same(&other, piece)) {
+        if is_repeated {
             return Some(self.twice(letter, piece));
         }
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
         (how == Use::Ignored).then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
-    }
-
-    /// Letters are the same letter; variables only when they are the same variable.
-    fn is_same(&self, a: &Piece, b: &Piece) -> bool {
-        a.letter == b.letter
-            && (a.letter != Some(Letter::Variable)
-                || self.value(a).chars().next() == self.value(b).chars().next())
     }
 
     fn twice(&self, letter: Letter, piece: &Piece) -> Diagnostic {

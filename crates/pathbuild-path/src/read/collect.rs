@@ -1,5 +1,6 @@
 //! The entities of each path, and what each means.
 
+use std::collections::BTreeMap;
 use std::sync::Arc as Shared;
 
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -55,12 +56,13 @@ pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
     let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
     let counts = counts(drawing);
     let mut paths: Vec<Collected<'_>> = Vec::with_capacity(names.len());
+    let mut by_name: BTreeMap<PathName, usize> = BTreeMap::new();
     let mut index_of_layer = vec![None; names.len()];
     for (index, layer) in (0_u32..).zip(&drawing.layers) {
         let Some(PathLayer { path: name, .. }) = language.path_pattern.layer(&layer.name) else { continue };
         let at = index as usize;
-        let path = paths.iter().position(|path| path.raw.name == name).unwrap_or_else(|| {
-            paths.push(Collected::new(name, &layer.name));
+        let path = *by_name.entry(name).or_insert_with_key(|name| {
+            paths.push(Collected::new(name.clone(), &layer.name));
             paths.len() - 1
         });
         index_of_layer[at] = Some(path);
@@ -315,7 +317,7 @@ impl<'d> Collected<'d> {
 
     fn candidate(&mut self, entity: &Entity, origin: &Origin, shape: Shape, owner: Owner) {
         let candidate = Candidate { id: origin.id, shape, group: entity.group, is_taken: false };
-        self.texts.add_candidate(entity.layer, &origin.layer, candidate, owner);
+        self.texts.add_candidate(entity.layer, candidate, owner);
     }
 
     /// Gives each text to its element, then puts the elements into the order of segments.

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{ElementId, TextFault};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
 use super::collect::{Owner, plane_arc, xy};
-use super::texts::Texts;
+use super::texts::{Count, Texts};
 use crate::assign::Candidate;
 use crate::element::{Origin, Shape, shown};
 use crate::geometry::{Curve, Line};
@@ -63,6 +63,9 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
     let names: Vec<Arc<str>> = drawing.layers.iter().map(|layer| Arc::from(&*layer.name)).collect();
     let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
+    for (number, name) in (0_u32..).zip(&names) {
+        texts.add_layer(number, name, Count::default());
+    }
     for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
         if is_path[entity.layer as usize] {
             continue;
@@ -81,7 +84,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
                 let Some(curve) = dash_dotted(entity, language) else { continue };
                 let shape = Shape::Curve(curve);
                 let candidate = Candidate { id, shape, group: entity.group, is_taken: false };
-                texts.add_candidate(entity.layer, layer, candidate, Owner::Faulty);
+                texts.add_candidate(entity.layer, candidate, Owner::Faulty);
                 curves.insert(id, (origin(curve.start()), curve));
             }
         }

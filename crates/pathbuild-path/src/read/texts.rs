@@ -53,7 +53,7 @@ pub(crate) struct Count {
 }
 
 impl<'d> Texts<'d> {
-    /// A layer of which it is known how much is on it.
+    /// A layer, with how much is on it as far as that is known. All are added before what is on them, in order of their numbers.
     pub(crate) fn add_layer(&mut self, layer: u32, name: &Arc<str>, count: Count) {
         self.layers.push((layer, LayerTexts::new(name, count)));
     }
@@ -61,13 +61,13 @@ impl<'d> Texts<'d> {
     pub(crate) fn add_text(&mut self, text: &'d Text, layer: u32, origin: Origin) {
         let circle = TextCircle::of_text(text);
         let string = without_percent_codes(&text.string);
-        self.layer(layer, &origin.layer).texts.push(FoundText { circle, string, origin });
+        self.layer(layer).texts.push(FoundText { circle, string, origin });
     }
 
     pub(crate) fn add_mtext(&mut self, text: &'d MText, layer: u32, origin: Origin) {
         let circle = TextCircle::of_mtext(text);
         let string = without_percent_codes(&text.plain);
-        self.layer(layer, &origin.layer).texts.push(FoundText { circle, string, origin });
+        self.layer(layer).texts.push(FoundText { circle, string, origin });
     }
 
     /// Each text with its circle and the candidates that it belongs to, layer by layer.
@@ -84,19 +84,15 @@ impl<'d> Texts<'d> {
         matched
     }
 
-    pub(crate) fn add_candidate(&mut self, layer: u32, name: &Arc<str>, candidate: Candidate, owner: Owner) {
-        let layer = self.layer(layer, name);
+    pub(crate) fn add_candidate(&mut self, layer: u32, candidate: Candidate, owner: Owner) {
+        let layer = self.layer(layer);
         layer.candidates.push(candidate);
         layer.owners.push(owner);
     }
 
-    fn layer(&mut self, layer: u32, name: &Arc<str>) -> &mut LayerTexts<'d> {
+    fn layer(&mut self, layer: u32) -> &mut LayerTexts<'d> {
         let place = self.layers.binary_search_by_key(&layer, |(number, _)| *number);
-        let place = place.unwrap_or_else(|place| {
-            self.layers.insert(place, (layer, LayerTexts::new(name, Count::default())));
-            place
-        });
-        &mut self.layers[place].1
+        &mut self.layers[place.expect("every layer was added")].1
     }
 
     /// Gives each text to its element; what finds none is PB107.

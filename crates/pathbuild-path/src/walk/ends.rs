@@ -17,9 +17,9 @@ pub(super) struct Ends {
 type Square = (i64, i64);
 
 /// Side of a square in mm.
-const SIDE: f64 = 0.01;
+const SIDE: f64 = 0.001;
 /// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
-const SHIFT: f64 = 0.003_7;
+const SHIFT: f64 = 0.000_37;
 /// Around a point is looked so far, in mm: a few times the distance within which points coincide.
 const REACH: f64 = 0.0001;
 
