@@ -47,6 +47,11 @@ impl Stamp {
         }
     }
 
+    /// Whether a file changed while a run that began at `begun` was reading. What the run read of it first may not be what it read of it last.
+    pub fn has_changed_since(file: &Utf8Path, Clock(begun): Clock) -> bool {
+        fs::metadata(file).and_then(|data| data.modified()).is_ok_and(|modified| modified > begun)
+    }
+
     pub(crate) fn from_bytes(bytes: [u8; Self::SIZE]) -> Self {
         Self(bytes)
     }

@@ -172,6 +172,19 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
 }
 
 #[test]
+fn a_file_that_changes_while_a_run_reads_is_told_from_one_that_changed_before() {
+    let (_directory, base) = place();
+    let file = base.join("a.dxf");
+    fs::write(&file, "one").unwrap();
+    sleep(Duration::from_millis(50));
+    let begun = Place::beside(&base).clock().unwrap();
+    assert!(!Stamp::has_changed_since(&file, begun));
+    sleep(Duration::from_millis(50));
+    fs::write(&file, "two").unwrap();
+    assert!(Stamp::has_changed_since(&file, begun));
+}
+
+#[test]
 fn only_names_that_may_hold_what_was_looked_for_are_an_answer() {
     let (_directory, base) = place();
     fs::write(base.join("a.dxf"), "one").unwrap();

@@ -95,7 +95,7 @@ impl<'a> Writing<'a> {
             fact.stamp = Stamp::settled(&fact.path, self.begun);
         }
         // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
-        if self.read.get(&fact.path).is_some_and(|hash| *hash != fact.hash) {
+        if self.read.get(&fact.path).is_some_and(|hash| *hash != fact.hash) || self.is_torn(&fact.path) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
         let new = self.push_file(fact);
@@ -138,7 +138,13 @@ impl<'a> Writing<'a> {
         if hash.is_some() && stamp == Stamp::MISSING {
             stamp = Stamp::UNKNOWN;
         }
+        let hash = hash.filter(|_| !self.is_torn(path));
         self.push_file(FileFact { path: path.to_owned(), stamp, hash })
+    }
+
+    /// Whether a drawing changed while this run went on, which may have read it twice.
+    fn is_torn(&self, path: &Utf8Path) -> bool {
+        self.read.contains_key(path) && Stamp::has_changed_since(path, self.begun)
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
