@@ -166,6 +166,22 @@ fn what_takes_too_long_is_given_up() {
     assert_says(&errors(&run).join("\n"), "PB005", "the time that this path takes");
 }
 
+/// A drawing has as many paths as it has layers: each is found without a look at all others.
+#[test]
+fn twenty_thousand_paths_in_one_drawing_take_no_square_of_them() {
+    let line = |path: u32| {
+        let layer = format!("{}.{}P", 1000 + path / 10, path % 10);
+        format!("0\nLINE\n8\n{layer}\n10\n0\n20\n{path}\n11\n5\n21\n{path}\n")
+    };
+    let lines: String = (0..20_000).map(line).collect();
+    let place = Place::new().file(NAME, format!("0\nSECTION\n2\nENTITIES\n{lines}0\nENDSEC\n0\nEOF\n"));
+    let start = Instant::now();
+    let run = place.run_with(&["check", NAME, "--format=concise"]);
+    assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
+    // Each has neither start nor end.
+    assert_eq!(errors(&run).len(), 40_000);
+}
+
 /// In a library with all of them each is told, and what is right is checked.
 #[test]
 fn bad_files_hide_nothing() {

@@ -147,6 +147,10 @@ impl PartialOrd for PathName {
 
 impl Ord for PathName {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        if self.0.is_ascii() && other.0.is_ascii() {
+            let folded = |byte: u8| byte.to_ascii_uppercase();
+            return self.0.bytes().map(folded).cmp(other.0.bytes().map(folded));
+        }
         self.0.chars().flat_map(char::to_uppercase).cmp(other.0.chars().flat_map(char::to_uppercase))
     }
 }

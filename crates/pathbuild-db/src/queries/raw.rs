@@ -32,7 +32,10 @@ impl<'db> NameKey<'db> {
 /// What was read from a file.
 #[derive(Clone, Debug)]
 pub struct FileContents {
+    /// In order of first appearance.
     paths: Vec<PathEntry>,
+    /// Their numbers in the order of their names: a drawing may have as many paths as it has layers.
+    by_name: Vec<usize>,
     report: FileReport,
 }
 
@@ -72,15 +75,19 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
     let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
     let entry = |(raw, map)| PathEntry { raw: Arc::new(raw), map };
-    FileContents {
-        paths: raw.paths.into_iter().map(entry).collect(),
-        report: FileReport { diagnostics, hash },
-    }
+    FileContents::new(raw.paths.into_iter().map(entry).collect(), FileReport { diagnostics, hash })
 }
 
 impl FileContents {
+    fn new(paths: Vec<PathEntry>, report: FileReport) -> Self {
+        let mut by_name: Vec<usize> = (0..paths.len()).collect();
+        by_name.sort_by(|a, b| paths[*a].raw.name.cmp(&paths[*b].raw.name));
+        Self { paths, by_name, report }
+    }
+
     fn entry(&self, name: &PathName) -> Option<&PathEntry> {
-        self.paths.iter().find(|entry| entry.raw.name == *name)
+        let found = self.by_name.binary_search_by(|path| self.paths[*path].raw.name.cmp(name));
+        found.ok().map(|place| &self.paths[self.by_name[place]])
     }
 }
 
