@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Decoder, DirectoryFact, Encoder, FileFact, FileState, Kept, Key, Listing, ListingKind,
+    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Kept, Key, Listing, ListingKind,
     Listings, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic, encode_diagnostic,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
@@ -135,12 +135,18 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
     assert_eq!(place.load(&Key::new("other", "question")), Err(Unusable::Foreign));
 }
 
+/// A file, and the time when a run begins after it has rested.
+fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
+    let file = base.join("a.dxf");
+    fs::write(&file, "one").unwrap();
+    sleep(rest);
+    (file, Place::beside(base).clock().unwrap())
+}
+
 #[test]
 fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let (_directory, base) = place();
-    let file = base.join("a.dxf");
-    fs::write(&file, "one").unwrap();
-    let begun = Place::beside(&base).clock().unwrap();
+    let (file, begun) = written(&base, Duration::ZERO);
     let stamp = Stamp::settled(&file, begun);
     assert_eq!(stamp, Stamp::UNKNOWN);
     let kept = catalogue(&base, stamp, b"one");
@@ -154,11 +160,8 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
 #[test]
 fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (_directory, base) = place();
-    let file = base.join("a.dxf");
-    fs::write(&file, "one").unwrap();
     // A tick of the coarsest clock, and what a clock that counts seconds may hide.
-    sleep(Duration::from_millis(3200));
-    let begun = Place::beside(&base).clock().unwrap();
+    let (file, begun) = written(&base, Duration::from_millis(3200));
     let stamp = Stamp::settled(&file, begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
     let kept = catalogue(&base, stamp, b"one");
@@ -174,10 +177,7 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
 #[test]
 fn a_file_that_changes_while_a_run_reads_is_told_from_one_that_changed_before() {
     let (_directory, base) = place();
-    let file = base.join("a.dxf");
-    fs::write(&file, "one").unwrap();
-    sleep(Duration::from_millis(50));
-    let begun = Place::beside(&base).clock().unwrap();
+    let (file, begun) = written(&base, Duration::from_millis(50));
     assert!(!Stamp::has_changed_since(&file, begun));
     sleep(Duration::from_millis(50));
     fs::write(&file, "two").unwrap();

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::tree::visit;
 use crate::files::{GroupRange, NameRange, PathKey};
 use crate::group::Group;
 
@@ -41,7 +42,8 @@ impl GroupTable {
         let mut files = Vec::new();
         if self.fits(path) {
             let begun = self.entries.partition_point(|(range, _)| range.starts_by(path));
-            self.collect(1, 0, self.leaves(), begun, path, &mut files);
+            let ends_before = |node: usize| !self.entries[self.furthest[node] as usize].0.ends_by(path);
+            visit(self.leaves(), begun, &ends_before, &mut |entry| files.push(self.entries[entry].1));
         } else {
             let holds = |range: &GroupRange| range.starts_by(path) && range.ends_by(path);
             files.extend(self.entries.iter().filter(|(range, _)| holds(range)).map(|(_, file)| *file));
@@ -82,28 +84,6 @@ impl GroupTable {
     fn ends_later(&self, a: u32, b: u32) -> bool {
         let end = |entry: u32| self.entries[entry as usize].0.end_groups();
         compare_ends(end(a), end(b), Ordering::Greater) == Ordering::Greater
-    }
-
-    /// Visits the entries before `begun` that end at or behind the path, leaving out subtrees that all end before it.
-    fn collect(
-        &self,
-        node: usize,
-        from: usize,
-        to: usize,
-        begun: usize,
-        path: &PathKey,
-        files: &mut Vec<u32>,
-    ) {
-        if from >= begun || !self.entries[self.furthest[node] as usize].0.ends_by(path) {
-            return;
-        }
-        if to - from == 1 {
-            files.push(self.entries[from].1);
-            return;
-        }
-        let middle = usize::midpoint(from, to);
-        self.collect(2 * node, from, middle, begun, path, files);
-        self.collect(2 * node + 1, middle, to, begun, path, files);
     }
 }
 

@@ -1,7 +1,9 @@
-//! The sorted table of a directory's name ranges: which files may hold a path, in O(log n + hits). (spec/20-paths-and-files.md)
+//! The sorted table of a directory's name ranges: which files may hold a path, in O(log n + hits) once it is
+//! asked often. (spec/20-paths-and-files.md)
 
 mod groups;
 mod numbers;
+mod tree;
 
 use self::groups::GroupTable;
 use self::numbers::NumberTable;

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::tree::visit;
 use crate::number_range::{NumberKey, NumberRange};
 
 /// Ranges of numbers. The first few look-ups look at all of them: a project embeds ten paths, and to put ten thousand ranges in order takes
@@ -75,29 +76,8 @@ impl Sorted {
     fn files(&self, path: NumberKey) -> Vec<u32> {
         let begun = self.entries.partition_point(|(range, _)| range.first() <= path);
         let mut files = Vec::new();
-        self.collect(1, 0, self.latest.len() / 2, begun, path, &mut files);
+        let ends_before = |node: usize| self.latest[node] < path;
+        visit(self.latest.len() / 2, begun, &ends_before, &mut |entry| files.push(self.entries[entry].1));
         files
-    }
-
-    /// Visits the entries before `begun` that end at or behind the path, leaving out subtrees that all end before it.
-    fn collect(
-        &self,
-        node: usize,
-        from: usize,
-        to: usize,
-        begun: usize,
-        path: NumberKey,
-        files: &mut Vec<u32>,
-    ) {
-        if from >= begun || self.latest[node] < path {
-            return;
-        }
-        if to - from == 1 {
-            files.push(self.entries[from].1);
-            return;
-        }
-        let middle = usize::midpoint(from, to);
-        self.collect(2 * node, from, middle, begun, path, files);
-        self.collect(2 * node + 1, middle, to, begun, path, files);
     }
 }

@@ -44,8 +44,8 @@ pub struct Emitted {
     pub has_probes: bool,
 }
 
-/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at less than
-/// 10 KB each no burden.
+/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at some 15 KB
+/// each no burden.
 const BATCH: usize = 2048;
 
 /// Stacks of worker threads: queries call each other once for each level of embedding.
