@@ -2,13 +2,15 @@
 //!
 //! A code is looked up as its three characters, which is much less work than to make a number of them.
 
+use crate::pairs::Pairs;
+
 /// What is done with a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
 /// How the lines of codes usually end.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LineEnd {
+pub(crate) struct CodeEnd {
     /// With its last byte.
     last: u8,
     /// The length of a line of three characters with its end.
@@ -18,18 +20,24 @@ pub(crate) struct LineEnd {
     mask: u64,
 }
 
-impl LineEnd {
-    /// With this byte, before which there may be a CR.
-    pub(crate) fn new(last: u8, has_cr: bool) -> Self {
+/// No line of a code that is read fast is longer.
+const LONGEST: usize = 8;
+
+impl CodeEnd {
+    /// As the first of these does.
+    pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
+        let last = pairs.line_end();
+        let rest = &pairs.bytes()[pairs.consumed()..];
+        let end = rest.iter().take(LONGEST).position(|byte| *byte == last);
+        let has_cr = last != b'\r' && end.is_some_and(|end| rest[..end].ends_with(b"\r"));
         let (end, length) =
             if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };
         Self { last, length, behind_three: end << 24, mask: (1 << (8 * length)) - 1 }
     }
-}
 
-impl Default for Role {
-    fn default() -> Self {
-        Self::UNUSUAL
+    /// The byte that ends lines.
+    pub(crate) fn last(self) -> u8 {
+        self.last
     }
 }
 
@@ -44,8 +52,6 @@ impl Role {
     pub(crate) const EMBEDDED: Self = Self(86);
     /// It begins or ends what an application holds: 102.
     pub(crate) const APPLICATION: Self = Self(87);
-    /// Its line must be read with care.
-    pub(crate) const UNUSUAL: Self = Self(88);
 
     /// The role of a code.
     pub(crate) const fn of(code: i32) -> Self {
@@ -66,19 +72,20 @@ impl Role {
     /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if there are at most
     /// seven bytes, blanks and then digits, and maybe a CR.
     #[inline]
-    pub(crate) fn of_line(line: [u8; 8], line_end: LineEnd) -> Option<(usize, Self)> {
+    pub(crate) fn of_line(line: [u8; 8], code_end: CodeEnd) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
         let entry = USUAL[index(word as u32)];
         // Nearly all programs pad their codes to three characters, and end all lines in the same way.
-        let usual = u64::from(entry & THREE) | line_end.behind_three;
-        if (word ^ usual) & line_end.mask == 0 {
-            return Some((line_end.length, Self((entry >> 24) as u8)));
+        let usual = u64::from(entry & THREE) | code_end.behind_three;
+        if (word ^ usual) & code_end.mask == 0 {
+            return Some((code_end.length, Self((entry >> 24) as u8)));
         }
-        Self::of_unusual_line(line, line_end.last)
+        Self::of_unusual_line(line, code_end.last)
     }
 
     /// The same for any number of characters that there is room for, and another end of the line.
+    #[inline(never)]
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         let other = word ^ (ONES * u64::from(line_end));
@@ -110,7 +117,7 @@ impl Role {
     /// Its code, unless it has several.
     pub(crate) fn code(self) -> Option<i32> {
         Some(match self {
-            Self::OTHER | Self::UNUSUAL => return None,
+            Self::OTHER => return None,
             Self::BEGIN => 0,
             Self::LAYER => 8,
             Self::EMBEDDED => 101,

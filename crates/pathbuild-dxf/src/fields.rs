@@ -100,11 +100,8 @@ impl<'a> Fields<'a> {
         self.begin_entity();
         self.repeated.clear();
         loop {
-            groups.take_plain(|group| self.keep(group, repeats));
-            let group = groups.next()?;
-            if group.role.is_plain() {
-                self.keep(&group, repeats);
-            } else if let Some(end) = self.special(&group, groups, &mut want)? {
+            let group = groups.pass_until(|role| !role.is_plain(), |group| self.keep(group, repeats))?;
+            if let Some(end) = self.special(&group, groups, &mut want)? {
                 return Ok(end);
             }
         }
@@ -220,12 +217,7 @@ impl<'a> Fields<'a> {
 
 /// Skips `102/{NAME` up to `102/}`, whose codes an application chose. Gives back a `0` if that comes first.
 fn skip_application_group<'a>(groups: &mut Groups<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
-    loop {
-        let group = groups.next()?;
-        match group.role {
-            Role::BEGIN => return Ok(Some(group.pair())),
-            Role::APPLICATION => return Ok(None),
-            _ => {}
-        }
-    }
+    let is_end = |role| matches!(role, Role::BEGIN | Role::APPLICATION);
+    let end = groups.pass_until(is_end, |_| {})?;
+    Ok((end.role == Role::BEGIN).then(|| end.pair()))
 }

@@ -1,8 +1,8 @@
-//! The pairs of entities, many at a time. What is unusual about one is left to [`Pairs`], which reads pair by pair.
+//! The pairs of entities, as fast as can be. What is unusual about one is left to [`Pairs`], which reads with care.
 
-use crate::code::Role;
+use crate::code::{CodeEnd, Role};
+use crate::line_ends::LineEnds;
 use crate::pairs::{Pair, Pairs, Stop, without_cr};
-use crate::window::{MOST_PAIRS, Window};
 
 /// A pair by what is done with it.
 #[derive(Clone, Copy, Debug)]
@@ -17,17 +17,18 @@ pub(crate) struct Group<'a> {
 
 /// Pairs that are gone through from one to the next.
 pub(crate) struct Groups<'a> {
-    /// Where the window begins.
+    /// Where they begin.
     begin: Pairs<'a>,
-    window: Window,
-    /// The number in the window of the next pair.
-    next: usize,
-    /// How many pairs are looked at together the next time.
-    ahead: usize,
+    code_end: CodeEnd,
+    ahead: Ahead<'a>,
 }
 
-/// How many pairs are looked at together at first: blocks are often short.
-const FIRST: usize = 16;
+/// Where the next pair is.
+#[derive(Clone, Copy)]
+struct Ahead<'a> {
+    line_ends: LineEnds<'a>,
+    line: u32,
+}
 
 impl<'a> Group<'a> {
     /// As a pair; one that only has a role has no code.
@@ -38,93 +39,75 @@ impl<'a> Group<'a> {
 
 impl<'a> Groups<'a> {
     /// Those that begin here.
-    pub(crate) fn new(pairs: Pairs<'a>) -> Self {
-        Self { begin: pairs, window: Window::new(), next: 0, ahead: FIRST }
+    pub(crate) fn new(begin: Pairs<'a>) -> Self {
+        Self { begin, code_end: CodeEnd::of(&begin), ahead: Ahead::new(&begin) }
     }
 
     /// Where the next one begins.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
-        self.begin.after(number(self.next), self.at())
+        self.begin.at(self.begin.bytes().len() - self.ahead.line_ends.rest().len(), self.ahead.line)
     }
 
-    /// The next one.
+    /// The next one for which `is_end`; those before are handed to `pass`.
     #[inline]
-    pub(crate) fn next(&mut self) -> Result<Group<'a>, Stop<'a>> {
-        match self.window.roles().get(self.next) {
-            Some(role) if *role != Role::UNUSUAL => Ok(self.take(*role)),
-            _ => self.next_carefully(),
-        }
-    }
-
-    /// Takes those whose values are only kept, up to one with which more is to be done or one that is read with care.
-    #[inline]
-    pub(crate) fn take_plain(&mut self, mut keep: impl FnMut(&Group<'a>)) {
-        let plain = self.window.ahead(self.next).take_while(|(role, _)| role.is_plain());
-        let bytes = self.begin.bytes();
-        for (role, value) in plain {
-            let line = self.begin.line_after(number(self.next));
-            keep(&Group { role, line, raw: &bytes[value] });
-            self.next += 1;
+    pub(crate) fn pass_until(
+        &mut self,
+        is_end: impl Fn(Role) -> bool,
+        mut pass: impl FnMut(&Group<'a>),
+    ) -> Result<Group<'a>, Stop<'a>> {
+        let code_end = self.code_end;
+        loop {
+            // A copy, which nobody else knows, is kept in registers.
+            let mut ahead = self.ahead;
+            let end = loop {
+                match ahead.next(code_end) {
+                    Some(group) if !is_end(group.role) => pass(&group),
+                    end => break end,
+                }
+            };
+            self.ahead = ahead;
+            let group = end.map_or_else(|| self.next_unusual(), Ok)?;
+            if is_end(group.role) {
+                return Ok(group);
+            }
+            pass(&group);
         }
     }
 
     /// Skips those up to the next that begins an entity, and returns that one.
     pub(crate) fn next_zero(&mut self) -> Result<Pair<'a>, Stop<'a>> {
-        loop {
-            let ahead = &self.window.roles()[self.next..];
-            let is_of_interest = |role: &Role| matches!(*role, Role::BEGIN | Role::UNUSUAL);
-            self.next += ahead.iter().position(is_of_interest).unwrap_or(ahead.len());
-            let group = self.next()?;
-            if group.role == Role::BEGIN {
-                return Ok(group.pair());
-            }
-        }
+        let group = self.pass_until(|role| role == Role::BEGIN, |_| {})?;
+        Ok(group.pair())
     }
 
-    /// The next one, which is in the window.
-    #[inline]
-    fn take(&mut self, role: Role) -> Group<'a> {
-        let line = self.begin.line_after(number(self.next));
-        let raw = &self.begin.bytes()[self.window.value(self.next)];
-        self.next += 1;
-        Group { role, line, raw }
-    }
-
-    /// The next one, be it unusual or behind the window.
     #[cold]
     #[inline(never)]
-    fn next_carefully(&mut self) -> Result<Group<'a>, Stop<'a>> {
-        if self.next == self.window.roles().len() {
-            self.look_ahead();
-            if let Some(role) = self.window.roles().first().filter(|role| **role != Role::UNUSUAL) {
-                return Ok(self.take(*role));
-            }
-        }
+    fn next_unusual(&mut self) -> Result<Group<'a>, Stop<'a>> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
-        self.next += 1;
+        self.ahead = Ahead::new(&pairs);
         Ok(Group { role: Role::of(code), line, raw: value })
-    }
-
-    fn look_ahead(&mut self) {
-        self.begin = self.pairs();
-        self.next = 0;
-        self.window.fill(self.begin.bytes(), self.begin.line_end(), self.begin.consumed(), self.ahead);
-        self.ahead = MOST_PAIRS;
-    }
-
-    /// Where the next one begins.
-    fn at(&self) -> usize {
-        match self.next.checked_sub(1) {
-            Some(last) => (self.window.end(last) + 1).min(self.begin.bytes().len()),
-            None => self.begin.consumed(),
-        }
     }
 }
 
-/// The number of a pair in a window, which is small.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "it is small")]
-fn number(pair: usize) -> u32 {
-    pair as u32
+impl<'a> Ahead<'a> {
+    fn new(pairs: &Pairs<'a>) -> Self {
+        Self { line_ends: LineEnds::new(&pairs.bytes()[pairs.consumed()..]), line: pairs.line() }
+    }
+
+    /// The next pair, unless it is to be read with care: its code is written in an unusual way, its value is long, or the file ends.
+    #[inline]
+    fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
+        loop {
+            let (length, role) = Role::of_line(*self.line_ends.rest().first_chunk()?, code_end)?;
+            if let Some(raw) = self.line_ends.next_value(length) {
+                let line = self.line;
+                self.line = line.saturating_add(2);
+                return Some(Group { role, line, raw });
+            }
+            if !self.line_ends.look_ahead(code_end.last()) {
+                return None;
+            }
+        }
+    }
 }

@@ -24,6 +24,7 @@ mod item;
 mod kind;
 mod layer_table;
 mod layers;
+mod line_ends;
 mod line_types;
 mod model;
 mod mtext;
@@ -37,7 +38,6 @@ mod spellings;
 mod tables;
 mod trouble;
 mod units;
-mod window;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,

@@ -92,20 +92,14 @@ impl<'a> Pairs<'a> {
         self.line
     }
 
-    /// The line of the pair behind so many others.
-    #[inline]
-    pub(crate) fn line_after(&self, pairs: u32) -> u32 {
-        self.line.saturating_add(2 * pairs)
-    }
-
     /// The byte that ends lines.
     pub(crate) fn line_end(&self) -> u8 {
         self.line_end
     }
 
-    /// Those behind so many, beginning here.
-    pub(crate) fn after(&self, pairs: u32, at: usize) -> Self {
-        Self { at, line: self.line_after(pairs), ..*self }
+    /// Those that begin at this place of the same file, on this line.
+    pub(crate) fn at(&self, at: usize, line: u32) -> Self {
+        Self { at, line, ..*self }
     }
 
     /// These pairs, ending where those others of the same file are.
