@@ -1,31 +1,36 @@
-//! The BLOCKS section: indexed when the first INSERT is met, each block read when its first INSERT is. Most drawings need none of it.
+//! The BLOCKS section: indexed when the first INSERT is met, each block read when its first INSERT is, unless it showed at a glance that
+//! nothing in it is wanted. Most drawings need none of it.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
+use std::ops::Range;
 use std::rc::Rc;
 
 use crate::Point3;
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, not_ended, stopped};
-use crate::fields::{Fields, Want};
+use crate::fields::{Fields, Value, Want};
+use crate::glance::layers_named;
 use crate::groups::Groups;
 use crate::item::{Item, Shape};
 use crate::layers::LayerId;
-use crate::names::folded;
+use crate::names::Name;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::trouble::Trouble;
 
 /// The blocks of a file.
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
-    by_name: HashMap<String, BlockId>,
+    by_name: BTreeMap<Name<'a>, BlockId>,
     all: Vec<Block<'a>>,
+    /// The layers that blocks name, side by side.
+    named: Vec<Value<'a>>,
     /// The wanted layers that the insertion of a block on a layer touches.
-    wanted: HashMap<(BlockId, LayerId), Rc<[LayerId]>>,
+    wanted: BTreeMap<(BlockId, LayerId), Rc<[LayerId]>>,
 }
 
 /// The number of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct BlockId(usize);
 
 struct Block<'a> {
@@ -33,6 +38,8 @@ struct Block<'a> {
     /// The pairs behind its own, and the first of its records.
     pairs: Pairs<'a>,
     head: Pair<'a>,
+    /// Where in [`Blocks::named`] all layers are that it names, if that is known.
+    named: Option<Range<usize>>,
     items: Option<Rc<[Item<'a>]>>,
     layers: LayersOf,
 }
@@ -71,6 +78,7 @@ impl<'a> Blocks<'a> {
             if head.is("BLOCK") {
                 (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
                 blocks.add(&fields, groups.pairs(), head, decoder);
+                head = blocks.pass(&mut groups, head)?;
             } else {
                 head = groups.next_zero()?;
             }
@@ -80,7 +88,7 @@ impl<'a> Blocks<'a> {
 
     /// The block of this name, without regard to case.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
-        self.by_name.get(&folded(name)).copied()
+        self.by_name.get(&Name::new(name.into())).copied()
     }
 
     /// Its base point.
@@ -121,6 +129,32 @@ impl<'a> Blocks<'a> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
+        let wanted = match self.names_none_wanted(block, layer, reader) {
+            true => Rc::from([]),
+            false => self.look_for_wanted(block, layer, reader)?.into(),
+        };
+        self.wanted.insert((block, layer), Rc::clone(&wanted));
+        Ok(wanted)
+    }
+
+    /// Whether none of the layers that a block names is wanted. It may be without that having shown.
+    fn names_none_wanted(&self, block: BlockId, inherited: LayerId, reader: &mut EntityReader<'a, '_>) -> bool {
+        let EntityReader { layers, decoder, .. } = reader;
+        let mut is_wanted = |named: &Value<'a>| {
+            let layer = layers.id(named.bytes, named.line, decoder);
+            layers.is_kept(layers.inherited(layer, inherited))
+        };
+        let named = &self.all[block.0].named;
+        named.clone().is_some_and(|named| !self.named[named].iter().any(&mut is_wanted))
+    }
+
+    /// Goes through a block, and those that are inserted in it, for wanted layers.
+    fn look_for_wanted(
+        &mut self,
+        block: BlockId,
+        layer: LayerId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> Result<Vec<LayerId>, Fatal> {
         let mut wanted = Vec::new();
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
@@ -141,8 +175,6 @@ impl<'a> Blocks<'a> {
                 }
             }
         }
-        let wanted: Rc<[LayerId]> = wanted.into();
-        self.wanted.insert((block, layer), wanted.clone());
         Ok(wanted)
     }
 
@@ -172,16 +204,28 @@ impl<'a> Blocks<'a> {
     }
 
     fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
-        let Some(name) = fields.get(2) else { return };
-        let name = folded(decoder.decode(name.bytes, name.line).trim());
+        if let Some(name) = fields.get(2) {
+            let name = Name::new(decoder.decode(name.bytes, name.line));
+            self.by_name.entry(name).or_insert(BlockId(self.all.len()));
+        }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
         self.all.push(Block {
             base: base.map_err(Trouble::from),
             pairs,
             head,
+            named: None,
             items: None,
             layers: LayersOf::Unknown,
         });
-        self.by_name.entry(name).or_insert(BlockId(self.all.len() - 1));
+    }
+
+    /// Passes over the records of a block, of which this is the first, and notes what shows. Gives back the record that ends it.
+    fn pass(&mut self, groups: &mut Groups<'a>, head: Pair<'a>) -> Result<Pair<'a>, Stop<'a>> {
+        let begin = self.named.len();
+        let (end, are_all) = layers_named(groups, head, &mut self.named)?;
+        if let Some(block) = self.all.last_mut() {
+            block.named = are_all.then_some(begin..self.named.len());
+        }
+        Ok(end)
     }
 }

@@ -77,7 +77,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             let item = match Kind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                None | Some(Kind::Vertex | Kind::SequenceEnd) => records.skip()?,
+                None => records.skip()?,
+                Some(kind) if kind.is_part() => records.skip()?,
                 Some(kind) => self.item(records, kind, space)?,
             };
             if item.is_some() {
@@ -97,7 +98,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match Kind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
-                None | Some(Kind::Vertex | Kind::SequenceEnd) => _ = records.skip()?,
+                None => _ = records.skip()?,
+                Some(kind) if kind.is_part() => _ = records.skip()?,
                 Some(Kind::Insert | Kind::Text | Kind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
@@ -221,6 +223,6 @@ fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: Kind, space: Space) -> Wa
 }
 
 /// Whether a record ends a section or block.
-fn is_end(head: &Pair<'_>) -> bool {
+pub(crate) fn is_end(head: &Pair<'_>) -> bool {
     ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"].iter().any(|keyword| head.is(keyword))
 }

@@ -52,6 +52,11 @@ impl Kind {
         })
     }
 
+    /// Whether it is part of a POLYLINE.
+    pub(crate) fn is_part(self) -> bool {
+        matches!(self, Self::Vertex | Self::SequenceEnd)
+    }
+
     /// The codes below 80 that it repeats, as bits.
     #[inline]
     pub(crate) fn repeated_codes(self) -> u64 {

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use crate::encoding::Decoder;
 use crate::fields::Fields;
 use crate::line_types::line_type_name;
-use crate::names::{compare_ascii, folded, without_xref};
+use crate::names::{Name, compare_ascii, without_xref};
 use crate::number::{real, whole};
 
 /// The LAYER table.
@@ -16,14 +16,14 @@ use crate::number::{real, whole};
 pub(crate) struct LayerTable<'a> {
     records: Vec<LayerRecord<'a>>,
     /// What records are found by, in order.
-    names: Vec<Name>,
+    keys: Vec<Key>,
 }
 
 /// A layer of the table.
 #[derive(Debug)]
 pub(crate) struct LayerRecord<'a> {
-    /// Trimmed, with whatever prefix it has; upper case unless it is ASCII.
-    name: Cow<'a, str>,
+    /// With whatever prefix it has.
+    name: Name<'a>,
     line_type: Option<Cow<'a, str>>,
     /// Of the colour and the flags, the bytes of their numbers.
     colour: Option<&'a [u8]>,
@@ -32,7 +32,7 @@ pub(crate) struct LayerRecord<'a> {
 
 /// A name that a record is found by.
 #[derive(Clone, Copy, Debug)]
-struct Name {
+struct Key {
     record: usize,
     /// Where it begins in the record's name: 0, or behind the prefix of an external reference.
     begin: usize,
@@ -41,36 +41,37 @@ struct Name {
 impl<'a> LayerTable<'a> {
     /// A table of these records.
     pub(crate) fn new(records: Vec<LayerRecord<'a>>) -> Self {
-        let mut names = Vec::with_capacity(records.len());
+        let mut keys = Vec::with_capacity(records.len());
         for (record, LayerRecord { name, .. }) in records.iter().enumerate() {
-            names.push(Name { record, begin: 0 });
+            keys.push(Key { record, begin: 0 });
+            let name = name.text();
             let begin = name.len() - without_xref(name).len();
-            names.extend((begin > 0).then_some(Name { record, begin }));
+            keys.extend((begin > 0).then_some(Key { record, begin }));
         }
-        let mut table = Self { records, names: Vec::new() };
+        let mut table = Self { records, keys: Vec::new() };
         // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
-        names.sort_unstable_by(|a, b| {
+        keys.sort_unstable_by(|a, b| {
             let same_name = || (a.begin > 0, a.record).cmp(&(b.begin > 0, b.record));
             compare_ascii(table.name(*a), table.name(*b)).then_with(same_name)
         });
-        table.names = names;
+        table.keys = keys;
         table
     }
 
     /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
     pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
-        let name = comparable(Cow::Borrowed(full_name));
-        self.find(&name).or_else(|| self.find(without_xref(&name)))
+        let name = Name::new(full_name.into());
+        self.find(name.text()).or_else(|| self.find(without_xref(name.text())))
     }
 
     fn find(&self, name: &str) -> Option<&LayerRecord<'a>> {
-        let is_before = |other: &Name| compare_ascii(self.name(*other), name) == Ordering::Less;
-        let first = self.names.get(self.names.partition_point(is_before))?;
+        let is_before = |other: &Key| compare_ascii(self.name(*other), name) == Ordering::Less;
+        let first = self.keys.get(self.keys.partition_point(is_before))?;
         compare_ascii(self.name(*first), name).is_eq().then(|| &self.records[first.record])
     }
 
-    fn name(&self, name: Name) -> &str {
-        &self.records[name.record].name[name.begin..]
+    fn name(&self, key: Key) -> &str {
+        &self.records[key.record].name.text()[key.begin..]
     }
 }
 
@@ -79,7 +80,7 @@ impl<'a> LayerRecord<'a> {
     pub(crate) fn read(groups: &Fields<'a>, decoder: &mut Decoder<'_>) -> Option<Self> {
         let name = groups.get(2)?;
         Some(Self {
-            name: comparable(decoder.decode(name.bytes, name.line)),
+            name: Name::new(decoder.decode(name.bytes, name.line)),
             line_type: groups.get(6).map(|it| decoder.decode(it.bytes, it.line)),
             colour: groups.get(62).map(|it| it.bytes),
             flags: groups.get(70).map(|it| it.bytes),
@@ -96,13 +97,5 @@ impl<'a> LayerRecord<'a> {
         let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
         let is_frozen = self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0));
         is_off || is_frozen
-    }
-}
-
-/// A name that [`compare_ascii`] compares as all names are compared.
-fn comparable(name: Cow<'_, str>) -> Cow<'_, str> {
-    match name {
-        Cow::Borrowed(name) if name.is_ascii() => Cow::Borrowed(name.trim()),
-        name => Cow::Owned(folded(name.trim())),
     }
 }

@@ -13,7 +13,7 @@ use crate::names::{folded, without_xref};
 use crate::spellings::Spellings;
 
 /// The number of a spelling of a layer's name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct LayerId(u32);
 
 /// The layers that entities were found on so far.

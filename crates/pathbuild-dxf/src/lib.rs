@@ -18,6 +18,7 @@ mod entities;
 mod faults;
 mod fields;
 mod file;
+mod glance;
 mod groups;
 mod header;
 mod item;

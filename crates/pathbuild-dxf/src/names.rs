@@ -1,16 +1,67 @@
 //! Names of layers, line types and blocks: how they are compared. (spec/10-drawing.md)
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
+
+/// A name without blanks around it that is compared without regard to case.
+#[derive(Clone, Debug)]
+pub(crate) struct Name<'a> {
+    /// Upper case unless it is ASCII.
+    text: Cow<'a, str>,
+}
+
+impl<'a> Name<'a> {
+    /// That of this text.
+    pub(crate) fn new(text: Cow<'a, str>) -> Self {
+        let text = match text {
+            Cow::Borrowed(text) if text.is_ascii() => Cow::Borrowed(trimmed(text)),
+            text => Cow::Owned(folded(text.trim())),
+        };
+        Self { text }
+    }
+
+    /// Its text, which [`compare_ascii`] compares as names are compared.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl Ord for Name<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        compare_ascii(&self.text, &other.text)
+    }
+}
+
+impl PartialOrd for Name<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Name<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Name<'_> {}
 
 /// A name without blanks around it and without the prefix of an external reference (`FILE$0$NAME`, `FILE|NAME`).
 pub(crate) fn without_xref(name: &str) -> &str {
-    let name = name.trim();
+    let name = trimmed(name);
     if !name.bytes().any(|byte| matches!(byte, b'|' | b'$')) {
         return name;
     }
     let after_bar = name.rfind('|').map_or(0, |bar| bar + 1);
     let after_bound = bound_prefix(name);
     name[after_bar.max(after_bound)..].trim()
+}
+
+/// A text without blanks around it, which hardly any has.
+fn trimmed(text: &str) -> &str {
+    let is_graphic = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_graphic);
+    let bytes = text.as_bytes();
+    if is_graphic(bytes.first()) && is_graphic(bytes.last()) { text } else { text.trim() }
 }
 
 /// What names are compared by.
