@@ -129,16 +129,22 @@ impl<'a> Blocks<'a> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
-        let wanted = match self.names_none_wanted(block, layer, reader) {
-            true => Rc::from([]),
-            false => self.look_for_wanted(block, layer, reader)?.into(),
+        let wanted: Rc<[LayerId]> = if self.names_none_wanted(block, layer, reader) {
+            Rc::default()
+        } else {
+            self.look_for_wanted(block, layer, reader)?.into()
         };
         self.wanted.insert((block, layer), Rc::clone(&wanted));
         Ok(wanted)
     }
 
     /// Whether none of the layers that a block names is wanted. It may be without that having shown.
-    fn names_none_wanted(&self, block: BlockId, inherited: LayerId, reader: &mut EntityReader<'a, '_>) -> bool {
+    fn names_none_wanted(
+        &self,
+        block: BlockId,
+        inherited: LayerId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> bool {
         let EntityReader { layers, decoder, .. } = reader;
         let mut is_wanted = |named: &Value<'a>| {
             let layer = layers.id(named.bytes, named.line, decoder);

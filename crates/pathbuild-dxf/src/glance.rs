@@ -38,10 +38,7 @@ pub(crate) fn layers_named<'a>(
 
 /// The layer of an entity that has begun on this line, and the record behind it. No layer if it is named twice, or if there is anything
 /// that decides what counts or that has to be decoded.
-fn layer_named<'a>(
-    groups: &mut Groups<'a>,
-    line: u32,
-) -> Result<(Pair<'a>, Option<Value<'a>>), Stop<'a>> {
+fn layer_named<'a>(groups: &mut Groups<'a>, line: u32) -> Result<(Pair<'a>, Option<Value<'a>>), Stop<'a>> {
     const UNNAMED: &[u8] = b"0";
     let is_of_interest = |role: Role| !role.is_plain() || role == Role::LINE_TYPE;
     let mut layer = None;

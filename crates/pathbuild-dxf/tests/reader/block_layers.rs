@@ -1,0 +1,90 @@
+//! Which insertions matter: those that put something on a wanted layer. Of all others nothing is said. (spec/10-drawing.md, "More
+//! entities")
+
+use pathbuild_dxf::{Options, read};
+
+use crate::support::{file, options};
+
+/// How many entities are on layer P, and how many are left out there, when this block is inserted on a layer at another scale in x than
+/// in y, so that it is left out if it matters.
+fn left_out(blocks: &str, layer: &str) -> usize {
+    let insert = format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0\n41 2\n42 3");
+    let options = Options { keep_layer: &|name| name == "P", ..options() };
+    let drawing = read(file("", "", blocks, &insert).as_bytes(), &options);
+    assert!(drawing.entities.is_empty() && drawing.faults.is_empty() && drawing.diagnostics.is_empty());
+    drawing.left_out.len()
+}
+
+fn block(name: &str, content: &str) -> String {
+    format!("0 BLOCK\n8 0\n{name}\n10 0\n20 0\n{content}\n0 ENDBLK\n8 0\n")
+}
+
+/// A line with these groups in front of its points.
+fn line(groups: &str) -> String {
+    format!("0 LINE\n{groups}\n10 0\n20 0\n11 1\n21 0\n")
+}
+
+/// What [`left_out`] says of the insertion of a block with this content on layer X.
+fn left_out_with(content: &str) -> usize {
+    left_out(&block("2 B", content), "X")
+}
+
+#[test]
+fn the_layers_of_all_its_entities_count() {
+    assert_eq!(left_out_with(&line("8 P")), 1);
+    assert_eq!(left_out_with(&line("8 X")), 0);
+    assert_eq!(left_out_with(&(line("8 X") + &line("8 P") + &line("8 X"))), 1);
+}
+
+#[test]
+fn layer_0_is_that_of_the_insertion() {
+    let named = block("2 B", &line("8 0"));
+    assert_eq!((left_out(&named, "P"), left_out(&named, "X")), (1, 0));
+    let unnamed = block("2 B", &line("62 1"));
+    assert_eq!((left_out(&unnamed, "P"), left_out(&unnamed, "X")), (1, 0));
+}
+
+#[test]
+fn texts_and_insertions_in_it_count() {
+    assert_eq!(left_out_with("0 TEXT\n8 P\n1 A\n10 0\n20 0\n40 1"), 1);
+    assert_eq!(left_out_with("0 TEXT\n8 X\n1 A\n10 0\n20 0\n40 1"), 0);
+    let outer = |layer| block("2 B", "0 INSERT\n8 X\n2 C") + &block("2 C", &line(layer));
+    assert_eq!((left_out(&outer("8 P"), "X"), left_out(&outer("8 X"), "X")), (1, 0));
+}
+
+#[test]
+fn what_is_no_entity_of_model_space_does_not_count() {
+    assert_eq!(left_out_with(&line("8 P\n67 0")), 1);
+    assert_eq!(left_out_with(&line("8 P\n67 1")), 0);
+    assert_eq!(left_out_with(&line("67 1\n8 P")), 0);
+    assert_eq!(left_out_with("0 DIMENSION\n8 P"), 0);
+    assert_eq!(left_out_with("0 VERTEX\n8 P"), 0);
+}
+
+#[test]
+fn a_layer_in_the_group_of_an_application_does_not_count() {
+    assert_eq!(left_out_with(&line("102 {X\n8 P\n102 }\n8 X")), 0);
+    assert_eq!(left_out_with(&line("102 {X\n8 X\n102 }\n8 P")), 1);
+}
+
+#[test]
+fn an_entity_that_names_two_layers_counts_if_both_are_wanted() {
+    assert_eq!(left_out_with(&line("8 P\n8 P")), 1);
+    assert_eq!(left_out_with(&line("8 P\n8 X")), 0);
+    assert_eq!(left_out_with(&line("8 X\n8 P")), 0);
+}
+
+#[test]
+fn a_block_without_a_name_changes_nothing_about_others() {
+    let [wanted, other] = [line("8 P"), line("8 X")];
+    assert_eq!(left_out(&(block("2 B", &wanted) + &block("70 0", &other)), "X"), 1);
+    assert_eq!(left_out(&(block("70 0", &other) + &block("2 B", &wanted)), "X"), 1);
+    assert_eq!(left_out(&(block("2 B", &other) + &block("70 0", &wanted)), "X"), 0);
+}
+
+#[test]
+fn of_two_blocks_of_a_name_the_first_counts() {
+    let [wanted, other] = [block("2 B", &line("8 P")), block("2 b", &line("8 X"))];
+    assert_eq!(left_out(&(wanted.clone() + &other), "X"), 1);
+    assert_eq!(left_out(&(other + &wanted), "X"), 0);
+}
