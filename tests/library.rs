@@ -8,6 +8,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 use pathbuild_draw::Sheet;
 
@@ -56,13 +57,17 @@ fn drawings_are_what_their_text_form_says() {
 
 /// Runs the program in the library's folder; gives the exit status and what it said.
 fn pathbuild(arguments: &[&str]) -> (Option<i32>, String) {
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pathbuild"))
+    let output = output(arguments);
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+fn output(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pathbuild"))
         .args(arguments)
         .args(["--color", "never", "--no-cache"])
         .current_dir(library())
         .output()
-        .expect("the program runs");
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+        .expect("the program runs")
 }
 
 #[test]
@@ -101,4 +106,37 @@ fn mistakes_are_named() {
         fs::write(&file, &findings).expect("it can be written");
     }
     assert_eq!(findings, fs::read_to_string(&file).expect("it is there").replace("\r\n", "\n"));
+}
+
+/// Drawings are surveyed, or read and then checked path by path where somebody wants to know how long that takes: with one thread or several,
+/// drawing by drawing or all at once, nothing else is found.
+#[test]
+fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
+    let check = |arguments: &[&str]| {
+        let found = output(&[&["check", "--format", "json"], arguments].concat()).stdout;
+        String::from_utf8(found).expect("JSON is UTF-8")
+    };
+    let everything = ["mistakes", "components", "projects"];
+    let whole = check(&everything);
+    assert!(whole.lines().count() > 10, "{whole}");
+    for how in [&["--timings"][..], &["-j1"], &["-j1", "--timings"], &["-j3"]] {
+        assert_eq!(check(&[&everything, how].concat()), whole, "{how:?}");
+    }
+    let mut found: Vec<String> = Vec::new();
+    for source in sources("mistakes") {
+        let name = source.file_stem().expect("a source has a name").to_string_lossy().into_owned();
+        found.extend(check(&[&format!("mistakes/{name}.dxf")]).lines().map(without_trace));
+    }
+    found.sort();
+    found.dedup();
+    let mut mistakes: Vec<String> = check(&["mistakes"]).lines().map(without_trace).collect();
+    mistakes.sort();
+    assert_eq!(found, mistakes);
+}
+
+/// A finding without the embeddings that led to it: of several the first is told.
+fn without_trace(line: &str) -> String {
+    let mut finding: serde_json::Value = serde_json::from_str(line).expect("each line is a finding");
+    finding["trace"].take();
+    finding.to_string()
 }

@@ -22,6 +22,9 @@ pub trait Db: salsa::Database {
 
     /// The input that stands for a directory, there or not. The path must be normalised.
     fn directory(&self, path: &Utf8Path) -> Directory;
+
+    /// Whether drawings are surveyed: [`Database::survey_drawings`].
+    fn is_surveying(&self) -> bool;
 }
 
 /// All queries' results. Clones share them; each thread needs its own.
@@ -30,6 +33,7 @@ pub trait Db: salsa::Database {
 pub struct Database {
     system: Arc<dyn System>,
     inputs: Arc<Mutex<Inputs>>,
+    is_surveying: bool,
     /// Last: it must be dropped after everything that its threads could still use.
     storage: salsa::Storage<Self>,
 }
@@ -44,7 +48,7 @@ struct Inputs {
 impl Database {
     /// A database without settings: [`Settings`](crate::Settings) must be made before the first query.
     pub fn new(system: Arc<dyn System>) -> Self {
-        Self { system, inputs: Arc::default(), storage: salsa::Storage::default() }
+        Self::over(system, salsa::Storage::default())
     }
 
     /// A database that tells which queries run, for tests: the name of each query function as it is about to execute.
@@ -54,7 +58,11 @@ impl Database {
                 log.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{database_key:?}"));
             }
         };
-        Self { system, inputs: Arc::default(), storage: salsa::Storage::new(Some(Box::new(listener))) }
+        Self::over(system, salsa::Storage::new(Some(Box::new(listener))))
+    }
+
+    fn over(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
+        Self { system, inputs: Arc::default(), is_surveying: false, storage }
     }
 
     /// The directories in which paths were looked for, in order.
@@ -92,6 +100,12 @@ impl Database {
         salsa::Database::trigger_lru_eviction(self);
     }
 
+    /// From now on all that is asked of a drawing is found when it is first read, and its content is dropped then: for runs that go through a
+    /// library once. Nothing that is found differs. After an edit more is found anew than would have to be.
+    pub fn survey_drawings(&mut self) {
+        self.is_surveying = true;
+    }
+
     fn inputs(&self) -> MutexGuard<'_, Inputs> {
         // Nothing panics while holding the lock but an allocation that fails, after which the maps are still whole.
         self.inputs.lock().unwrap_or_else(PoisonError::into_inner)
@@ -125,6 +139,10 @@ impl Db for Database {
         let directory = Directory::new(self, path.to_owned(), 0);
         inputs.directories.insert(path.as_str().into(), directory);
         directory
+    }
+
+    fn is_surveying(&self) -> bool {
+        self.is_surveying
     }
 }
 

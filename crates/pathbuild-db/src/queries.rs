@@ -21,6 +21,7 @@ mod q_projects;
 mod raw;
 mod reach;
 mod report;
+mod survey;
 mod texts;
 mod traces;
 
@@ -31,11 +32,12 @@ pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use instance::{Instance, chains, path};
 pub use joined::program;
-pub use lookup::{Found, drawing_names, files_for, find_path, holders, name_table, search_directories};
+pub use lookup::{Found, drawing_names, find_path, holders, name_table, search_directories};
 pub use q_projects::{QProject, QProjectLine, q_project, q_project_findings};
 pub use raw::{NameKey, PathPlace, content_hash, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
+pub use survey::is_clear;
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
 

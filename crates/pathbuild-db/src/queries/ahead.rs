@@ -26,7 +26,7 @@ pub fn mentioned(db: &dyn Db, target: Target) -> Vec<PathName> {
 pub fn try_mentioned(db: &dyn Db, target: Target, number: usize, file: SourceFile) -> bool {
     let Some(name) = mentioned(db, target).get(number) else { return false };
     let name = NameKey::of(db, name);
-    let is_plain = head(db, file, name).as_ref().is_some_and(|head| head.definitions.is_empty());
+    let is_plain = head(db, file, name).is_some_and(|head| head.definitions.is_empty());
     if !is_plain {
         return false;
     }

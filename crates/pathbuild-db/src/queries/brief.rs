@@ -2,12 +2,13 @@
 //! an edit that changes none of it ends here.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Definition, Path, PathName, SegmentKind};
+use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, SegmentKind};
 use pathbuild_toolpath::own_moves;
 
 use super::hints::with_other_layers;
-use super::instance::{BoundPath, Instance, bind, walk};
-use super::raw::{NameKey, raw_path};
+use super::instance::{BoundPath, Instance, bind_raw, walk};
+use super::raw::NameKey;
+use super::survey::surveyed;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 
@@ -61,25 +62,56 @@ pub struct Brief {
 }
 
 /// What is known of a path of a file before its variables have values.
-#[salsa::tracked]
-pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Head> {
-    raw_path(db, file, name).map(|raw| Head {
-        name: raw.name.clone(),
-        is_sound: raw.is_sound(),
-        definitions: raw.definitions.clone(),
-    })
+pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db Head> {
+    match surveyed(db, file) {
+        Some(survey) => survey.path(name.folded(db)).map(|path| &path.head),
+        None => query::head(db, file, name).as_ref(),
+    }
 }
 
 /// Binds a path, walks along it, and keeps what others need to know.
-#[salsa::tracked]
-pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
-    let BoundPath { path, diagnostics } = bind(db, instance);
-    Summary { problems: diagnostics, brief: path.map(|path| brief(db, instance, path)) }
+pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db Summary {
+    let survey = surveyed(db, instance.file(db));
+    let path = survey.and_then(|survey| survey.path(instance.name(db).folded(db)));
+    let known = path.and_then(|path| path.summary_with(instance.bindings(db)));
+    known.unwrap_or_else(|| query::summary(db, instance))
 }
 
-fn brief<'db>(db: &'db dyn Db, instance: Instance<'db>, path: Path) -> Brief {
+/// As they are asked where drawings are not surveyed.
+mod query {
+    use super::{Head, Summary, new_summary};
+    use crate::database::Db;
+    use crate::inputs::SourceFile;
+    use crate::queries::instance::Instance;
+    use crate::queries::raw::{NameKey, raw_path};
+
+    #[salsa::tracked]
+    pub(super) fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Head> {
+        raw_path(db, file, name).map(Head::new)
+    }
+
+    #[salsa::tracked]
+    pub(super) fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
+        let raw = instance.raw(db);
+        raw.map(|raw| new_summary(db, instance.file(db), raw, instance.bindings(db))).unwrap_or_default()
+    }
+}
+
+impl Head {
+    pub(super) fn new(raw: &RawPath) -> Self {
+        Self { name: raw.name.clone(), is_sound: raw.is_sound(), definitions: raw.definitions.clone() }
+    }
+}
+
+/// The summary of a path that was read from a file, with values for its variables.
+pub(super) fn new_summary(db: &dyn Db, file: SourceFile, raw: &RawPath, bindings: &Bindings) -> Summary {
+    let BoundPath { path, diagnostics } = bind_raw(db, raw, bindings);
+    Summary { problems: diagnostics, brief: path.map(|path| brief(db, file, path)) }
+}
+
+fn brief(db: &dyn Db, file: SourceFile, path: Path) -> Brief {
     let walked = walk(db, &path);
-    let with_hints = |found| with_other_layers(db, instance, found);
+    let with_hints = |found| with_other_layers(db, file, &path.name, found);
     Brief {
         size: (path.end - path.start).norm(),
         needs_feed: path.needs_feed(),

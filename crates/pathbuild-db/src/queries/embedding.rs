@@ -110,12 +110,12 @@ impl<'db> Embedder<'db> {
         let key = NameKey::of(self.db, name);
         let found = find_path(self.db, self.instance.file(self.db), key);
         match found.files.as_slice() {
-            [] => Outcome::NotFound(self.at(segment, self.nowhere(name, found), Some(text))),
+            [] => Outcome::NotFound(self.at(segment, self.nowhere(name, &found), Some(text))),
             [file] => match head(self.db, *file, key) {
                 Some(head) => {
                     self.bound(segment, subpath, head, Instance::new(self.db, *file, key, bindings(subpath)))
                 }
-                None => Outcome::NotFound(self.at(segment, self.nowhere(name, found), Some(text))),
+                None => Outcome::NotFound(self.at(segment, self.nowhere(name, &found), Some(text))),
             },
             [first, second, ..] => {
                 let problem = Diagnostic::new(&messages::DEFINED_TWICE)

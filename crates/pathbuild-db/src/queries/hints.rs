@@ -3,9 +3,8 @@
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Number, Point};
 use pathbuild_dxf::Geometry;
-use pathbuild_path::{Xy, on_circle};
+use pathbuild_path::{PathName, Xy, on_circle};
 
-use super::instance::Instance;
 use super::layers::read_layers;
 use crate::database::Db;
 use crate::inputs::SourceFile;
@@ -23,16 +22,19 @@ struct LayerEnd {
 const WORTH_NAMING: f64 = 1.0;
 
 /// Adds to PB401 the nearest end on another layer: a line on the wrong layer is its second most usual cause.
-pub(super) fn with_other_layers(db: &dyn Db, instance: Instance<'_>, diagnostic: Diagnostic) -> Diagnostic {
+pub(super) fn with_other_layers(
+    db: &dyn Db,
+    file: SourceFile,
+    path: &PathName,
+    diagnostic: Diagnostic,
+) -> Diagnostic {
     if diagnostic.code() != Code::NothingContinues {
         return diagnostic;
     }
     let Some(point) = diagnostic.place.point else { return diagnostic };
-    let own_path = instance.raw(db).map(|raw| raw.name.clone());
     let pattern = &Settings::get(db).language(db).path_pattern;
-    let is_other = |end: &&LayerEnd| pattern.layer(&end.layer).map(|layer| layer.path) != own_path;
-    let distances =
-        all_ends(db, instance.file(db)).iter().filter(is_other).map(|end| (end, distance(end.point, point)));
+    let is_other = |end: &&LayerEnd| pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path);
+    let distances = all_ends(db, file).iter().filter(is_other).map(|end| (end, distance(end.point, point)));
     let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
     match nearest {
         Some((end, distance)) if distance <= WORTH_NAMING => diagnostic.note(

@@ -54,13 +54,17 @@ pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
 
 /// What [`path`] gives, not kept: whoever judges a path needs it once, and making it again takes less than keeping it.
 pub(super) fn bind<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
-    let Some(raw) = instance.raw(db) else { return BoundPath::default() };
+    instance.raw(db).map(|raw| bind_raw(db, raw, instance.bindings(db))).unwrap_or_default()
+}
+
+/// The same of a raw path.
+pub(super) fn bind_raw(db: &dyn Db, raw: &RawPath, bindings: &Bindings) -> BoundPath {
     let mut diagnostics = raw.diagnostics.clone();
     if !raw.is_sound() {
         return BoundPath { path: None, diagnostics };
     }
     let language = Settings::get(db).language(db);
-    let bind = || pathbuild_path::bind(raw, instance.bindings(db), language);
+    let bind = || pathbuild_path::bind(raw, bindings, language);
     let (path, found) = catch_unwind(AssertUnwindSafe(bind))
         .unwrap_or_else(|payload| (None, vec![internal_error(&*payload).in_path(raw.name.as_str())]));
     diagnostics.extend(found);

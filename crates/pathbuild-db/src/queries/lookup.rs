@@ -1,5 +1,7 @@
 //! Where paths are: file names to files. (spec/20-paths-and-files.md)
 
+use std::borrow::Cow;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{PathKey, PathName, RangeTable, Ranges};
 
@@ -62,21 +64,58 @@ pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     &name_table(db, directory).names
 }
 
-/// The files of a directory that may hold a path by their names: unchanged by files that cannot.
-#[salsa::tracked]
-pub fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
-    let pattern = &Settings::get(db).language(db).path_pattern;
-    let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
-    name_table(db, directory).files(db, directory, &key)
+/// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
+pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Cow<'db, Found> {
+    if db.is_surveying() {
+        // What is asked once need not be kept.
+        Cow::Owned(find(db, from, name))
+    } else {
+        Cow::Borrowed(query::find_path(db, from, name))
+    }
 }
 
-/// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
-#[salsa::tracked]
-pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
+/// The files of a directory that may hold a path by their names: unchanged by files that cannot.
+fn files_in<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Cow<'db, [SourceFile]> {
+    if db.is_surveying() {
+        Cow::Owned(find_files(db, directory, name))
+    } else {
+        Cow::Borrowed(query::files_for(db, directory, name))
+    }
+}
+
+/// As they are asked where drawings are not surveyed.
+mod query {
+    use super::{Found, find, find_files};
+    use crate::database::Db;
+    use crate::inputs::{Directory, SourceFile};
+    use crate::queries::raw::NameKey;
+
+    #[salsa::tracked]
+    pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
+        find(db, from, name)
+    }
+
+    #[salsa::tracked]
+    pub(super) fn files_for<'db>(
+        db: &'db dyn Db,
+        directory: Directory,
+        name: NameKey<'db>,
+    ) -> Vec<SourceFile> {
+        find_files(db, directory, name)
+    }
+}
+
+fn find<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
     if defines(db, from, name) {
         return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
     }
     find_in(db, search_directories(db, from), name)
+}
+
+fn find_files<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
+    let pattern = &Settings::get(db).language(db).path_pattern;
+    let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
+    name_table(db, directory).files(db, directory, &key)
 }
 
 /// The directories in which paths are looked for that a drawing refers to, in order.
@@ -104,7 +143,7 @@ pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<Source
 fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'db>) -> Found {
     let mut searched: Vec<SourceFile> = Vec::new();
     for directory in &directories {
-        for file in files_for(db, db.directory(directory), name) {
+        for file in files_in(db, db.directory(directory), name).iter() {
             if !searched.contains(file) {
                 searched.push(*file);
             }

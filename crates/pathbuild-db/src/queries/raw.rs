@@ -9,6 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_dxf::Options;
 use pathbuild_path::{PathName, Position, RawPath, SourceMap};
 
+use super::survey::{SurveyedPath, surveyed};
 use crate::database::Db;
 use crate::inputs::SourceFile;
 use crate::settings::{Reading, Settings};
@@ -49,16 +50,23 @@ struct PathEntry {
 
 /// What is known of the file as a whole.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct FileReport {
-    diagnostics: Vec<Diagnostic>,
+pub(super) struct FileReport {
+    pub(super) diagnostics: Vec<Diagnostic>,
     /// Of its bytes, where the settings ask for it and it could be read.
-    hash: Option<[u8; 32]>,
+    pub(super) hash: Option<[u8; 32]>,
 }
 
 /// Reads a drawing. Never the same as before: whoever asks goes through a query that takes out what it needs, and only those tell whether
 /// that changed. What shifts lines and handles changes none of them.
 #[salsa::tracked(no_eq, lru = 0)]
 pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
+    let (paths, report) = read(db, file);
+    let entry = |(raw, map)| PathEntry { raw: Arc::new(raw), map };
+    FileContents::new(paths.into_iter().map(entry).collect(), report)
+}
+
+/// The paths of a drawing with where their elements are in the file, and what is known of it as a whole.
+pub(super) fn read(db: &dyn Db, file: SourceFile) -> (Vec<(RawPath, SourceMap)>, FileReport) {
     // Asked for first: it stands for the bytes that are read behind salsa's back.
     file.revision(db);
     let settings = Settings::get(db);
@@ -74,8 +82,7 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
         .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![*problem] });
     let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
     let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
-    let entry = |(raw, map)| PathEntry { raw: Arc::new(raw), map };
-    FileContents::new(raw.paths.into_iter().map(entry).collect(), FileReport { diagnostics, hash })
+    (raw.paths, FileReport { diagnostics, hash })
 }
 
 impl FileContents {
@@ -92,15 +99,38 @@ impl FileContents {
 }
 
 /// The names of a file's paths, in order of first appearance: unchanged by edits that neither add nor remove a path.
-#[salsa::tracked]
-pub fn path_names(db: &dyn Db, file: SourceFile) -> Vec<PathName> {
-    raw_file(db, file).paths.iter().map(|entry| entry.raw.name.clone()).collect()
+pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
+    match surveyed(db, file) {
+        Some(survey) => survey.names(),
+        None => query::path_names(db, file),
+    }
 }
 
 /// What is known of a file as a whole: unchanged by edits of its paths.
-#[salsa::tracked]
-fn file_report(db: &dyn Db, file: SourceFile) -> FileReport {
-    raw_file(db, file).report.clone()
+fn file_report(db: &dyn Db, file: SourceFile) -> &FileReport {
+    match surveyed(db, file) {
+        Some(survey) => survey.report(),
+        None => query::file_report(db, file),
+    }
+}
+
+/// As they are asked where drawings are not surveyed.
+mod query {
+    use pathbuild_path::PathName;
+
+    use super::{FileReport, raw_file};
+    use crate::database::Db;
+    use crate::inputs::SourceFile;
+
+    #[salsa::tracked]
+    pub(super) fn path_names(db: &dyn Db, file: SourceFile) -> Vec<PathName> {
+        raw_file(db, file).paths.iter().map(|entry| entry.raw.name.clone()).collect()
+    }
+
+    #[salsa::tracked]
+    pub(super) fn file_report(db: &dyn Db, file: SourceFile) -> FileReport {
+        raw_file(db, file).report.clone()
+    }
 }
 
 /// A path of a file: unchanged by edits of its siblings.
@@ -117,14 +147,18 @@ pub(super) fn defines<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>
 
 /// A raw path of a file.
 pub fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db RawPath> {
-    path_entry(db, file, name).as_deref()
+    let survey = surveyed(db, file);
+    let kept = survey.and_then(|survey| survey.path(name.folded(db))).and_then(SurveyedPath::raw);
+    kept.or_else(|| path_entry(db, file, name).as_deref())
 }
 
 /// Fills in where the element of a diagnostic of that path is in the file.
 pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagnostic: &mut Diagnostic) {
+    let survey = surveyed(db, file);
+    let kept = survey.and_then(|survey| survey.path(path.as_str())).and_then(SurveyedPath::map);
     // Not through an interned name: this is asked from outside queries.
-    if let Some(entry) = raw_file(db, file).entry(path) {
-        entry.map.locate(diagnostic);
+    if let Some(map) = kept.or_else(|| raw_file(db, file).entry(path).map(|entry| &entry.map)) {
+        map.locate(diagnostic);
     }
 }
 

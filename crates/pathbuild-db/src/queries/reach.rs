@@ -80,7 +80,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
-    let head = head(db, file, name).as_ref()?;
+    let head = head(db, file, name)?;
     let bindings = match target.role(db) {
         Role::Emitted => Bindings::default(),
         Role::Checked => Bindings::check_values(&head.definitions),
@@ -291,7 +291,7 @@ impl<'db> Walk<'db> {
     fn name_of(&self, instance: Instance<'db>) -> String {
         let name = instance.name(self.db);
         let head = head(self.db, instance.file(self.db), name);
-        head.as_ref().map_or_else(|| name.folded(self.db).to_owned(), |head| head.name.to_string())
+        head.map_or_else(|| name.folded(self.db).to_owned(), |head| head.name.to_string())
     }
 
     /// Reports what is found in a path, each once; whether there are errors.

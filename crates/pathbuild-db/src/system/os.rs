@@ -30,7 +30,7 @@ impl System for OsSystem {
         }
         // One byte more than there should be: a file may grow between the question for its size and the last byte.
         bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).saturating_add(1), 0);
-        let mut read = fill(&mut file, bytes)?;
+        let mut read = fill(&mut file, bytes, size)?;
         if read == bytes.len() {
             read += Read::by_ref(&mut file).take(limit.saturating_sub(size)).read_to_end(bytes)?;
         }
@@ -94,8 +94,8 @@ impl From<io::Error> for ReadError {
     }
 }
 
-/// Reads until there is no more, or no more room; how much was read.
-fn fill(file: &mut File, bytes: &mut [u8]) -> io::Result<usize> {
+/// Reads until there is no more, or no more room; how much was read. Nobody asks once more who got just as much as there should be.
+fn fill(file: &mut File, bytes: &mut [u8], size: u64) -> io::Result<usize> {
     let mut filled = 0;
     while filled < bytes.len() {
         match file.read(&mut bytes[filled..]) {
@@ -103,6 +103,9 @@ fn fill(file: &mut File, bytes: &mut [u8]) -> io::Result<usize> {
             Ok(read) => filled += read,
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
+        }
+        if filled as u64 == size {
+            break;
         }
     }
     Ok(filled)

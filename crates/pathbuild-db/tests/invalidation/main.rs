@@ -7,4 +7,5 @@ mod library;
 mod memory;
 mod one_file;
 mod settings;
+mod survey;
 mod world;

@@ -6,11 +6,11 @@ use std::sync::{Arc, Mutex};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{MemorySystem, System};
 use pathbuild_db::{
-    Database, Db, Limits, Lookup, Reading, Role, Settings, Target, check_target, locate, program,
+    Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_draw::Sheet;
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathName, PathPattern};
 use pathbuild_toolpath::{FoldOptions, SupportBars};
 
 /// Files, a database over them, and the targets that somebody keeps asking for.
@@ -95,6 +95,11 @@ impl World {
     /// The queries that ran for the last target.
     pub(crate) fn ran(&self) -> &BTreeSet<String> {
         &self.ran
+    }
+
+    /// The input that stands for a drawing, and the name of a path in it.
+    pub(crate) fn path(&self, file: &str, path: &str) -> (SourceFile, PathName) {
+        (self.db.file(file.into()), PathName::new(path))
     }
 
     fn new_target(&mut self, label: &'static str, file: &str, path: &str) -> Target {

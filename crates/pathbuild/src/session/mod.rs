@@ -36,7 +36,7 @@ pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Found, Wanted, WantedPath};
-pub use work::{CheckedTarget, Emitted};
+pub use work::{Asking, CheckedTarget, Emitted};
 
 /// A database with the run's settings.
 #[derive(Debug)]
@@ -99,6 +99,11 @@ impl<'a> Session<'a> {
     pub fn with_drawing(context: &'a Context, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
+    }
+
+    /// From now on drawings are surveyed: see [`Database::survey_drawings`].
+    pub fn survey_drawings(&mut self) {
+        self.db.survey_drawings();
     }
 
     fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {

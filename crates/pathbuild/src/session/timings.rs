@@ -34,6 +34,11 @@ impl Timings {
         self.is_on.set(true);
     }
 
+    /// Whether it measures.
+    pub fn is_on(&self) -> bool {
+        self.is_on.get()
+    }
+
     /// Does some work and notes how long it took.
     pub fn measure<R>(&self, phase: &'static Word, work: impl FnOnce() -> R) -> R {
         if !self.is_on.get() {

@@ -1,5 +1,6 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use pathbuild_db::{
@@ -42,6 +43,15 @@ pub struct Emitted {
     pub suffix: Box<str>,
     /// Whether there are probes in it or in anything that it embeds.
     pub has_probes: bool,
+}
+
+/// Asks for one target after the other, on one of the threads that work.
+#[derive(Debug)]
+pub struct Asking<'a> {
+    db: &'a Database,
+    is_traced: bool,
+    limit: Duration,
+    watchdog: &'a OnceLock<Watchdog>,
 }
 
 /// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at some 15 KB
@@ -139,6 +149,26 @@ impl Session<'_> {
         results.into_iter().zip(targets).map(given_up).collect()
     }
 
+    /// Works on each of these drawings, on all cores. The order of the results is that of the drawings.
+    pub fn each<R: Send>(
+        &self,
+        files: &[SourceFile],
+        work: impl Fn(&Asking<'_>, &SourceFile) -> R + Sync,
+    ) -> Vec<R> {
+        let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
+        let progress = self.progress.as_ref();
+        let work = |db: &Database, file: &SourceFile| {
+            let result = work(&Asking { db, is_traced, limit, watchdog }, file);
+            progress.inspect(|progress| progress.advance());
+            result
+        };
+        self.timings.measure(&CHECKING, || self.spread(files, work))
+    }
+
+    fn limit(&self) -> Duration {
+        self.context.settings.limits.seconds_per_path.value
+    }
+
     /// Works on each item for itself: one that takes too long or shows a bug does not keep the others from being done. The order of the
     /// results is that of the items.
     pub fn guarded<T: Sync, R: Send>(
@@ -146,7 +176,7 @@ impl Session<'_> {
         items: &[T],
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<Result<R, Box<Diagnostic>>> {
-        let limit = self.context.settings.limits.seconds_per_path.value;
+        let limit = self.limit();
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(limit));
         let work = |db: &Database, item: &T| {
             let _watched = watchdog.begin(db);
@@ -183,6 +213,26 @@ impl Session<'_> {
             ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build().ok()
         };
         self.pool.get_or_init(start).as_ref()
+    }
+}
+
+impl Asking<'_> {
+    /// The database.
+    pub fn db(&self) -> &Database {
+        self.db
+    }
+
+    /// Whether it is noted what targets are made from.
+    pub fn is_traced(&self) -> bool {
+        self.is_traced
+    }
+
+    /// Checks a target. If it takes too long or shows a bug, that is what is found.
+    pub fn check(&self, target: Target) -> CheckedTarget {
+        let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
+        let _watched = watchdog.begin(self.db);
+        let checked = self.db.guarded(self.limit, || check(self.db, target, self.is_traced));
+        checked.unwrap_or_else(|problem| given_up(self.db, target, *problem))
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use pathbuild_db::{Role, SourceFile, Target, Trace, check_file, path_names};
+use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, is_clear, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use crate::session::{CheckedTarget, DrawingResult, Session, by_place};
+use crate::session::{Asking, CheckedTarget, DrawingResult, Session, by_place};
 
 /// A drawing, or some of its paths.
 pub(super) struct Asked<'a> {
@@ -21,10 +21,38 @@ pub(in crate::commands) fn check_drawings(
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
     session.read_ahead(files);
-    let names = |file: &SourceFile| Cow::Borrowed(&**path_names(session.db(), *file));
+    let names = |file: &SourceFile| Cow::Borrowed(path_names(session.db(), *file));
     let whole = |file: &SourceFile| Asked { file: *file, names: names(file) };
     let asked: Vec<Asked<'_>> = files.iter().map(whole).collect();
     check_paths(session, &asked, with_all_values)
+}
+
+/// What is found in drawings by a run that goes through all of them once.
+pub(super) fn check_library(
+    session: &mut Session<'_>,
+    files: &[SourceFile],
+    with_all_values: bool,
+) -> Vec<(DrawingResult, Vec<Trace>)> {
+    // Whoever wants to know where the time goes gets it stage by stage, and one drawing has what it embeds read in parallel.
+    if with_all_values || session.timings().is_on() || files.len() <= 1 {
+        return session.in_batches(files, |session, files| check_drawings(session, files, with_all_values));
+    }
+    session.survey_drawings();
+    session
+        .in_batches(files, |session, files| session.each(files, |asking, file| check_surveyed(asking, *file)))
+}
+
+/// What is found in a drawing that is surveyed: only of paths that are not clear more is asked.
+fn check_surveyed(asking: &Asking<'_>, file: SourceFile) -> (DrawingResult, Vec<Trace>) {
+    let db = asking.db();
+    let names = path_names(db, file);
+    let open = names.iter().filter(|name| !is_clear(db, file, name));
+    let checked: Vec<CheckedTarget> =
+        open.map(|name| asking.check(Target::new(db, file, name.as_str().into(), Role::Checked))).collect();
+    let diagnostics = checked.iter().flat_map(|checked| &checked.diagnostics).cloned().collect();
+    let asked = Asked { file, names: names.into() };
+    let traces = if asking.is_traced() { traces(file, &checked) } else { Vec::new() };
+    (result(db, &asked, &checked, diagnostics), traces)
 }
 
 /// What is found in paths of drawings, and in the drawings.
@@ -39,7 +67,10 @@ pub(super) fn check_paths(
     let mut results = session.check(&targets).into_iter();
     let mut of_drawing = |(asked, questions): (&Asked<'_>, Questions)| {
         let checked: Vec<CheckedTarget> = results.by_ref().take(questions.targets.len()).collect();
-        result(session, asked, checked, questions.warnings, with_all_values)
+        let mut diagnostics = questions.warnings;
+        diagnostics.extend(found(session, &checked, with_all_values));
+        let traces = if session.is_traced() { traces(asked.file, &checked) } else { Vec::new() };
+        (result(session.db(), asked, &checked, diagnostics), traces)
     };
     asked.iter().zip(questions).map(&mut of_drawing).collect()
 }
@@ -67,23 +98,24 @@ impl Questions {
     }
 }
 
-fn result(
-    session: &Session<'_>,
-    asked: &Asked<'_>,
-    checked: Vec<CheckedTarget>,
-    warnings: Vec<Diagnostic>,
-    with_all_values: bool,
-) -> (DrawingResult, Vec<Trace>) {
-    let db = session.db();
-    let mut diagnostics = warnings;
-    if with_all_values {
-        // Those of a path stand together.
-        for of_path in checked.chunk_by(|a, b| a.target.name(db) == b.target.name(db)) {
-            diagnostics.extend(session.merged(of_path));
-        }
-    } else {
-        diagnostics.extend(checked.iter().flat_map(|checked| &checked.diagnostics).cloned());
+/// What is found in a drawing's paths, said once of each path.
+fn found(session: &Session<'_>, checked: &[CheckedTarget], with_all_values: bool) -> Vec<Diagnostic> {
+    if !with_all_values {
+        return checked.iter().flat_map(|checked| &checked.diagnostics).cloned().collect();
     }
+    let db = session.db();
+    // Those of a path stand together.
+    let paths = checked.chunk_by(|a, b| a.target.name(db) == b.target.name(db));
+    paths.flat_map(|of_path| session.merged(of_path)).collect()
+}
+
+/// Adds to what is found in a drawing's paths what is wrong with the files that they reach.
+fn result(
+    db: &Database,
+    asked: &Asked<'_>,
+    checked: &[CheckedTarget],
+    mut diagnostics: Vec<Diagnostic>,
+) -> DrawingResult {
     let mut reached = vec![asked.file];
     reached.extend(checked.iter().flat_map(|checked| &checked.files).copied().filter(|it| *it != asked.file));
     if reached.len() > 1 {
@@ -92,12 +124,11 @@ fn result(
     }
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
     let names = asked.names.iter().map(|name| name.as_str().into()).collect();
-    let traces = if session.is_traced() { traces(asked.file, checked) } else { Vec::new() };
-    (DrawingResult { names, diagnostics }, traces)
+    DrawingResult { names, diagnostics }
 }
 
 /// What a drawing's results were found from.
-fn traces(file: SourceFile, checked: Vec<CheckedTarget>) -> Vec<Trace> {
+fn traces(file: SourceFile, checked: &[CheckedTarget]) -> Vec<Trace> {
     let own = Trace { files: vec![file], lookups: Vec::new() };
-    std::iter::once(own).chain(checked.into_iter().filter_map(|checked| checked.trace)).collect()
+    std::iter::once(own).chain(checked.iter().filter_map(|checked| checked.trace.clone())).collect()
 }

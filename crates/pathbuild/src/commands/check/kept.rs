@@ -6,8 +6,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
+use super::drawings::check_library;
 use super::since::Changed;
-use super::{check_drawings, leave, question};
+use super::{leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile, CheckedPath};
@@ -37,8 +38,7 @@ pub(super) fn check(
     context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
     let files: Vec<SourceFile> = open.iter().map(|index| session.db().file(&drawings[*index])).collect();
     let mut made = Vec::new();
-    let checked =
-        session.in_batches(&files, |session, files| check_drawings(session, files, args.all_bindings));
+    let checked = check_library(session, &files, args.all_bindings);
     for ((result, traces), index) in checked.into_iter().zip(open) {
         made.push(new(drawings[index].as_str(), traces, &result));
         results[index] = Some(result);

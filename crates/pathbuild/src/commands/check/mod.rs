@@ -11,7 +11,7 @@ use pathbuild_db::SourceFile;
 
 pub(super) use drawings::check_drawings;
 
-use self::drawings::{Asked, check_paths};
+use self::drawings::{Asked, check_library, check_paths};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -88,8 +88,7 @@ fn finish(
 fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
     let single = single_paths(wanted.paths, &whole);
-    let mut found =
-        session.in_batches(&whole, |session, files| check_drawings(session, files, with_all_values));
+    let mut found = check_library(session, &whole, with_all_values);
     found.extend(check_paths(session, &single, with_all_values));
     let files = whole.iter().copied().chain(single.iter().map(|asked| asked.file));
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };

@@ -115,7 +115,7 @@ impl Asking<'_> {
             let found = check_file(db, drawing.file);
             self.diagnostics.extend_from_slice(found);
             let is_unreadable = found.iter().any(Diagnostic::is_error);
-            match path_names(db, drawing.file).as_slice() {
+            match path_names(db, drawing.file) {
                 [] if is_unreadable || !drawing.is_named => {}
                 [] => self.diagnostics.push(self.no_path(drawing.file.path(db))),
                 names @ [_, _, ..] if drawing.is_named => self.refuse_several(drawing.file, names),

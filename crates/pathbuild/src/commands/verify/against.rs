@@ -103,7 +103,7 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
         return Err(Failure::Usage(format!("--against takes one path: `{name}` is a directory")));
     };
     let file = drawing.file;
-    match path_names(db, file).as_slice() {
+    match path_names(db, file) {
         [path] => Ok(Target::new(db, file, path.as_str().into(), Role::Emitted)),
         names => {
             let mut found = check_file(db, file).to_vec();
