@@ -13,7 +13,7 @@ use regex::Regex;
 use crate::element::{Marker, Origin};
 use crate::letter::Letter;
 use crate::limits;
-use crate::path::{Path, Probe, Turn};
+use crate::path::{CutParameters, Path, Probe, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
 use crate::values::Values;
@@ -39,6 +39,7 @@ struct Binder<'a> {
     interpolation: Interpolation<'a>,
     /// The path's own values.
     values: Values<'a>,
+    cuts: Vec<CutParameters>,
     known_cuts: KnownCuts<'a>,
     problems: Vec<Diagnostic>,
     /// How often something was reported, also where it had been before.
@@ -49,8 +50,16 @@ impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation = Interpolation { bindings, limit: language.text_limit };
         let values = Values::of_path(&raw.parameters, &interpolation);
-        let known_cuts = KnownCuts::default();
-        Self { raw, language, interpolation, values, known_cuts, problems: Vec::new(), reported: 0 }
+        Self {
+            raw,
+            language,
+            interpolation,
+            values,
+            cuts: Vec::new(),
+            known_cuts: KnownCuts::default(),
+            problems: Vec::new(),
+            reported: 0,
+        }
     }
 
     fn path(&mut self, start: &Marker, end: &Marker) -> Option<Path> {
@@ -72,6 +81,7 @@ impl<'a> Binder<'a> {
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
             elements: Arc::clone(&self.raw.elements),
             segments,
+            cuts: std::mem::take(&mut self.cuts),
             probes: Vec::new(),
             surfaces: Vec::new(),
             start_origin: start.origin.clone(),

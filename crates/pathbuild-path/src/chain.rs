@@ -35,11 +35,10 @@ pub struct Chain {
 /// A member of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainSegment {
-    /// How it is milled.
-    pub cut: Arc<CutParameters>,
+    segment: u32,
+    cut: u32,
     /// Whether it is the way back over a dead end.
     pub is_return: bool,
-    segment: u32,
     is_turned: bool,
     moved: Option<Box<Curve>>,
 }
@@ -68,7 +67,8 @@ pub struct PlacedSubpath {
 
 /// Groups the steps of a walk; chains without I, and letters without effect inside chains, are reported.
 pub(crate) fn items(path: &Path, steps: Vec<Step>) -> (Vec<Item>, Vec<Diagnostic>) {
-    let mut grouped = Grouped { path, items: Vec::new(), chain: Vec::new(), diagnostics: Vec::new() };
+    let (items, chain) = (Vec::with_capacity(steps.len()), Vec::with_capacity(steps.len()));
+    let mut grouped = Grouped { path, items, chain, diagnostics: Vec::new() };
     for step in steps {
         grouped.add(step);
     }
@@ -88,15 +88,10 @@ struct Grouped<'a> {
 impl Grouped<'_> {
     fn add(&mut self, Step { segment, passage, is_return }: Step) {
         let Some(passage) = passage else { return self.finish_chain() };
-        if let SegmentKind::Cut(cut) = &self.path.segments[segment].kind {
-            self.chain.push(ChainSegment {
-                cut: Arc::clone(cut),
-                is_return,
-                segment: u32::try_from(segment).unwrap_or(u32::MAX),
-                is_turned: passage.is_turned,
-                moved: passage.moved,
-            });
-            return;
+        if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
+            let segment = u32::try_from(segment).unwrap_or(u32::MAX);
+            let Passage { is_turned, moved, .. } = passage;
+            return self.chain.push(ChainSegment { segment, cut, is_return, is_turned, moved });
         }
         self.finish_chain();
         self.items.extend(self.single(segment, &passage, is_return));
@@ -121,7 +116,7 @@ impl Grouped<'_> {
         for member in others.iter().filter(|member| !member.is_return) {
             self.diagnostics.extend(member.letters_without_effect(self.path));
         }
-        let parameters = first.cut.chain;
+        let parameters = first.cut(self.path).chain;
         match parameters.infeed {
             Some(infeed) => self.items.push(Item::Chain(Chain {
                 infeed,
@@ -140,6 +135,11 @@ impl ChainSegment {
         path.origin(&path.segments[self.segment as usize])
     }
 
+    /// How it is milled.
+    pub fn cut<'p>(&self, path: &'p Path) -> &'p CutParameters {
+        &path.cuts[self.cut as usize]
+    }
+
     /// What it is, from where the tool comes from. The path is the one that was walked along.
     pub fn curve(&self, path: &Path) -> Curve {
         let segment = &path.segments[self.segment as usize];
@@ -148,11 +148,11 @@ impl ChainSegment {
 
     fn without_infeed(&self, path: &Path) -> Diagnostic {
         let problem = Diagnostic::new(&messages::MISSING).with("letter", 'I');
-        self.origin(path).at(problem.with("element", self.cut.word()))
+        self.origin(path).at(problem.with("element", self.cut(path).word()))
     }
 
     fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
-        self.cut.own_chain_letters.iter().map(|(letter, fault)| {
+        self.cut(path).own_chain_letters.iter().map(|(letter, fault)| {
             let problem = Diagnostic::new(&messages::WITHOUT_EFFECT_IN_CHAIN).with("letter", *letter);
             self.origin(path).at(problem.with_text(fault.clone()))
         })

@@ -39,6 +39,8 @@ pub struct Path {
     pub elements: Arc<[Element]>,
     /// Segments in their order: circles, lines, arcs.
     pub segments: Vec<Segment>,
+    /// How its milling, marking and support segments are milled. Those that are milled alike share what they say.
+    pub cuts: Vec<CutParameters>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
     /// The upper faces that S must be above, for those of its elements that have their own T.
@@ -85,12 +87,12 @@ pub struct Segment {
     pub kind: SegmentKind,
 }
 
-/// The kinds of segments. What many segments have in common they share.
+/// The kinds of segments.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
 pub enum SegmentKind {
-    /// Member of a milling chain.
-    Cut(Arc<CutParameters>),
+    /// Member of a milling chain: index into [`Path::cuts`].
+    Cut(u32),
     Hole(Arc<Hole>),
     Helix(Arc<Helix>),
     /// Its own S in mm; else the path's.

@@ -61,7 +61,8 @@ struct Walk<'a> {
     left: usize,
     at: Xy,
     steps: Vec<Step>,
-    /// Steps taken forwards and not yet gone back over, by number. They always lead from the start to `at`.
+    /// Steps taken forwards and not yet gone back over, by number. They always lead from the start to `at`. Nothing goes back where there
+    /// is no turn marker.
     way_back: Vec<usize>,
     has_acted: Vec<bool>,
     join_tolerance: f64,
@@ -81,7 +82,7 @@ impl<'a> Walk<'a> {
             left: count,
             at: path.start,
             steps: Vec::with_capacity(count),
-            way_back: Vec::with_capacity(count),
+            way_back: Vec::new(),
             has_acted: vec![false; path.turns.len()],
         }
     }
@@ -114,8 +115,8 @@ impl<'a> Walk<'a> {
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&self) -> Option<usize> {
         let (mut first, mut second, mut others) = (None, None, Vec::new());
-        self.ends.each_near(self.at, |segment| match (first, second) {
-            _ if self.is_traversed[segment] => {}
+        let is_open = |segment: usize| !self.is_traversed[segment];
+        self.ends.each_near(self.at, is_open, |segment| match (first, second) {
             (None, _) => first = Some(segment),
             (Some(_), None) => second = Some(segment),
             (Some(_), Some(_)) => others.push(segment),
@@ -153,7 +154,9 @@ impl<'a> Walk<'a> {
     fn take(&mut self, segment: usize) {
         self.is_traversed[segment] = true;
         self.left -= 1;
-        self.way_back.push(self.steps.len());
+        if !self.path.turns.is_empty() {
+            self.way_back.push(self.steps.len());
+        }
         let drawn = Passage::drawn(self.ends.of(segment));
         self.follow(segment, Some(drawn), false);
     }

@@ -11,7 +11,8 @@ use crate::program::ElementKind;
 
 /// A segment of the chain, placed, with the depths of its edges from top to bottom.
 pub(crate) struct Strand<'a> {
-    segment: &'a ChainSegment,
+    /// Q.
+    comment: Option<&'a str>,
     pub(crate) curve: Curve,
     pub(crate) depths: Vec<f64>,
     /// h + B, or h + D of a mark.
@@ -43,21 +44,15 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    fn strand<'s>(
-        &self,
-        place: &Place<'_>,
-        segment: &'s ChainSegment,
-        first: f64,
-        infeed: f64,
-    ) -> Strand<'s> {
-        let (cut, curve) = (&segment.cut, segment.curve(place.path));
+    fn strand<'p>(&self, place: &Place<'p>, segment: &ChainSegment, first: f64, infeed: f64) -> Strand<'p> {
+        let (cut, curve) = (segment.cut(place.path), segment.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
             let plan = BarPlan::new(bars, cut.bottom, place.path.tool, curve.length());
             (place.raised + bars.top, plan)
         });
         Strand {
-            segment,
+            comment: cut.comment.as_deref(),
             curve: place.placement.place_curve(&curve),
             depths: depths(first, infeed, bottom),
             bottom,
@@ -120,7 +115,7 @@ impl<P: Parts> Fold<'_, P> {
 
     /// Mills a segment once at a depth, its bars spared.
     fn edge(&mut self, place: &Place<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
-        self.question(strand.segment.cut.comment.as_deref());
+        self.question(strand.comment);
         for section in strand.sections(z, is_backwards) {
             self.mill(&section, place.surface, strand.feed);
         }

@@ -18,7 +18,7 @@ fn moves(path: &Path, item: &Item) -> u64 {
 fn chain_moves(path: &Path, chain: &Chain) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
     let segments = chain.segments.iter().map(|member| {
-        let cut = &member.cut;
+        let cut = member.cut(path);
         let sections = cut.bars.map_or(1.0, |bars| 4.0 * bars.count(member.curve(path).length()) + 1.0);
         passes(first - cut.bottom, chain.infeed).saturating_mul(whole(sections).saturating_add(1))
     });

@@ -1,7 +1,5 @@
 //! Milling, marking and support segments: most of a path's segments, many of them milled alike.
 
-use std::sync::Arc;
-
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk;
 
@@ -27,17 +25,18 @@ struct Known<'a> {
     text: Option<&'a ParameterText>,
     cut: Cut,
     order: f64,
-    parameters: Arc<CutParameters>,
+    /// Index into the path's cuts.
+    number: u32,
 }
 
 impl<'a> KnownCuts<'a> {
-    fn get(&self, text: Option<&ParameterText>, cut: Cut) -> Option<(f64, Arc<CutParameters>)> {
+    fn get(&self, text: Option<&ParameterText>, cut: Cut) -> Option<(f64, u32)> {
         let known = match text {
             Some(_) => &self.with_text,
             None => &self.without_text[cut as usize],
         };
         let known = known.as_ref().filter(|known| known.text == text && known.cut == cut)?;
-        Some((known.order, Arc::clone(&known.parameters)))
+        Some((known.order, known.number))
     }
 
     fn insert(&mut self, known: Known<'a>) {
@@ -59,22 +58,24 @@ impl Binder<'_> {
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
         let text = self.raw.text_of(element.text);
-        if let Some((order, parameters)) = self.known_cuts.get(text, cut) {
-            if let (Some(bars), Some(tool)) = (&parameters.bars, tool) {
-                self.check_room(&element.origin, bars, curve.length(), tool);
+        if let Some((order, number)) = self.known_cuts.get(text, cut) {
+            if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
+                self.check_room(&element.origin, &bars, curve.length(), tool);
             }
-            return Some((order, SegmentKind::Cut(parameters)));
+            return Some((order, SegmentKind::Cut(number)));
         }
         let reported = self.reported;
         let class = element.class(tool);
         let values = self.element_values(&element.origin, text, class == ElementClass::Support);
         let scope = Scope { origin: &element.origin, class, values: &values, tool };
-        let parameters = Arc::new(self.cut_parameters(&scope, cut, curve)?);
+        let parameters = self.cut_parameters(&scope, cut, curve)?;
+        let number = u32::try_from(self.cuts.len()).unwrap_or(u32::MAX);
+        self.cuts.push(parameters);
         let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
         if self.reported == reported {
-            self.known_cuts.insert(Known { text, cut, order, parameters: Arc::clone(&parameters) });
+            self.known_cuts.insert(Known { text, cut, order, number });
         }
-        Some((order, SegmentKind::Cut(parameters)))
+        Some((order, SegmentKind::Cut(number)))
     }
 
     fn cut_parameters(&mut self, scope: &Scope<'_>, cut: Cut, curve: &Curve) -> Option<CutParameters> {

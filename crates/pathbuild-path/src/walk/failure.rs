@@ -75,9 +75,8 @@ impl Walk<'_> {
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
         let duplicate = self.open().find(|open| {
             let ([start, _], mut is_found) = (self.ends.of(*open), false);
-            self.ends.each_near(start, |other| {
-                is_found |= self.is_traversed[other] && self.is_same_curve(*open, other);
-            });
+            let is_traversed = |other: usize| self.is_traversed[other];
+            self.ends.each_near(start, is_traversed, |other| is_found |= self.is_same_curve(*open, other));
             is_found
         });
         let Some(segment) = duplicate else { return problem };
@@ -115,7 +114,7 @@ impl Walk<'_> {
 
     fn word(&self, segment: usize) -> &'static Word {
         match &self.path.segments[segment].kind {
-            SegmentKind::Cut(parameters) => parameters.word(),
+            SegmentKind::Cut(number) => self.path.cuts[*number as usize].word(),
             SegmentKind::Hole(_) => &words::DRILLED_HOLE,
             SegmentKind::Helix(_) => &words::HELICAL_CIRCLE,
             SegmentKind::Sweep { .. } => &words::SWEEP,

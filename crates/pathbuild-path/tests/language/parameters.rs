@@ -52,7 +52,10 @@ fn known(parameters: &str, statements: &str) -> String {
     let path: Path = compiled.path.unwrap();
     let segment = match path.segments[0].kind.clone() {
         SegmentKind::Cut(cut) => {
-            format!("{:?}", CutParameters { own_chain_letters: Vec::new(), ..(*cut).clone() })
+            format!(
+                "{:?}",
+                CutParameters { own_chain_letters: Vec::new(), ..path.cuts[cut as usize].clone() }
+            )
         }
         SegmentKind::Subpath(subpath) => {
             format!("{} {} {:?}", subpath.thickness, subpath.tool, subpath.material)
@@ -199,7 +202,7 @@ fn at_takes_everything_that_the_other_start_says() {
             path.output_suffix,
             path.embeds_only,
         );
-        format!("{of_path:?} {:?}", path.segments[0].kind)
+        format!("{of_path:?} {:?} {:?}", path.segments[0].kind, path.cuts)
     };
     assert_eq!(show(own), show(borrowed));
 }

@@ -80,7 +80,7 @@ fn lines_come_before_arcs_on_a_tie() {
     let statements = "mill arc 0,0 20,0 r 10 cw\nmill 20,0 0,0 \"F7\"\nend 0,0";
     let compiled = crate::support::compile(&path(P, statements));
     let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
-    assert_eq!(chain.segments[0].cut.feed, Some(7.0));
+    assert_eq!(chain.segments[0].cut(compiled.path.as_ref().unwrap()).feed, Some(7.0));
 }
 
 /// Where there is only one candidate there is nothing to choose: its number does not matter.

@@ -1,6 +1,6 @@
 //! Variables. (spec/40-variables.md)
 
-use pathbuild_path::{Bindings, Definition, SegmentKind};
+use pathbuild_path::{Bindings, Definition};
 
 use crate::support::{codes, compile_raw, language, path, raw, wrong};
 
@@ -114,9 +114,9 @@ fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
 /// What Q comes to, or the codes of what is wrong.
 fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
-    match compiled.path.map(|path| path.segments[0].kind.clone()) {
-        Some(SegmentKind::Cut(cut)) => cut.comment.clone().unwrap().into(),
-        _ => codes(&compiled.found).join(" "),
+    match compiled.path {
+        Some(path) => path.cuts[0].comment.clone().unwrap().into(),
+        None => codes(&compiled.found).join(" "),
     }
 }
 
