@@ -6,6 +6,7 @@ use pathbuild_diagnostic::ElementId;
 
 use crate::element::Shape;
 use crate::geometry::Curve;
+use crate::read::Owner;
 use crate::text_circle::TextCircle;
 
 pub(crate) use boxes::Boxes;
@@ -18,6 +19,8 @@ pub(crate) struct Candidate {
     pub(crate) shape: Shape,
     /// Parts of the same polyline take a text together.
     pub(crate) group: Option<u32>,
+    /// Where its text is put.
+    pub(crate) owner: Owner,
     /// An earlier text has it.
     pub(crate) is_taken: bool,
 }

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
 use regex::Regex;
 
-use crate::element::{Marker, Origin};
+use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::limits;
 use crate::path::{CutParameters, Path, Probe, Turn};
@@ -46,10 +46,17 @@ struct Binder<'a> {
     reported: usize,
 }
 
+/// What something is reported at.
+#[derive(Clone, Copy)]
+enum At<'a> {
+    Element(&'a Element),
+    Marker(&'a Marker),
+}
+
 impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation = Interpolation { bindings, limit: language.text_limit };
-        let values = Values::of_path(&raw.parameters, &interpolation);
+        let values = Values::of_path(raw.parameters(), &interpolation);
         Self {
             raw,
             language,
@@ -79,7 +86,7 @@ impl<'a> Binder<'a> {
             start: start.at,
             end: end.at,
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
-            elements: Arc::clone(&self.raw.elements),
+            drawn: Arc::clone(&self.raw.drawn),
             segments,
             cuts: std::mem::take(&mut self.cuts),
             probes: Vec::new(),
@@ -95,7 +102,7 @@ impl<'a> Binder<'a> {
     }
 
     fn parameters_origin(&self, start: &Marker) -> Origin {
-        self.raw.parameters_at.as_ref().map_or_else(|| start.origin.clone(), |(_, origin)| origin.clone())
+        self.raw.borrowed_from.as_ref().map_or(&start.origin, |(_, origin)| origin).clone()
     }
 
     fn check_path_values(&mut self) {
@@ -103,7 +110,7 @@ impl<'a> Binder<'a> {
         for letter in [Letter::O, Letter::T] {
             if !self.values.has(letter) {
                 let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
-                problems.push(missing.with_text(self.raw.parameters.whole()));
+                problems.push(missing.with_text(self.raw.parameters().whole()));
             }
         }
         if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
@@ -126,25 +133,24 @@ impl<'a> Binder<'a> {
     }
 
     /// The values of an element's text, checked; what is wrong is reported at the element.
-    fn element_values(
-        &mut self,
-        origin: &Origin,
-        text: Option<&'a ParameterText>,
-        has_bars: bool,
-    ) -> Values<'a> {
+    fn element_values(&mut self, at: At<'_>, text: Option<ParameterText<'a>>, has_bars: bool) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
         let mut values = Values::of(text, &self.interpolation);
         let found = std::mem::take(&mut values.problems);
         let limits = limits::check(&values, &self.values, has_bars);
         for problem in found.into_iter().chain(limits) {
-            self.report(origin, problem);
+            self.report(at, problem);
         }
         values
     }
 
     /// Reports once what several parts of a polyline, which share a text, have in common.
-    fn report(&mut self, origin: &Origin, problem: Diagnostic) {
+    fn report(&mut self, at: At<'_>, problem: Diagnostic) {
         self.reported += 1;
+        let origin = match at {
+            At::Element(element) => &self.raw.drawn.origin(element),
+            At::Marker(marker) => &marker.origin,
+        };
         let problem = origin.at(problem.in_path(self.raw.name.as_str()));
         let is_same = |known: &Diagnostic| {
             known.message == problem.message
@@ -159,7 +165,7 @@ impl<'a> Binder<'a> {
 
     fn add_probes(&mut self, path: &mut Path) {
         for marker in &self.raw.probes {
-            let values = self.element_values(&marker.origin, self.raw.text_of(marker.text), false);
+            let values = self.element_values(At::Marker(marker), self.raw.drawn.text(marker.text), false);
             let own_thickness = values.number(Letter::T);
             if let Some(thickness) = own_thickness.number() {
                 path.add_surface(marker.origin.clone(), thickness, values.fault(Letter::T));

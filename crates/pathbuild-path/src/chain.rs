@@ -131,7 +131,7 @@ impl Grouped<'_> {
 
 impl ChainSegment {
     /// Where it is drawn.
-    pub fn origin<'p>(&self, path: &'p Path) -> &'p Origin {
+    pub fn origin(&self, path: &Path) -> Origin {
         path.origin(&path.segments[self.segment as usize])
     }
 

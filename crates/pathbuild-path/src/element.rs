@@ -14,13 +14,24 @@ use crate::line_type::LineType;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     /// Where to find it in the file.
-    pub origin: Origin,
+    pub source: Source,
     /// What is drawn.
     pub shape: Shape,
     /// What it means.
     pub role: Role,
-    /// The text that belongs to it: index into [`RawPath::texts`](crate::RawPath::texts).
+    /// The text that belongs to it: its number in [`Drawn::texts`](crate::Drawn::texts).
     pub text: Option<u32>,
+}
+
+/// Which entity of the file something is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Its number in the path's source map.
+    pub id: ElementId,
+    /// Its type.
+    pub entity: EntityKind,
+    /// Its layer: index into [`Drawn::layers`](crate::Drawn::layers).
+    pub layer: u32,
 }
 
 /// A special circle.
@@ -39,7 +50,7 @@ pub struct Origin {
     pub id: ElementId,
     /// Its type in the file.
     pub entity: EntityKind,
-    /// Its layer. Shared: a library has a million elements, and they are copied from stage to stage.
+    /// Its layer.
     pub layer: Arc<str>,
     /// Its beginning, or centre.
     pub point: Point,
@@ -93,6 +104,12 @@ pub(crate) enum CircleMeaning {
 }
 
 impl Origin {
+    /// Where an entity is that begins, or has its centre, at a point.
+    pub(crate) fn new(source: Source, layer: &Arc<str>, point: Xy) -> Self {
+        let Source { id, entity, .. } = source;
+        Self { id, entity, layer: Arc::clone(layer), point: shown(point) }
+    }
+
     /// A diagnostic at this element.
     pub fn at(&self, diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.at_element(self.id, self.entity, &self.layer, self.point)

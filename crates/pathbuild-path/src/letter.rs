@@ -150,6 +150,21 @@ impl Letters {
         self.0 & 1 << letter as u32 != 0
     }
 
+    /// Whether all of these are in it.
+    pub(crate) const fn contain(self, others: Self) -> bool {
+        others.0 & !self.0 == 0
+    }
+
+    /// Whether any of these is in it.
+    pub(crate) const fn has_any(self, others: Self) -> bool {
+        others.0 & self.0 != 0
+    }
+
+    /// Those of both.
+    pub(crate) const fn and(self, others: Self) -> Self {
+        Self(self.0 | others.0)
+    }
+
     /// Adds a letter; whether it was not there.
     pub(crate) fn insert(&mut self, letter: Letter) -> bool {
         let is_new = !self.contains(letter);
@@ -158,46 +173,62 @@ impl Letters {
     }
 }
 
+/// Those that count in the first segment of a chain.
+const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::C, Letter::W]);
+
 impl ElementClass {
     /// What a letter does in a text of this element. (The table of spec/30-parameters.md; "p" is not known in the element's own text.)
     pub fn use_of(self, letter: Letter) -> Use {
-        use ElementClass as Class;
-        use Letter::{A, At, B, C, D, E, Embed, F, H, I, L, M, N, O, P, Q, R, S, T, U, Variable, W, Z};
-        let is_used = match self {
-            Class::PathStart => {
-                const { Letters::of(&[F, B, D, I, C, W, P, U, S, T, O, M, A, Z, Variable, E, R, At]) }
-            }
-            Class::Mill => const { Letters::of(&[F, B, N, Q]) },
-            Class::Mark => const { Letters::of(&[F, D, N, Q]) },
-            Class::Support => const { Letters::of(&[F, B, D, P, U, N, Q]) },
-            Class::Sweep => const { Letters::of(&[S, N]) },
-            Class::DrilledHole => const { Letters::of(&[F, B, C, Q]) },
-            Class::DrilledMark => const { Letters::of(&[F, D, C, Q]) },
-            Class::HelicalCircle => const { Letters::of(&[F, B, I, Q]) },
-            Class::HelicalMark => const { Letters::of(&[F, D, I, Q]) },
-            Class::HelicalSupport => const { Letters::of(&[F, B, D, I, P, U, Q]) },
-            Class::UnknownCircle => const { Letters::of(&[F, B, D, I, C, P, U, Q]) },
-            Class::Subpath => const { Letters::of(&[N, T, O, M, H, Embed, Variable]) },
-            Class::Probe => const { Letters::of(&[T, H, Z, L]) },
-            Class::Unread => return Use::Used,
-        };
+        use Letter::{B, D, S};
         let is_ignored = match self {
-            Class::Mill => const { Letters::of(&[D, S]) },
-            Class::Mark => const { Letters::of(&[B, S]) },
-            Class::Support => const { Letters::of(&[S]) },
-            Class::DrilledHole | Class::HelicalCircle => const { Letters::of(&[D]) },
-            Class::DrilledMark | Class::HelicalMark => const { Letters::of(&[B]) },
+            Self::Unread => return Use::Used,
+            Self::Mill => const { Letters::of(&[D, S]) },
+            Self::Mark => const { Letters::of(&[B, S]) },
+            Self::Support => const { Letters::of(&[S]) },
+            Self::DrilledHole | Self::HelicalCircle => const { Letters::of(&[D]) },
+            Self::DrilledMark | Self::HelicalMark => const { Letters::of(&[B]) },
             _ => Letters::default(),
         };
-        let is_cut = matches!(self, Class::Mill | Class::Mark | Class::Support);
-        if is_used.contains(letter) {
+        if self.used_letters().contains(letter) {
             Use::Used
-        } else if is_cut && matches!(letter, I | C | W) {
+        } else if self.is_chain_member() && CHAIN_LETTERS.contains(letter) {
             Use::ChainFirst
         } else if is_ignored.contains(letter) {
             Use::Ignored
         } else {
             Use::Unknown
+        }
+    }
+
+    /// The letters that count in its texts, those of a chain's first segment among them.
+    pub(crate) fn effective_letters(self) -> Letters {
+        let used = self.used_letters();
+        if self.is_chain_member() { used.and(CHAIN_LETTERS) } else { used }
+    }
+
+    fn is_chain_member(self) -> bool {
+        matches!(self, Self::Mill | Self::Mark | Self::Support)
+    }
+
+    fn used_letters(self) -> Letters {
+        use Letter::{A, At, B, C, D, E, Embed, F, H, I, L, M, N, O, P, Q, R, S, T, U, Variable, W, Z};
+        match self {
+            Self::PathStart => {
+                const { Letters::of(&[F, B, D, I, C, W, P, U, S, T, O, M, A, Z, Variable, E, R, At]) }
+            }
+            Self::Mill => const { Letters::of(&[F, B, N, Q]) },
+            Self::Mark => const { Letters::of(&[F, D, N, Q]) },
+            Self::Support => const { Letters::of(&[F, B, D, P, U, N, Q]) },
+            Self::Sweep => const { Letters::of(&[S, N]) },
+            Self::DrilledHole => const { Letters::of(&[F, B, C, Q]) },
+            Self::DrilledMark => const { Letters::of(&[F, D, C, Q]) },
+            Self::HelicalCircle => const { Letters::of(&[F, B, I, Q]) },
+            Self::HelicalMark => const { Letters::of(&[F, D, I, Q]) },
+            Self::HelicalSupport => const { Letters::of(&[F, B, D, I, P, U, Q]) },
+            Self::UnknownCircle => const { Letters::of(&[F, B, D, I, C, P, U, Q]) },
+            Self::Subpath => const { Letters::of(&[N, T, O, M, H, Embed, Variable]) },
+            Self::Probe => const { Letters::of(&[T, H, Z, L]) },
+            Self::Unread => Letters::default(),
         }
     }
 

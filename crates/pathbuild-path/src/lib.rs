@@ -36,7 +36,7 @@ pub use bind::bind;
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
-pub use element::{Cut, Element, Marker, Origin, Role, Shape};
+pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use letter::{ElementClass, Letter, Use};
@@ -48,10 +48,10 @@ pub use path::{
     SubpathName, SubpathValue, Turn,
 };
 pub use pattern::PatternError;
-pub use raw::{Language, Position, RawFile, RawPath, SourceMap};
+pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
 pub use table::{RangeTable, Ranges};
-pub use text::{ParameterText, Piece};
+pub use text::{ParameterText, ParameterTexts, Piece};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;
 pub use walk::{Walked, walk};

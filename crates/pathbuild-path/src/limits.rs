@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
 use crate::approx::above;
-use crate::letter::Letter;
+use crate::letter::{Letter, Letters};
 use crate::values::{Given, Values};
 
 /// Letters that must be greater than 0 wherever they stand. (Z is not in the specification's list, but a machine that is to probe at
@@ -19,8 +19,11 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 /// element with support bars.
 pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, has_bars: bool) -> Vec<Diagnostic> {
     let limits = Limits { own, path };
-    let mut problems: Vec<Diagnostic> =
-        POSITIVE.iter().filter_map(|letter| limits.positive(*letter)).collect();
+    let mut problems = Vec::new();
+    // Most texts have none of these letters.
+    if own.letters().has_any(const { Letters::of(&POSITIVE) }) {
+        problems.extend(POSITIVE.iter().filter_map(|letter| limits.positive(*letter)));
+    }
     problems.extend(limits.above(Letter::S, Letter::T, &messages::NOT_ABOVE));
     problems.extend(limits.above(Letter::T, Letter::B, &messages::NOT_BELOW));
     problems.extend(limits.above(Letter::T, Letter::D, &messages::NOT_BELOW));

@@ -1,6 +1,7 @@
 //! Line types: what happens along a line, arc or circle. (spec/10-drawing.md, "Line types")
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -56,6 +57,33 @@ impl LineTypeAliases {
     /// Adds a name (in any case) for a line type.
     pub fn insert(&mut self, name: &str, line_type: LineType) {
         self.0.insert(name.trim().to_uppercase().into(), line_type);
+    }
+}
+
+/// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
+pub(crate) struct LineTypes<'d, 'l> {
+    aliases: &'l LineTypeAliases,
+    known: Vec<(&'d Arc<str>, Option<LineType>)>,
+}
+
+impl<'d, 'l> LineTypes<'d, 'l> {
+    /// More names than these are looked up each time.
+    const MOST: usize = 8;
+
+    pub(crate) fn new(aliases: &'l LineTypeAliases) -> Self {
+        Self { aliases, known: Vec::with_capacity(Self::MOST) }
+    }
+
+    /// What a name stands for.
+    pub(crate) fn get(&mut self, name: &'d Arc<str>) -> Option<LineType> {
+        if let Some((_, line_type)) = self.known.iter().find(|(known, _)| Arc::ptr_eq(known, name)) {
+            return *line_type;
+        }
+        let line_type = LineType::of(name, self.aliases);
+        if self.known.len() < Self::MOST {
+            self.known.push((name, line_type));
+        }
+        line_type
     }
 }
 

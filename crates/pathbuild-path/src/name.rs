@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 use regex::Regex;
 
@@ -10,9 +11,9 @@ use crate::default_pattern::DefaultPattern;
 use crate::group::Groups;
 use crate::pattern::{Pattern, PatternError};
 
-/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt.
+/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt. Shared, since every stage hands it on.
 #[derive(Clone)]
-pub struct PathName(Box<str>);
+pub struct PathName(Arc<str>);
 
 /// What makes a layer a path layer: its name matches as a whole, without regard to case.
 #[derive(Clone, Debug)]

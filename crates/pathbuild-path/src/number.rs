@@ -36,6 +36,5 @@ const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] =
 
 /// A whole number: an optional sign and digits.
 pub fn parse_integer(text: &str) -> Option<i64> {
-    parse_number(text).filter(|_| !text.contains(['.', ',']))?;
     text.parse().ok()
 }

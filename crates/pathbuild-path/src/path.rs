@@ -9,6 +9,7 @@ use crate::approx::above;
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::name::PathName;
+use crate::raw::Drawn;
 
 /// A path whose parameters are all there and within their limits.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +37,7 @@ pub struct Path {
     /// Turn markers.
     pub turns: Vec<Turn>,
     /// What is drawn, shared with the raw path.
-    pub elements: Arc<[Element]>,
+    pub drawn: Arc<Drawn>,
     /// Segments in their order: circles, lines, arcs.
     pub segments: Vec<Segment>,
     /// How its milling, marking and support segments are milled. Those that are milled alike share what they say.
@@ -79,7 +80,7 @@ pub struct Probe {
 /// What the walk goes along.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// What is drawn: index into [`Path::elements`].
+    /// What is drawn: index into [`Drawn::elements`].
     pub element: u32,
     /// Order at a star: N, or what its kind has.
     pub order: f64,
@@ -248,8 +249,8 @@ impl Path {
     }
 
     /// Where a segment of it is drawn.
-    pub fn origin(&self, segment: &Segment) -> &Origin {
-        &self.element(segment).origin
+    pub fn origin(&self, segment: &Segment) -> Origin {
+        self.drawn.origin(self.element(segment))
     }
 
     /// Where a segment of it starts and where it ends, as drawn.
@@ -269,7 +270,7 @@ impl Path {
     }
 
     fn element(&self, segment: &Segment) -> &Element {
-        &self.elements[segment.element as usize]
+        &self.drawn.elements[segment.element as usize]
     }
 
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with

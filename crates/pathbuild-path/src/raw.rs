@@ -9,16 +9,13 @@ use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern};
-use crate::number::parse_number;
-use crate::text::ParameterText;
+use crate::text::{ParameterText, ParameterTexts, Written};
 
 /// A path as it is drawn. It knows no lines and handles of the file: see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
     /// Its name, as its first layer in the file spells it.
     pub name: PathName,
-    /// That layer.
-    pub layer: Box<str>,
     /// The start marker. Its text is that of the path itself, also where @ refers to another's.
     pub start: Option<Marker>,
     /// The end marker.
@@ -27,20 +24,29 @@ pub struct RawPath {
     pub turns: Vec<Marker>,
     /// Z-probes, in file order.
     pub probes: Vec<Marker>,
-    /// All circles, then all lines, then all arcs, each in file order. (spec/50-path-building.md)
-    pub elements: Arc<[Element]>,
-    /// The texts that elements have.
-    pub texts: Vec<ParameterText>,
-    /// The path's own parameters: its start's text, or that of the path that @ names.
-    pub parameters: ParameterText,
-    /// Where `parameters` stand: the start marker, this path's own or that of the path that @ names.
-    pub parameters_at: Option<(PathName, Origin)>,
+    /// Its elements and texts.
+    pub drawn: Arc<Drawn>,
+    /// The path's own parameters among the texts: its start's, or a copy of those of the path that @ names.
+    pub(crate) parameters: Option<u32>,
+    /// The path that @ names, and its start marker, where the parameters stand.
+    pub(crate) borrowed_from: Option<(PathName, Origin)>,
     /// The variables that it defines, in the order written.
     pub definitions: Vec<Definition>,
     /// Curves on its layers that are no part of it, with where they begin.
     pub left_out: Vec<(EntityKind, Point)>,
     /// What is wrong with the drawing alone. When one is an error the path goes no further.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What is drawn on a path's layers. Shared by the stages, which know elements and texts by number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// All circles, then all lines, then all arcs, each in file order. (spec/50-path-building.md)
+    pub elements: Vec<Element>,
+    /// The texts that elements have.
+    pub texts: ParameterTexts,
+    /// The path's layers, in the order in which they appear in the file; at least one.
+    pub layers: Vec<Arc<str>>,
 }
 
 /// Where the elements of a path are in the file: by [`ElementId`](pathbuild_diagnostic::ElementId).
@@ -83,23 +89,44 @@ impl RawPath {
         !self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// The text of an element.
-    pub fn text_of(&self, text: Option<u32>) -> Option<&ParameterText> {
-        text.and_then(|index| self.texts.get(index as usize))
+    /// The first of its layers.
+    pub fn layer(&self) -> &str {
+        &self.drawn.layers[0]
+    }
+
+    /// The path's own parameters: its start's text, or that of the path that @ names. Empty where there is none.
+    pub fn parameters(&self) -> ParameterText<'_> {
+        self.drawn.text(self.parameters).unwrap_or_default()
     }
 
     /// A diagnostic about the path's own parameters. Those that @ borrows are reported with the path they belong to, so that what is wrong
     /// with them is said once.
     pub(crate) fn at_parameters(&self, diagnostic: Diagnostic) -> Diagnostic {
-        match &self.parameters_at {
-            Some((path, origin)) => origin.at(diagnostic).in_path(path.as_str()),
-            None => diagnostic,
+        match (&self.borrowed_from, &self.start) {
+            (Some((path, origin)), _) => origin.at(diagnostic).in_path(path.as_str()),
+            (None, Some(start)) => start.origin.at(diagnostic).in_path(self.name.as_str()),
+            (None, None) => diagnostic,
         }
     }
 
     /// The cutter's diameter: the literal O, when it is a number.
     pub fn tool(&self) -> Option<f64> {
-        tool(&self.parameters)
+        match self.parameters().piece(Letter::O)?.written {
+            Written::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+}
+
+impl Drawn {
+    /// A text by its number.
+    pub fn text(&self, number: Option<u32>) -> Option<ParameterText<'_>> {
+        self.texts.get(number?)
+    }
+
+    /// Where an element is drawn.
+    pub fn origin(&self, element: &Element) -> Origin {
+        Origin::new(element.source, &self.layers[element.source.layer as usize], element.shape.point())
     }
 }
 
@@ -125,8 +152,4 @@ impl SourceMap {
     pub fn positions(&self) -> &[Position] {
         &self.0
     }
-}
-
-pub(crate) fn tool(parameters: &ParameterText) -> Option<f64> {
-    parameters.piece(Letter::O).and_then(|piece| parse_number(parameters.value(&piece)))
 }

@@ -1,6 +1,9 @@
 //! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (spec/10-drawing.md)
 
+mod checked;
 mod collect;
+mod elements;
+mod layers;
 mod listing;
 mod parameters;
 mod proxies;
@@ -14,9 +17,10 @@ use crate::element::Origin;
 use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::{Language, RawFile};
-use crate::text::ParameterText;
 
 use collect::Collected;
+
+pub(crate) use collect::Owner;
 
 pub use listing::{AssignedElement, AssignedText, assigned_texts};
 pub use proxies::{ProxyLine, proxy_lines};
@@ -38,15 +42,27 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
 }
 
 /// The start texts of all paths, to which @ can refer; none where nobody does.
-type Starts = BTreeMap<PathName, (ParameterText, Origin)>;
+type Starts = BTreeMap<PathName, Start>;
+
+struct Start {
+    text: Box<str>,
+    /// Whether it refers to another one itself.
+    borrows: bool,
+    origin: Origin,
+}
 
 fn starts(paths: &[Collected<'_>]) -> Starts {
     let texts = paths.iter().filter_map(|path| {
-        let start = path.raw.start.as_ref()?;
-        Some((path, path.raw.text_of(start.text)?, &start.origin))
+        let start = path.start.as_ref()?;
+        let text = path.given.get(start.text?)?;
+        Some((path, text, text.letters.contains(Letter::At), &start.origin))
     });
-    if !texts.clone().any(|(_, text, _)| text.piece(Letter::At).is_some()) {
+    if !texts.clone().any(|(_, _, borrows, _)| borrows) {
         return Starts::new();
     }
-    texts.map(|(path, text, origin)| (path.raw.name.clone(), (text.clone(), origin.clone()))).collect()
+    let start =
+        |text: &str, borrows, origin: &Origin| Start { text: text.into(), borrows, origin: origin.clone() };
+    texts
+        .map(|(path, text, borrows, origin)| (path.name.clone(), start(text.as_str(), borrows, origin)))
+        .collect()
 }

@@ -8,88 +8,158 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::number::{parse_integer, parse_number};
 
-/// A parameter text, not yet asked what its values mean.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ParameterText(Box<str>);
+/// The parameter texts of a path, behind each other, read once: what they say is asked for by several stages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ParameterTexts {
+    string: String,
+    pieces: Vec<Piece>,
+    texts: Vec<Extent>,
+}
+
+/// Where a text ends, and what is known of it as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Extent {
+    end: usize,
+    pieces_end: usize,
+    letters: Letters,
+    is_plain: bool,
+}
+
+/// A parameter text.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ParameterText<'t> {
+    string: &'t str,
+    pieces: &'t [Piece],
+    /// All that it has.
+    pub(crate) letters: Letters,
+    /// Whether each of its pieces has another letter and its value is what it should be, without a reference to a variable.
+    pub(crate) is_plain: bool,
+}
 
 /// A letter with its value, still with variables in it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The letter; `None` for a character that is none (PB202).
     pub letter: Option<Letter>,
+    /// What its value is before variables are put in.
+    pub(crate) written: Written,
     span: Range<usize>,
-    value_start: usize,
 }
 
-impl ParameterText {
-    /// A text, `%%` codes already replaced.
-    pub fn new(text: &str) -> Self {
-        Self(joined(text).into())
+/// What a value is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Written {
+    /// A number, of a letter whose value is one.
+    Number(f64),
+    /// Text, of a letter whose value is text.
+    Text,
+    /// Neither of them before variables have values.
+    Reference,
+    /// No number, where the letter asks for one.
+    NoNumber,
+}
+
+impl ParameterTexts {
+    /// Makes room for so many texts with so many bytes in all.
+    pub(crate) fn reserve(&mut self, texts: usize, bytes: usize) {
+        self.string.reserve(bytes);
+        self.pieces.reserve(2 * texts);
+        self.texts.reserve(texts);
     }
 
-    /// The text as it is shown in diagnostics.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-
-    /// All pieces in the order they are written. They are found as they are asked for: that is as soon done as to remember them.
-    pub fn pieces(&self) -> impl Iterator<Item = Piece> + Clone + '_ {
-        let mut end = 0;
-        std::iter::from_fn(move || {
-            let piece = next_piece(&self.0, end)?;
+    /// Adds a text, `%%` codes already replaced; its number.
+    pub(crate) fn push(&mut self, text: &str) -> u32 {
+        let start = self.string.len();
+        self.string.push_str(&joined(text));
+        let string = &self.string[start..];
+        let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
+        while let Some(piece) = next_piece(string, end) {
+            let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
+            is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end;
-            Some(piece)
-        })
+            self.pieces.push(piece);
+        }
+        let (end, pieces_end) = (self.string.len(), self.pieces.len());
+        self.texts.push(Extent { end, pieces_end, letters, is_plain });
+        u32::try_from(self.texts.len() - 1).unwrap_or(u32::MAX)
+    }
+
+    /// A text by its number.
+    pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
+        let index = number as usize;
+        let Extent { end, pieces_end, letters, is_plain } = *self.texts.get(index)?;
+        let before = index.checked_sub(1).map(|before| self.texts[before]);
+        let (start, first) = before.map_or((0, 0), |before| (before.end, before.pieces_end));
+        let (string, pieces) = (&self.string[start..end], &self.pieces[first..pieces_end]);
+        Some(ParameterText { string, pieces, letters, is_plain })
+    }
+}
+
+impl From<&str> for ParameterTexts {
+    fn from(text: &str) -> Self {
+        let mut texts = Self::default();
+        texts.push(text);
+        texts
+    }
+}
+
+impl<'t> ParameterText<'t> {
+    /// The text as it is shown in diagnostics.
+    pub fn as_str(self) -> &'t str {
+        self.string
+    }
+
+    /// All pieces in the order they are written.
+    pub fn pieces(self) -> &'t [Piece] {
+        self.pieces
     }
 
     /// The first piece of a letter.
-    pub fn piece(&self, letter: Letter) -> Option<Piece> {
-        self.pieces().find(|piece| piece.letter == Some(letter))
+    pub fn piece(self, letter: Letter) -> Option<&'t Piece> {
+        self.pieces.iter().find(|piece| piece.letter == Some(letter))
     }
 
     /// A piece's value as written.
-    pub fn value(&self, piece: &Piece) -> &str {
-        &self.0[piece.value_start..piece.span.end]
+    pub fn value(self, piece: &Piece) -> &'t str {
+        let mut characters = self.string[piece.span.clone()].chars();
+        characters.next();
+        characters.as_str()
     }
 
     /// The whole text with a piece underlined.
-    pub fn fault(&self, piece: &Piece) -> TextFault {
-        TextFault::new(&self.0, piece.span.clone())
-    }
-
-    /// The whole text with part of a piece's value underlined; `within` counts bytes of the value.
-    pub fn fault_within(&self, piece: &Piece, within: Range<usize>) -> TextFault {
-        TextFault::new(&self.0, piece.value_start + within.start..piece.value_start + within.end)
+    pub fn fault(self, piece: &Piece) -> TextFault {
+        TextFault::new(self.string, piece.span.clone())
     }
 
     /// The whole text underlined.
-    pub fn whole(&self) -> TextFault {
-        TextFault::new(&self.0, 0..self.0.len())
+    pub fn whole(self) -> TextFault {
+        TextFault::new(self.string, 0..self.string.len())
     }
 
     /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
     /// text that is not read.
-    pub fn problems(&self, class: ElementClass) -> Vec<Diagnostic> {
-        if class == ElementClass::Unread {
+    pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
+        if class == ElementClass::Unread || self.is_plain && class.effective_letters().contain(self.letters) {
             return Vec::new();
         }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
-        let of_piece = |piece: Piece| {
+        let of_piece = |piece: &Piece| {
             // Letters are the same letter; variables only when they are the same variable.
             let is_repeated = match piece.letter {
                 None => false,
-                Some(Letter::Variable) => !variables.insert(self.value(&piece).chars().next()),
+                Some(Letter::Variable) => !variables.insert(self.value(piece).chars().next()),
                 Some(letter) => !letters.insert(letter),
             };
-            let problem = self.problem(&piece, is_repeated, class)?;
-            Some(problem.with_text(self.fault(&piece)))
+            let problem = self.problem(piece, is_repeated, class)?;
+            Some(problem.with_text(self.fault(piece)))
         };
-        self.pieces().filter_map(of_piece).collect()
+        self.pieces.iter().filter_map(of_piece).collect()
     }
 
-    fn problem(&self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
-        let first = self.0[piece.span.start..].chars().next()?;
+    fn problem(self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
+        let first = self.string[piece.span.start..].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(unknown_letter(first, class));
         };
@@ -106,13 +176,28 @@ impl ParameterText {
         (how == Use::Ignored).then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
     }
 
-    fn twice(&self, letter: Letter, piece: &Piece) -> Diagnostic {
+    fn twice(self, letter: Letter, piece: &Piece) -> Diagnostic {
         match (letter, self.value(piece).chars().next()) {
             (Letter::Variable, Some(name)) => {
                 Diagnostic::new(&messages::VARIABLE_TWICE).with("variable", name)
             }
             _ => Diagnostic::new(&messages::TWICE).with("letter", letter.as_char()),
         }
+    }
+}
+
+impl Written {
+    /// What a value is that a letter has, or that is put in for one.
+    pub(crate) fn of(letter: Letter, value: &str) -> Self {
+        if value.contains('=') {
+            return Self::Reference;
+        }
+        if letter.is_text() {
+            return Self::Text;
+        }
+        let number =
+            if letter == Letter::N { parse_integer(value).map(|n| n as f64) } else { parse_number(value) };
+        number.map_or(Self::NoNumber, Self::Number)
     }
 }
 
@@ -163,8 +248,10 @@ fn next_piece(text: &str, from: usize) -> Option<Piece> {
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;
     let end =
         bytes[start..].iter().position(|byte| is_blank(*byte)).map_or(bytes.len(), |length| start + length);
-    let first = text[start..].chars().next()?;
-    Some(Piece { letter: Letter::new(first), span: start..end, value_start: start + first.len_utf8() })
+    // All letters are ASCII.
+    let letter = Letter::new(char::from(bytes[start]));
+    let written = letter.map_or(Written::Text, |letter| Written::of(letter, &text[start + 1..end]));
+    Some(Piece { letter, written, span: start..end })
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.

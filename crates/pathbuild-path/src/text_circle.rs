@@ -36,14 +36,9 @@ impl TextCircle {
 
     /// The circle of a text of several lines.
     pub fn of_mtext(text: &MText) -> Self {
-        let lines = text.plain.split('\n');
-        let (mut count, mut longest) = (0_usize, 0);
-        for line in lines {
-            count += 1;
-            longest = longest.max(line.chars().count());
-        }
+        let (lines, longest) = size(&text.plain);
         let width = LETTER_WIDTH * text.height * longest as f64;
-        let height = text.height * count as f64;
+        let height = text.height * lines as f64;
         let offset = offset(text.horizontal, text.vertical, width, height);
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
         Self {
@@ -88,6 +83,22 @@ impl TextCircle {
         let to_ends = (curve.start() - self.centre).norm().min((curve.end() - self.centre).norm());
         (beside.map_or(to_ends, |distance| distance.min(to_ends)) - self.radius).max(0.0)
     }
+}
+
+/// How many lines a text has, and how many characters the longest of them.
+fn size(text: &str) -> (usize, usize) {
+    let (mut lines, mut longest, mut length) = (1, 0, 0);
+    for byte in text.bytes() {
+        if byte == b'\n' {
+            lines += 1;
+            longest = longest.max(length);
+            length = 0;
+        } else {
+            // Only the first byte of a character is none of these.
+            length += usize::from(!matches!(byte, 0x80..=0xBF));
+        }
+    }
+    (lines, longest.max(length))
 }
 
 /// From the anchor to the middle of a text that is not turned.

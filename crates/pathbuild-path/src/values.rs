@@ -6,8 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{Letter, Letters};
-use crate::number::{parse_integer, parse_number};
-use crate::text::{ParameterText, Piece};
+use crate::text::{ParameterText, Piece, Written};
 use crate::variables::Interpolation;
 
 /// What a text says of a letter.
@@ -25,20 +24,19 @@ pub(crate) enum Given {
 /// A text's values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
-    text: Option<&'t ParameterText>,
-    /// All that it has.
-    letters: Letters,
-    /// Those of them that are numbers.
-    given: Letters,
-    /// Those whose number was reported.
-    faulty: Letters,
-    numbers: [f64; Letter::COUNT],
-    /// Of text letters; `None` for what was reported.
-    texts: Vec<(Letter, Option<Cow<'t, str>>)>,
-    /// Values of variables in the order written, with the piece they stand in.
-    pub(crate) variables: Vec<(Cow<'t, str>, Piece)>,
+    text: ParameterText<'t>,
+    /// What its pieces say with variables put in; nothing where they say that as they are written.
+    filled: Vec<Filled<'t>>,
     /// PB205, PB303, PB305 and PB005, without places.
     pub(crate) problems: Vec<Diagnostic>,
+}
+
+/// What a piece says with variables put in.
+#[derive(Clone, Debug)]
+enum Filled<'t> {
+    Value(Written, Cow<'t, str>),
+    /// Something that was reported, or that is not looked at.
+    Nothing,
 }
 
 impl Given {
@@ -58,67 +56,108 @@ impl Given {
 
 impl<'t> Values<'t> {
     /// The values of a text; what is not known to the element is not looked at.
-    pub(crate) fn of(text: &'t ParameterText, interpolation: &Interpolation<'_>) -> Self {
-        Self::of_pieces(text, text.pieces(), interpolation)
+    pub(crate) fn of(text: ParameterText<'t>, interpolation: &Interpolation<'_>) -> Self {
+        Self::of_pieces(text, interpolation, |_| true)
     }
 
     /// The values of a path's own parameters. A definition is no value: its "=" would be taken for a reference.
-    pub(crate) fn of_path(text: &'t ParameterText, interpolation: &Interpolation<'_>) -> Self {
-        let pieces = text.pieces().filter(|piece| piece.letter != Some(Letter::Variable));
-        Self::of_pieces(text, pieces, interpolation)
+    pub(crate) fn of_path(text: ParameterText<'t>, interpolation: &Interpolation<'_>) -> Self {
+        Self::of_pieces(text, interpolation, |letter| letter != Letter::Variable)
     }
 
     fn of_pieces(
-        text: &'t ParameterText,
-        pieces: impl Iterator<Item = Piece>,
+        text: ParameterText<'t>,
         interpolation: &Interpolation<'_>,
+        is_value: impl Fn(Letter) -> bool,
     ) -> Self {
-        let mut values = Self { text: Some(text), ..Self::default() };
-        for piece in pieces {
-            let Some(letter) = piece.letter else { continue };
-            // Of several of a letter, which are reported, the first counts.
-            let is_first = values.letters.insert(letter);
-            match interpolation.fill(text.value(&piece)) {
-                Ok(value) => values.add(letter, value, piece, is_first),
-                Err(problem) => values.add_faulty(letter, problem.with_text(text.fault(&piece)), is_first),
-            }
+        let mut values = Self { text, ..Self::default() };
+        if !text.is_plain {
+            let pieces = text.pieces().iter();
+            values.filled = pieces
+                .map(|piece| match piece.letter.filter(|letter| is_value(*letter)) {
+                    Some(letter) => values.fill(letter, piece, interpolation),
+                    None => Filled::Nothing,
+                })
+                .collect();
         }
         values
     }
 
-    /// A letter's number.
+    fn fill(&mut self, letter: Letter, piece: &Piece, interpolation: &Interpolation<'_>) -> Filled<'t> {
+        match interpolation.fill(self.text.value(piece)) {
+            Ok(value) => match Written::of(letter, &value) {
+                Written::NoNumber => self.report(piece, no_number(letter, &value)),
+                written => return Filled::Value(written, value),
+            },
+            Err(problem) => self.report(piece, *problem),
+        }
+        Filled::Nothing
+    }
+
+    fn report(&mut self, piece: &Piece, problem: Diagnostic) {
+        self.problems.push(problem.with_text(self.text.fault(piece)));
+    }
+
+    /// A letter's number. Of several of a letter, which are reported, the first counts.
     pub(crate) fn number(&self, letter: Letter) -> Given {
-        if self.given.contains(letter) {
-            Given::Number(self.numbers[letter as usize])
-        } else if self.faulty.contains(letter) {
-            Given::Faulty
-        } else {
-            Given::Absent
+        let Some(index) = self.index(letter) else { return Given::Absent };
+        let written = match self.filled.get(index) {
+            None => self.text.pieces()[index].written,
+            Some(Filled::Value(written, _)) => *written,
+            Some(Filled::Nothing) => return Given::Faulty,
+        };
+        match written {
+            Written::Number(number) => Given::Number(number),
+            Written::NoNumber => Given::Faulty,
+            Written::Text | Written::Reference => Given::Absent,
         }
     }
 
     /// A letter's text; `None` where it says nothing or something that was reported.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
-        self.texts.iter().find(|(known, _)| *known == letter).and_then(|(_, text)| text.as_deref())
+        self.value(self.index(letter)?)
+    }
+
+    /// Values of variables in the order written, with the piece they stand in.
+    pub(crate) fn variables(&self) -> impl Iterator<Item = (&str, &'t Piece)> {
+        let pieces = self.text.pieces().iter().enumerate();
+        let variables = pieces.filter(|(_, piece)| piece.letter == Some(Letter::Variable));
+        variables.filter_map(|(index, piece)| Some((self.value(index)?, piece)))
+    }
+
+    fn value(&self, index: usize) -> Option<&str> {
+        match self.filled.get(index) {
+            None => Some(self.text.value(&self.text.pieces()[index])),
+            Some(Filled::Value(_, value)) => Some(value),
+            Some(Filled::Nothing) => None,
+        }
+    }
+
+    fn index(&self, letter: Letter) -> Option<usize> {
+        if !self.has(letter) {
+            return None;
+        }
+        self.text.pieces().iter().position(|piece| piece.letter == Some(letter))
     }
 
     /// Whether the text has the letter at all.
     pub(crate) fn has(&self, letter: Letter) -> bool {
-        self.letters.contains(letter)
+        self.text.letters.contains(letter)
+    }
+
+    /// All letters that the text has.
+    pub(crate) fn letters(&self) -> Letters {
+        self.text.letters
     }
 
     /// The text with the letter's piece underlined.
     pub(crate) fn fault(&self, letter: Letter) -> Option<TextFault> {
-        if !self.has(letter) {
-            return None;
-        }
-        let text = self.text?;
-        text.piece(letter).map(|piece| text.fault(&piece))
+        self.text.piece(letter).map(|piece| self.text.fault(piece))
     }
 
     /// The text with a piece underlined.
-    pub(crate) fn underlined(&self, piece: &Piece) -> Option<TextFault> {
-        self.text.map(|text| text.fault(piece))
+    pub(crate) fn underlined(&self, piece: &Piece) -> TextFault {
+        self.text.fault(piece)
     }
 
     /// A diagnostic about a letter, with its piece underlined where there is one.
@@ -128,38 +167,10 @@ impl<'t> Values<'t> {
             None => diagnostic,
         }
     }
+}
 
-    fn add(&mut self, letter: Letter, value: Cow<'t, str>, piece: Piece, is_first: bool) {
-        if letter == Letter::Variable {
-            return self.variables.push((value, piece));
-        }
-        if letter.is_text() {
-            return self.texts.push((letter, Some(value)));
-        }
-        let is_integer = letter == Letter::N;
-        let number = if is_integer { parse_integer(&value).map(|n| n as f64) } else { parse_number(&value) };
-        match number {
-            Some(number) if is_first => {
-                self.given.insert(letter);
-                self.numbers[letter as usize] = number;
-            }
-            Some(_) => {}
-            None => {
-                let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
-                let problem =
-                    Diagnostic::new(message).with("letter", letter.as_char()).with("value", &*value);
-                let underlined = self.underlined(&piece);
-                self.add_faulty(letter, Diagnostic { text: underlined, ..problem }, is_first);
-            }
-        }
-    }
-
-    fn add_faulty(&mut self, letter: Letter, problem: Diagnostic, is_first: bool) {
-        self.problems.push(problem);
-        if letter.is_text() {
-            self.texts.push((letter, None));
-        } else if is_first {
-            self.faulty.insert(letter);
-        }
-    }
+fn no_number(letter: Letter, value: &str) -> Diagnostic {
+    let is_integer = letter == Letter::N;
+    let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
+    Diagnostic::new(message).with("letter", letter.as_char()).with("value", value)
 }

@@ -65,12 +65,12 @@ impl RawPath {
             let problem = Diagnostic::new(&messages::MISSING_VALUE)
                 .with("variable", definition.name)
                 .with("definition", definition.to_string());
-            let piece = self.parameters.pieces().find(|piece| {
+            let piece = self.parameters().pieces().iter().find(|piece| {
                 piece.letter == Some(Letter::Variable)
-                    && self.parameters.value(piece).starts_with(definition.name)
+                    && self.parameters().value(piece).starts_with(definition.name)
             });
             let problem = match piece {
-                Some(piece) => problem.with_text(self.parameters.fault(&piece)),
+                Some(piece) => problem.with_text(self.parameters().fault(piece)),
                 None => problem,
             };
             self.at_parameters(problem)

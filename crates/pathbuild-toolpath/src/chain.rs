@@ -36,7 +36,7 @@ impl<P: Parts> Fold<'_, P> {
         let strands: Vec<Strand<'_>> =
             chain.segments.iter().map(|segment| self.strand(place, segment, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
-        self.element(ElementKind::MillingChain, chain.segments[0].origin(place.path), bottom, place, None);
+        self.element(ElementKind::MillingChain, &chain.segments[0].origin(place.path), bottom, place, None);
         if chain.first_depth.is_some() {
             self.sweepless(place, &strands);
         } else {

@@ -99,7 +99,7 @@ impl<'db> Embedder<'db> {
                 self.named(segment, subpath, name, text)
             }
         };
-        let origin = self.outer.origin(segment).clone();
+        let origin = self.outer.origin(segment);
         Embedding { segment: index, origin, name: segment.embedded_name().cloned(), outcome, warnings }
     }
 

@@ -184,12 +184,12 @@ pub(super) fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathNam
 pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<PathPlace> {
     let entry = raw_file(db, file).entry(name)?;
     let raw = &*entry.raw;
-    let start = raw.start.as_ref().map(|start| &start.origin);
-    let origin = start.or_else(|| raw.elements.first().map(|element| &element.origin));
+    let start = raw.start.as_ref().map(|start| start.origin.clone());
+    let origin = start.or_else(|| raw.drawn.elements.first().map(|element| raw.drawn.origin(element)));
     Some(PathPlace {
         name: raw.name.clone(),
-        layer: raw.layer.clone(),
-        point: origin.map(|origin| origin.point),
+        layer: raw.layer().into(),
+        point: origin.as_ref().map(|origin| origin.point),
         position: origin.and_then(|origin| entry.map.positions().get(origin.id.0 as usize).copied()),
     })
 }

@@ -1,7 +1,7 @@
 //! Boxes around the candidates of a layer, so that a text looks at those around it only.
 
 use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, Envelope, RTree};
+use rstar::{AABB, RTree};
 
 use super::Candidate;
 use crate::element::Shape;
@@ -11,8 +11,15 @@ use crate::text_circle::TextCircle;
 /// Where the candidates of a layer lie.
 pub(crate) enum Boxes {
     /// Few are all looked at: that is sooner done than to make a tree of them.
-    List(Vec<AABB<[f64; 2]>>),
+    List(Vec<Box2>),
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
+}
+
+/// A rectangle along the axes, by its corners.
+#[derive(Clone, Copy)]
+pub(crate) struct Box2 {
+    low: [f64; 2],
+    high: [f64; 2],
 }
 
 /// How many candidates are few.
@@ -29,24 +36,25 @@ impl Default for Boxes {
 
 impl Boxes {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
-        let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
+        let boxes = candidates.iter().map(|candidate| Box2::around(&candidate.shape));
         if candidates.len() <= FEW {
             return Self::List(boxes.collect());
         }
-        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
+        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.envelope().into(), index));
         Self::Tree(RTree::bulk_load(numbered.collect()))
     }
 
     /// Takes each candidate whose box a circle touches, in any order.
     pub(super) fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
-        let searched = square(circle.centre, circle.radius);
+        let searched = Box2::square(circle.centre, circle.radius);
         match self {
             Self::List(boxes) => {
-                let touched = boxes.iter().enumerate().filter(|(_, box_)| box_.intersects(&searched));
+                let touched = boxes.iter().enumerate().filter(|(_, box_)| box_.touches(&searched));
                 touched.for_each(|(index, _)| take(index));
             }
             Self::Tree(tree) => {
-                tree.locate_in_envelope_intersecting(searched).for_each(|found| take(found.data));
+                let found = tree.locate_in_envelope_intersecting(searched.envelope());
+                found.for_each(|found| take(found.data));
             }
         }
     }
@@ -65,18 +73,34 @@ impl Boxes {
     }
 }
 
-/// A box around a shape; of an arc around its whole circle.
-fn around(shape: &Shape) -> AABB<[f64; 2]> {
-    match shape {
-        Shape::Circle { centre, radius } => square(*centre, *radius),
-        Shape::Curve(Curve::Arc(arc)) => square(arc.centre, arc.radius),
-        Shape::Curve(Curve::Line(line)) => {
-            AABB::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
+impl Box2 {
+    /// A box around a shape; of an arc around its whole circle.
+    fn around(shape: &Shape) -> Self {
+        match shape {
+            Shape::Circle { centre, radius } => Self::square(*centre, *radius),
+            Shape::Curve(Curve::Arc(arc)) => Self::square(arc.centre, arc.radius),
+            Shape::Curve(Curve::Line(line)) => Self {
+                low: [line.start.x.min(line.end.x), line.start.y.min(line.end.y)],
+                high: [line.start.x.max(line.end.x), line.start.y.max(line.end.y)],
+            },
         }
     }
-}
 
-fn square(centre: Xy, half: f64) -> AABB<[f64; 2]> {
-    let half = half + SLACK;
-    AABB::from_corners([centre.x - half, centre.y - half], [centre.x + half, centre.y + half])
+    fn square(centre: Xy, half: f64) -> Self {
+        // Texts may have any height, also one below 0.
+        let half = (half + SLACK).abs();
+        Self { low: [centre.x - half, centre.y - half], high: [centre.x + half, centre.y + half] }
+    }
+
+    /// All four are compared, whatever the first says: that is done at once, and nothing has to be guessed.
+    fn touches(&self, other: &Self) -> bool {
+        (self.low[0] <= other.high[0])
+            & (self.low[1] <= other.high[1])
+            & (other.low[0] <= self.high[0])
+            & (other.low[1] <= self.high[1])
+    }
+
+    fn envelope(&self) -> AABB<[f64; 2]> {
+        AABB::from_corners(self.low, self.high)
+    }
 }

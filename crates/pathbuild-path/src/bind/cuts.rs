@@ -3,10 +3,10 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk;
 
-use super::Binder;
 use super::segments::{Scope, UNNUMBERED};
+use super::{At, Binder};
 use crate::approx::at_least;
-use crate::element::{Cut, Element, Origin};
+use crate::element::{Cut, Element};
 use crate::geometry::Curve;
 use crate::letter::{ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
@@ -22,20 +22,26 @@ pub(super) struct KnownCuts<'a> {
 }
 
 struct Known<'a> {
-    text: Option<&'a ParameterText>,
+    text: Option<ParameterText<'a>>,
     cut: Cut,
     order: f64,
     /// Index into the path's cuts.
     number: u32,
 }
 
+impl Known<'_> {
+    fn says(&self, text: Option<ParameterText<'_>>) -> bool {
+        self.text.map(ParameterText::as_str) == text.map(ParameterText::as_str)
+    }
+}
+
 impl<'a> KnownCuts<'a> {
-    fn get(&self, text: Option<&ParameterText>, cut: Cut) -> Option<(f64, u32)> {
+    fn get(&self, text: Option<ParameterText<'_>>, cut: Cut) -> Option<(f64, u32)> {
         let known = match text {
             Some(_) => &self.with_text,
             None => &self.without_text[cut as usize],
         };
-        let known = known.as_ref().filter(|known| known.text == text && known.cut == cut)?;
+        let known = known.as_ref().filter(|known| known.cut == cut && known.says(text))?;
         Some((known.order, known.number))
     }
 
@@ -57,17 +63,17 @@ impl Binder<'_> {
         curve: &Curve,
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
-        let text = self.raw.text_of(element.text);
+        let text = self.raw.drawn.text(element.text);
         if let Some((order, number)) = self.known_cuts.get(text, cut) {
             if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
-                self.check_room(&element.origin, &bars, curve.length(), tool);
+                self.check_room(element, &bars, curve.length(), tool);
             }
             return Some((order, SegmentKind::Cut(number)));
         }
         let reported = self.reported;
         let class = element.class(tool);
-        let values = self.element_values(&element.origin, text, class == ElementClass::Support);
-        let scope = Scope { origin: &element.origin, class, values: &values, tool };
+        let values = self.element_values(At::Element(element), text, class == ElementClass::Support);
+        let scope = Scope { element, class, values: &values, tool };
         let parameters = self.cut_parameters(&scope, cut, curve)?;
         let number = u32::try_from(self.cuts.len()).unwrap_or(u32::MAX);
         self.cuts.push(parameters);
@@ -103,11 +109,11 @@ impl Binder<'_> {
         let (top, bar, distance) =
             (self.needed(scope, Letter::D), self.needed(scope, Letter::P), self.needed(scope, Letter::U));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
-        self.check_room(scope.origin, &bars, length, scope.tool?);
+        self.check_room(scope.element, &bars, length, scope.tool?);
         Some(bars)
     }
 
-    fn check_room(&mut self, origin: &Origin, bars: &Bars, length: f64, tool: f64) {
+    fn check_room(&mut self, element: &Element, bars: &Bars, length: f64, tool: f64) {
         let count = bars.count(length);
         let gap = length / count - bars.length;
         if count > 0.0 && !at_least(gap, tool) {
@@ -115,7 +121,7 @@ impl Binder<'_> {
                 .with("count", count)
                 .with("gap", gap)
                 .with("tool", tool);
-            self.report(origin, problem);
+            self.report(At::Element(element), problem);
         }
     }
 }

@@ -1,14 +1,13 @@
 //! Elements to segments, each with the parameters it needs.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, parameters as messages, walk};
 
-use super::Binder;
+use super::{At, Binder};
 use crate::approx::{above, near};
-use crate::element::{Cut, Element, Origin, Role, Shape};
+use crate::element::{Cut, Element, Role, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter};
 use crate::path::{Helix, Hole, Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
@@ -22,8 +21,8 @@ const BEFORE_ALL: f64 = -1_000_000.0;
 impl Binder<'_> {
     pub(super) fn segments(&mut self, tool: Option<f64>) -> Vec<Segment> {
         let raw = self.raw;
-        let mut segments = Vec::with_capacity(raw.elements.len());
-        for (number, element) in (0_u32..).zip(&*raw.elements) {
+        let mut segments = Vec::with_capacity(raw.drawn.elements.len());
+        for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
             let segment = self.segment(element, tool);
             segments.extend(segment.map(|(order, kind)| Segment { element: number, order, kind }));
         }
@@ -33,7 +32,7 @@ impl Binder<'_> {
     /// An own T of a subpath must be below the path's S, too.
     pub(super) fn add_subpath_surfaces(path: &mut Path) {
         let subpaths = path.segments.iter().filter_map(|segment| match &segment.kind {
-            SegmentKind::Subpath(subpath) => Some((path.origin(segment).clone(), subpath)),
+            SegmentKind::Subpath(subpath) => Some((path.origin(segment), subpath)),
             _ => None,
         });
         let own = subpaths.filter_map(|(origin, subpath)| {
@@ -53,10 +52,10 @@ impl Binder<'_> {
         let class = element.class(tool);
         let text = match element.role {
             Role::SilentSweep | Role::SkippedSubpath => None,
-            _ => self.raw.text_of(element.text),
+            _ => self.raw.drawn.text(element.text),
         };
-        let values = self.element_values(&element.origin, text, class == ElementClass::HelicalSupport);
-        let scope = Scope { origin: &element.origin, class, values: &values, tool };
+        let values = self.element_values(At::Element(element), text, class == ElementClass::HelicalSupport);
+        let scope = Scope { element, class, values: &values, tool };
         let order = || values.number(Letter::N).number().unwrap_or(UNNUMBERED);
         match (element.role, element.shape) {
             (Role::Cut(cut), Shape::Circle { centre, radius }) => self.circle(&scope, cut, centre, radius),
@@ -80,7 +79,7 @@ impl Binder<'_> {
         if radius < tool / 2.0 {
             let problem =
                 Diagnostic::new(&drawing::CIRCLE_TOO_SMALL).with("diameter", 2.0 * radius).with("tool", tool);
-            self.report(scope.origin, problem);
+            self.report(At::Element(scope.element), problem);
             return None;
         }
         let helix = self.helix(scope, cut, centre, radius, tool)?;
@@ -129,7 +128,7 @@ impl Binder<'_> {
         if above(2.0 * radius, largest) {
             let problem =
                 Diagnostic::new(&walk::HELIX_TOO_LARGE).with("diameter", 2.0 * radius).with("limit", largest);
-            self.report(scope.origin, problem);
+            self.report(At::Element(scope.element), problem);
         }
     }
 
@@ -137,16 +136,16 @@ impl Binder<'_> {
         &mut self,
         values: &Values<'_>,
         curve: Curve,
-        text: Option<&ParameterText>,
+        text: Option<ParameterText<'_>>,
     ) -> Option<Subpath> {
         let inherited = |letter| values.number(letter).or(self.values.number(letter)).number();
         let own_text = |letter| values.text(letter).map(Box::from);
         let faults = [Letter::T, Letter::O, Letter::M].into_iter();
-        let value = |(value, piece): &(Cow<'_, str>, Piece)| {
+        let value = |(value, piece): (&str, &Piece)| {
             let mut characters = value.chars();
             let variable = characters.next();
-            let text = values.underlined(piece)?;
-            Some(SubpathValue { variable, value: characters.as_str().into(), text })
+            let text = values.underlined(piece);
+            SubpathValue { variable, value: characters.as_str().into(), text }
         };
         Some(Subpath {
             start: curve.start(),
@@ -156,12 +155,12 @@ impl Binder<'_> {
             tool: inherited(Letter::O)?,
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
             height: values.number(Letter::H).number().unwrap_or(0.0),
-            values: values.variables.iter().filter_map(value).collect(),
+            values: values.variables().map(value).collect(),
             faults: faults.filter_map(|letter| Some((letter.as_char(), values.fault(letter)?))).collect(),
         })
     }
 
-    fn subpath_name(&self, values: &Values<'_>, text: Option<&ParameterText>) -> SubpathName {
+    fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
         let (Some(value), Some(fault)) = (values.text(Letter::Embed), values.fault(Letter::Embed)) else {
             return SubpathName::Missing { text: text.map(ParameterText::whole) };
         };
@@ -181,7 +180,7 @@ impl Binder<'_> {
             let problem = Diagnostic::new(&messages::MISSING)
                 .with("letter", letter.as_char())
                 .with("element", scope.class.word());
-            self.report(scope.origin, problem);
+            self.report(At::Element(scope.element), problem);
         }
         given.number()
     }
@@ -194,7 +193,7 @@ impl Binder<'_> {
 
 /// The element whose segment is being made.
 pub(super) struct Scope<'a> {
-    pub(super) origin: &'a Origin,
+    pub(super) element: &'a Element,
     pub(super) class: ElementClass,
     pub(super) values: &'a Values<'a>,
     pub(super) tool: Option<f64>,

@@ -1,35 +1,43 @@
 //! The entities of each path, and what each means.
 
-use std::collections::BTreeMap;
 use std::sync::Arc as Shared;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Value, words};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Value, words};
 use pathbuild_dxf::{Arc as DxfArc, Drawing, Entity, Geometry, Point3};
 
 use super::Starts;
-use super::texts::{Count, Texts};
+use super::checked::Checked;
+use super::elements::{Elements, Place};
+use super::layers::{Count, Membership, counts, path_layers};
+use super::texts::Texts;
 use crate::approx::near;
 use crate::assign::Candidate;
 use crate::element::{
-    CircleMeaning, Element, Marker, Origin, Role, Shape, circle_meaning, curve_role, shown,
+    CircleMeaning, Element, Marker, Origin, Role, Shape, Source, circle_meaning, curve_role,
 };
 use crate::geometry::{Arc, Curve, Line, Xy};
-use crate::line_type::LineType;
-use crate::name::{PathLayer, PathName};
-use crate::raw::{Language, Position, RawPath, SourceMap};
-use crate::text::ParameterText;
+use crate::line_type::{LineType, LineTypes};
+use crate::name::PathName;
+use crate::raw::{Drawn, Language, Position, RawPath, SourceMap};
+use crate::text::ParameterTexts;
 
 /// A path while its entities are being collected.
 pub(crate) struct Collected<'d> {
-    pub(crate) raw: RawPath,
-    /// In file order until texts are assigned.
-    pub(crate) elements: Vec<Element>,
+    pub(crate) name: PathName,
+    pub(crate) start: Option<Marker>,
+    end: Option<Marker>,
+    turns: Vec<Marker>,
+    pub(crate) probes: Vec<Marker>,
+    pub(crate) elements: Elements,
+    /// The texts that found an element.
+    pub(crate) given: ParameterTexts,
     pub(crate) map: SourceMap,
     pub(crate) texts: Texts<'d>,
-    /// A broken entity may be the marker, or the element of a text, that is missing: what may only follow from it is not reported.
-    pub(crate) has_broken_circle: bool,
-    pub(crate) has_broken_entity: bool,
+    left_out: Vec<(EntityKind, Point)>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    has_broken_circle: bool,
+    has_broken_entity: bool,
     has_elements: bool,
 }
 
@@ -38,104 +46,83 @@ pub(crate) struct Collected<'d> {
 pub(crate) enum Owner {
     Start,
     Probe(usize),
-    Element(usize),
+    Element(Place),
     /// An element that is reported anyway.
     Faulty,
 }
 
-/// Elements in the order of segments: circles, lines, arcs.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    Circle,
-    Line,
-    Arc,
+/// An entity on one of a path's layers.
+#[derive(Clone, Copy)]
+struct Found<'d> {
+    source: Source,
+    entity: &'d Entity,
+    line_type: Option<LineType>,
 }
 
 /// The paths of a drawing in order of first appearance, their texts not yet assigned.
 pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
-    let names: Vec<Shared<str>> = drawing.layers.iter().map(|layer| Shared::from(&*layer.name)).collect();
+    let layers = path_layers(drawing, &language.path_pattern);
+    let mut by_path: Vec<&[(PathName, usize)]> = layers.chunk_by(|one, other| one.0 == other.0).collect();
+    by_path.sort_by_key(|layers| layers[0].1);
     let counts = counts(drawing);
-    let mut paths: Vec<Collected<'_>> = Vec::with_capacity(names.len());
-    let mut by_name: BTreeMap<PathName, usize> = BTreeMap::new();
-    let mut index_of_layer = vec![None; names.len()];
-    for (index, layer) in (0_u32..).zip(&drawing.layers) {
-        let Some(PathLayer { path: name, .. }) = language.path_pattern.layer(&layer.name) else { continue };
-        let at = index as usize;
-        let path = *by_name.entry(name).or_insert_with_key(|name| {
-            paths.push(Collected::new(name.clone(), &layer.name));
-            paths.len() - 1
-        });
-        index_of_layer[at] = Some(path);
-        paths[path].add_layer(index, &names[at], counts[at]);
-        if layer.hidden {
-            paths[path].hidden_layer(&layer.name);
+    let mut paths = Vec::with_capacity(by_path.len());
+    let mut memberships = vec![None; drawing.layers.len()];
+    for (path, layers) in by_path.into_iter().enumerate() {
+        for (layer, (_, number)) in (0_u32..).zip(layers) {
+            memberships[*number] = Some(Membership { path, layer });
         }
+        paths.push(Collected::new(drawing, layers, &counts));
     }
+    let mut line_types = LineTypes::new(&language.line_types);
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
-        if let Some(path) = index_of_layer[entity.layer as usize] {
+        if let Some(Membership { path, layer }) = memberships[entity.layer as usize] {
             let position = Position { line: origin.line, handle: origin.handle };
-            paths[path].add(entity, &names[entity.layer as usize], position, language);
+            paths[path].add(entity, layer, position, &mut line_types);
         }
     }
     for fault in &drawing.faults {
-        if let Some(path) = index_of_layer[fault.layer as usize] {
+        if let Some(Membership { path, .. }) = memberships[fault.layer as usize] {
             paths[path].add_fault(&fault.diagnostic);
         }
     }
     for left_out in &drawing.left_out {
-        if let Some(path) = index_of_layer[left_out.layer as usize] {
-            paths[path].raw.left_out.extend(left_out.point.map(|point| (left_out.kind, point)));
+        if let Some(Membership { path, .. }) = memberships[left_out.layer as usize] {
+            paths[path].left_out.extend(left_out.point.map(|point| (left_out.kind, point)));
             paths[path].add_located(&left_out.diagnostic);
         }
     }
     paths
 }
 
-/// How much is on each layer.
-fn counts(drawing: &Drawing) -> Vec<Count> {
-    let mut counts = vec![Count::default(); drawing.layers.len()];
-    for entity in &drawing.entities {
-        let count = &mut counts[entity.layer as usize];
-        match entity.geometry {
-            Geometry::Text(_) | Geometry::MText(_) => count.texts += 1,
-            _ => count.others += 1,
-        }
-    }
-    counts
-}
-
 impl<'d> Collected<'d> {
-    fn new(name: PathName, layer: &str) -> Self {
-        let raw = RawPath {
-            name,
-            layer: layer.into(),
+    /// A path with these layers, with room for what is on them.
+    fn new(drawing: &Drawing, layers: &[(PathName, usize)], counts: &[Count]) -> Self {
+        let mut path = Self {
+            name: layers[0].0.clone(),
             start: None,
             end: None,
             turns: Vec::new(),
             probes: Vec::new(),
-            elements: Shared::new([]),
-            texts: Vec::new(),
-            parameters: ParameterText::default(),
-            parameters_at: None,
-            definitions: Vec::new(),
+            elements: Elements::default(),
+            given: ParameterTexts::default(),
+            map: SourceMap::default(),
+            texts: Texts::with_capacity(layers.len()),
             left_out: Vec::new(),
             diagnostics: Vec::new(),
-        };
-        Self {
-            raw,
-            elements: Vec::new(),
-            map: SourceMap::default(),
-            texts: Texts::default(),
             has_broken_circle: false,
             has_broken_entity: false,
             has_elements: false,
+        };
+        for (_, number) in layers {
+            let (layer, count) = (&drawing.layers[*number], counts[*number]);
+            path.texts.add_layer(&layer.name, count);
+            path.elements.reserve(count);
+            path.map.reserve(count.texts + count.others());
+            if layer.hidden {
+                path.report_hidden(&layer.name);
+            }
         }
-    }
-
-    fn add_layer(&mut self, layer: u32, name: &Shared<str>, count: Count) {
-        self.texts.add_layer(layer, name, count);
-        self.elements.reserve_exact(count.others);
-        self.map.reserve(count.texts + count.others);
+        path
     }
 
     /// Whether there is anything but texts: a layer with texts alone is no path.
@@ -146,7 +133,7 @@ impl<'d> Collected<'d> {
     /// What is wrong with a group of layers that holds texts only.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.texts).assign(&mut self);
-        let mut diagnostics = std::mem::take(&mut self.raw.diagnostics);
+        let mut diagnostics = std::mem::take(&mut self.diagnostics);
         for diagnostic in &mut diagnostics {
             self.map.locate(diagnostic);
             diagnostic.place.element = None;
@@ -154,27 +141,59 @@ impl<'d> Collected<'d> {
         diagnostics
     }
 
-    /// Checks what needs no values.
-    pub(crate) fn finish(mut self, starts: &Starts) -> (RawPath, SourceMap) {
-        self.raw.elements = std::mem::take(&mut self.elements).into();
-        self.check_markers();
-        self.check_parameters(starts);
-        (self.raw, self.map)
+    /// Gives each text to its element.
+    pub(crate) fn assign_texts(&mut self) {
+        let mut texts = std::mem::take(&mut self.texts);
+        let before = self.diagnostics.len();
+        texts.assign(self);
+        self.texts = texts;
+        // A broken entity may be what the text belongs to.
+        if self.has_broken_entity {
+            self.diagnostics.truncate(before);
+        }
+        let name = self.name.as_str();
+        for diagnostic in &mut self.diagnostics[before..] {
+            diagnostic.path = Some(name.into());
+        }
     }
 
-    fn hidden_layer(&mut self, layer: &str) {
+    /// Puts the elements into the order of segments, and checks what needs no values.
+    pub(crate) fn finish(self, starts: &Starts) -> (RawPath, SourceMap) {
+        let drawn = Drawn {
+            elements: self.elements.in_order(),
+            texts: self.given,
+            layers: self.texts.into_layer_names(),
+        };
+        let raw = RawPath {
+            name: self.name,
+            start: self.start,
+            end: self.end,
+            turns: self.turns,
+            probes: self.probes,
+            drawn: Shared::new(drawn),
+            parameters: None,
+            borrowed_from: None,
+            definitions: Vec::new(),
+            left_out: self.left_out,
+            diagnostics: self.diagnostics,
+        };
+        let (has_broken_circle, has_broken_entity) = (self.has_broken_circle, self.has_broken_entity);
+        let mut checked = Checked { raw, has_broken_circle, has_broken_entity };
+        checked.check_markers();
+        checked.check_parameters(starts);
+        (checked.raw, self.map)
+    }
+
+    fn report_hidden(&mut self, layer: &str) {
         let mut diagnostic = Diagnostic::new(&messages::LAYER_NOT_VISIBLE).with("layer", layer);
         diagnostic.place.layer = Some(layer.into());
         self.report(diagnostic);
     }
 
-    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        let name = self.raw.name.as_str();
-        self.raw.diagnostics.push(if diagnostic.path.is_none() {
-            diagnostic.in_path(name)
-        } else {
-            diagnostic
-        });
+    fn report(&mut self, diagnostic: Diagnostic) {
+        let name = self.name.as_str();
+        let is_placed = diagnostic.path.is_some();
+        self.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
     fn next_id(&mut self, position: Position) -> ElementId {
@@ -202,163 +221,134 @@ impl<'d> Collected<'d> {
         self.add_located(diagnostic);
     }
 
-    fn add(&mut self, entity: &'d Entity, layer: &Shared<str>, position: Position, language: &Language) {
-        let id = self.next_id(position);
-        let origin =
-            |point: Xy| Origin { id, entity: entity.kind, layer: layer.clone(), point: shown(point) };
+    fn add(
+        &mut self,
+        entity: &'d Entity,
+        layer: u32,
+        position: Position,
+        line_types: &mut LineTypes<'d, '_>,
+    ) {
+        let source = Source { id: self.next_id(position), entity: entity.kind, layer };
+        let found = |line_type| Found { source, entity, line_type };
         match &entity.geometry {
-            Geometry::Text(text) => self.texts.add_text(text, entity.layer, origin(xy(text.anchor))),
-            Geometry::MText(text) => self.texts.add_mtext(text, entity.layer, origin(xy(text.anchor))),
+            Geometry::Text(text) => self.texts.add_text(text, source),
+            Geometry::MText(text) => self.texts.add_mtext(text, source),
             Geometry::Circle(circle) => {
-                let origin = origin(xy(circle.centre));
-                self.check_plane(&origin, &[circle.centre]);
-                self.add_circle(entity, origin, xy(circle.centre), circle.radius, language);
+                self.check_plane(source, &[circle.centre], xy(circle.centre));
+                let found = found(line_types.get(&entity.line_type));
+                self.add_circle(&found, xy(circle.centre), circle.radius);
             }
             Geometry::Line(line) => {
-                let origin = origin(xy(line.start));
-                self.check_plane(&origin, &[line.start, line.end]);
                 let curve = Curve::Line(Line { start: xy(line.start), end: xy(line.end) });
-                self.add_curve(entity, origin, curve, language);
+                self.check_plane(source, &[line.start, line.end], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
             }
             Geometry::Arc(arc) => {
                 let curve = Curve::Arc(plane_arc(arc));
-                let origin = origin(curve.start());
-                self.check_plane(&origin, &[arc.centre]);
-                self.add_curve(entity, origin, curve, language);
+                self.check_plane(source, &[arc.centre], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
             }
         }
     }
 
-    fn check_plane(&mut self, origin: &Origin, points: &[Point3]) {
+    fn origin(&self, source: Source, point: Xy) -> Origin {
+        self.texts.origin(source, point)
+    }
+
+    fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
         self.has_elements = true;
         if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
-            self.report(origin.at(Diagnostic::new(&messages::OFF_PLANE).with("z", point.z)));
+            let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
+            self.report(self.origin(source, begin).at(problem));
         }
     }
 
-    fn add_curve(&mut self, entity: &Entity, origin: Origin, curve: Curve, language: &Language) {
+    fn add_curve(&mut self, found: &Found<'_>, curve: Curve) {
         let shape = Shape::Curve(curve);
-        let line_type = LineType::of(&entity.line_type, &language.line_types);
-        match line_type.and_then(curve_role) {
-            Some(role) => self.add_element(entity, origin, shape, role),
-            None => self.add_unknown(entity, &origin, shape, line_type.is_some()),
+        match found.line_type.and_then(curve_role) {
+            Some(role) => self.add_element(found, shape, role),
+            None => self.add_unknown(found, shape),
         }
     }
 
-    fn add_circle(&mut self, entity: &Entity, origin: Origin, centre: Xy, radius: f64, language: &Language) {
+    fn add_circle(&mut self, found: &Found<'_>, centre: Xy, radius: f64) {
         let shape = Shape::Circle { centre, radius };
-        let line_type = LineType::of(&entity.line_type, &language.line_types);
-        let Some(meaning) = line_type.map(|line_type| circle_meaning(line_type, radius)) else {
-            return self.add_unknown(entity, &origin, shape, false);
-        };
-        let marker = |origin| Marker { origin, at: centre, text: None };
-        match meaning {
-            CircleMeaning::Cut(cut) => self.add_element(entity, origin, shape, Role::Cut(cut)),
-            CircleMeaning::Start => self.add_start(entity, marker(origin), shape),
-            CircleMeaning::End => self.add_end(marker(origin)),
-            CircleMeaning::Turn => self.raw.turns.push(marker(origin)),
-            CircleMeaning::IgnoredProbe => self.candidate(entity, &origin, shape, Owner::Faulty),
+        let Some(line_type) = found.line_type else { return self.add_unknown(found, shape) };
+        match circle_meaning(line_type, radius) {
+            CircleMeaning::Cut(cut) => self.add_element(found, shape, Role::Cut(cut)),
+            CircleMeaning::Start => self.add_start(found, shape),
+            CircleMeaning::End => self.add_end(found, centre),
+            CircleMeaning::Turn => self.turns.push(self.marker(found, centre)),
+            CircleMeaning::IgnoredProbe => self.candidate(found, shape, Owner::Faulty),
             CircleMeaning::Probe => {
-                self.candidate(entity, &origin, shape, Owner::Probe(self.raw.probes.len()));
-                self.raw.probes.push(marker(origin));
+                self.candidate(found, shape, Owner::Probe(self.probes.len()));
+                self.probes.push(self.marker(found, centre));
             }
-            CircleMeaning::UnknownLineType => self.add_unknown(entity, &origin, shape, true),
+            CircleMeaning::UnknownLineType => self.add_unknown(found, shape),
             CircleMeaning::UnknownDiameter => {
                 let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
-                    .with("line_type", &*entity.line_type)
+                    .with("line_type", &*found.entity.line_type)
                     .with("diameter", 2.0 * radius);
-                self.report(origin.at(diagnostic));
-                self.candidate(entity, &origin, shape, Owner::Faulty);
+                self.report(self.origin(found.source, centre).at(diagnostic));
+                self.candidate(found, shape, Owner::Faulty);
             }
         }
     }
 
-    fn add_start(&mut self, entity: &Entity, marker: Marker, shape: Shape) {
-        if let Some(first) = &self.raw.start {
-            let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
-                .with("name", self.raw.name.as_str())
-                .with("first", first.origin.point);
-            self.candidate(entity, &marker.origin, shape, Owner::Faulty);
-            return self.report(marker.origin.at(diagnostic));
-        }
-        self.candidate(entity, &marker.origin, shape, Owner::Start);
-        self.raw.start = Some(marker);
+    fn marker(&self, found: &Found<'_>, at: Xy) -> Marker {
+        Marker { origin: self.origin(found.source, at), at, text: None }
     }
 
-    fn add_end(&mut self, marker: Marker) {
-        if let Some(first) = &self.raw.end {
+    fn add_start(&mut self, found: &Found<'_>, shape: Shape) {
+        let marker = self.marker(found, shape.point());
+        if let Some(first) = &self.start {
+            let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
+                .with("name", self.name.as_str())
+                .with("first", first.origin.point);
+            self.candidate(found, shape, Owner::Faulty);
+            return self.report(marker.origin.at(diagnostic));
+        }
+        self.candidate(found, shape, Owner::Start);
+        self.start = Some(marker);
+    }
+
+    fn add_end(&mut self, found: &Found<'_>, at: Xy) {
+        let marker = self.marker(found, at);
+        if let Some(first) = &self.end {
             let diagnostic = Diagnostic::new(&messages::TWO_ENDS)
-                .with("name", self.raw.name.as_str())
+                .with("name", self.name.as_str())
                 .with("first", first.origin.point);
             return self.report(marker.origin.at(diagnostic));
         }
-        self.raw.end = Some(marker);
+        self.end = Some(marker);
     }
 
     /// A line type that means nothing here. The element still takes its text, which would else be reported as belonging to nothing.
-    fn add_unknown(&mut self, entity: &Entity, origin: &Origin, shape: Shape, is_known_name: bool) {
+    fn add_unknown(&mut self, found: &Found<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
-        let message =
-            if is_known_name { &messages::LINE_TYPE_ON_ENTITY } else { &messages::UNKNOWN_LINE_TYPE };
+        let message = match found.line_type {
+            Some(_) => &messages::LINE_TYPE_ON_ENTITY,
+            None => &messages::UNKNOWN_LINE_TYPE,
+        };
         let diagnostic = Diagnostic::new(message)
-            .with("line_type", &*entity.line_type)
+            .with("line_type", &*found.entity.line_type)
             .with("element", shape.word())
             .with("known", known);
-        self.report(origin.at(diagnostic));
-        self.candidate(entity, origin, shape, Owner::Faulty);
+        self.report(self.origin(found.source, shape.point()).at(diagnostic));
+        self.candidate(found, shape, Owner::Faulty);
     }
 
-    fn add_element(&mut self, entity: &Entity, origin: Origin, shape: Shape, role: Role) {
+    fn add_element(&mut self, found: &Found<'_>, shape: Shape, role: Role) {
         if role != Role::SilentSweep {
-            self.candidate(entity, &origin, shape, Owner::Element(self.elements.len()));
+            self.candidate(found, shape, Owner::Element(self.elements.next(&shape)));
         }
-        self.elements.push(Element { origin, shape, role, text: None });
+        self.elements.push(Element { source: found.source, shape, role, text: None });
     }
 
-    fn candidate(&mut self, entity: &Entity, origin: &Origin, shape: Shape, owner: Owner) {
-        let candidate = Candidate { id: origin.id, shape, group: entity.group, is_taken: false };
-        self.texts.add_candidate(entity.layer, candidate, owner);
-    }
-
-    /// Gives each text to its element, then puts the elements into the order of segments.
-    pub(crate) fn assign_texts(&mut self) {
-        let texts = std::mem::take(&mut self.texts);
-        // A broken entity may be what the text belongs to.
-        let is_blamed_on_text = !self.has_broken_entity;
-        let before = self.raw.diagnostics.len();
-        texts.assign(self);
-        if !is_blamed_on_text {
-            self.raw.diagnostics.truncate(before);
-        }
-        let name = self.raw.name.as_str();
-        for diagnostic in &mut self.raw.diagnostics[before..] {
-            diagnostic.path = Some(name.into());
-        }
-        self.elements.sort_by_cached_key(|element| match element.shape {
-            Shape::Circle { .. } => Rank::Circle,
-            Shape::Curve(Curve::Line(_)) => Rank::Line,
-            Shape::Curve(Curve::Arc(_)) => Rank::Arc,
-        });
-    }
-
-    /// A marker that is missing because its circle is broken is not reported twice.
-    fn check_markers(&mut self) {
-        if self.has_broken_circle {
-            return;
-        }
-        let missing = |message| {
-            Diagnostic::new(message).with("name", self.raw.name.as_str()).with("layer", &*self.raw.layer)
-        };
-        let start = self.raw.start.is_none().then(|| missing(&messages::MISSING_START));
-        let end = self.raw.end.is_none().then(|| missing(&messages::MISSING_END));
-        let somewhere = self.raw.elements.first().map(|element| element.origin.clone());
-        for diagnostic in start.into_iter().chain(end) {
-            let placed = match &somewhere {
-                Some(origin) => origin.at(diagnostic),
-                None => diagnostic,
-            };
-            self.report(placed);
-        }
+    fn candidate(&mut self, found: &Found<'_>, shape: Shape, owner: Owner) {
+        let Found { source, entity, .. } = *found;
+        let candidate = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
+        self.texts.add_candidate(source.layer, candidate);
     }
 }
 
@@ -371,10 +361,10 @@ pub(super) fn plane_arc(arc: &DxfArc) -> Arc {
 }
 
 /// What an element that takes texts is called.
-pub(crate) fn candidate_word(shape: &Shape, owner: Owner) -> &'static pathbuild_diagnostic::Word {
-    match owner {
+pub(crate) fn candidate_word(candidate: &Candidate) -> &'static pathbuild_diagnostic::Word {
+    match candidate.owner {
         Owner::Start => &words::PATH_START,
         Owner::Probe(_) => &words::PROBE,
-        Owner::Element(_) | Owner::Faulty => shape.word(),
+        Owner::Element(_) | Owner::Faulty => candidate.shape.word(),
     }
 }

@@ -49,10 +49,10 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
     let entities = entities_by_path(drawing, language);
     let mut texts: Vec<AssignedText> = Vec::new();
     for path in collect::paths(drawing, language) {
-        let Collected { raw, map, texts: found, .. } = path;
-        let Some(entities) = entities.get(&raw.name) else { continue };
+        let Collected { name, map, texts: found, .. } = path;
+        let Some(entities) = entities.get(&name) else { continue };
         let at = |id: ElementId| map.positions()[id.0 as usize];
-        texts.extend(found.matched().into_iter().map(|found| assigned(&raw.name, found, entities, &at)));
+        texts.extend(found.matched().into_iter().map(|found| assigned(&name, found, entities, &at)));
     }
     texts.sort_by_key(|text| text.position.line);
     texts

@@ -1,87 +1,86 @@
 //! The parameters of a path and its elements, as far as they can be checked without values: which letters, @, definitions.
 
+use std::sync::Arc;
+
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-use super::Starts;
-use super::collect::Collected;
+use super::checked::Checked;
+use super::{Start, Starts};
 use crate::definition::Definition;
-use crate::element::Origin;
 use crate::letter::{ElementClass, Letter};
 use crate::name::PathName;
-use crate::raw::tool;
 use crate::text::{ParameterText, Piece};
 
-impl Collected<'_> {
-    pub(crate) fn check_parameters(&mut self, starts: &Starts) {
+impl Checked {
+    pub(super) fn check_parameters(&mut self, starts: &Starts) {
         // Without the path's parameters it is not known what most elements are, so their letters are not judged.
         let Some(start) = &self.raw.start else { return };
-        let Some(text) = self.raw.text_of(start.text) else {
+        let Some(text) = self.raw.drawn.text(start.text) else {
             let problem = start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS));
             if !self.has_broken_entity {
                 self.report(problem);
             }
             return;
         };
-        let parameters_at = match text.piece(Letter::At) {
-            None => Ok((self.raw.name.clone(), (text.clone(), start.origin.clone()))),
-            Some(piece) => referenced(text, &piece, starts)
-                .map_err(|problem| start.origin.at(problem.with_text(text.fault(&piece)))),
-        };
-        match parameters_at {
-            Ok((name, (parameters, origin))) => {
-                self.raw.parameters = parameters;
-                self.raw.parameters_at = Some((name, origin));
+        self.raw.parameters = start.text;
+        if let Some(piece) = text.piece(Letter::At) {
+            match referenced(text, piece, starts) {
+                Ok((name, lender)) => self.borrow(name, lender),
+                Err(problem) => {
+                    let problem = start.origin.at(problem.with_text(text.fault(piece)));
+                    self.raw.parameters = None;
+                    return self.report(problem);
+                }
             }
-            Err(problem) => return self.report(problem),
         }
-        for problem in self.raw.parameters.problems(ElementClass::PathStart) {
+        for problem in self.raw.parameters().problems(ElementClass::PathStart) {
             self.report(self.raw.at_parameters(problem));
         }
         self.define_variables();
-        self.check_elements(tool(&self.raw.parameters));
+        self.check_elements(self.raw.tool());
+    }
+
+    fn borrow(&mut self, name: &PathName, lender: &Start) {
+        self.raw.parameters = Some(Arc::make_mut(&mut self.raw.drawn).texts.push(&lender.text));
+        self.raw.borrowed_from = Some((name.clone(), lender.origin.clone()));
     }
 
     fn check_elements(&mut self, tool: Option<f64>) {
-        let mut found = Vec::new();
-        let mut check = |origin: &Origin, text: Option<u32>, class: ElementClass| {
-            let problems = self.raw.text_of(text).map(|text| text.problems(class)).unwrap_or_default();
-            if !problems.is_empty() {
-                found.push((origin.clone(), problems));
-            }
-        };
+        let drawn = Arc::clone(&self.raw.drawn);
         let mut seen = None;
-        for element in &*self.raw.elements {
+        for element in &drawn.elements {
             // The parts of a polyline share one text, which is checked once.
-            if element.text.is_some() && element.text == seen {
+            if element.text.is_none() || element.text == seen {
                 continue;
             }
-            seen = element.text.or(seen);
-            check(&element.origin, element.text, element.class(tool));
+            seen = element.text;
+            let problems = drawn.text(element.text).map(|text| text.problems(element.class(tool)));
+            for problem in problems.into_iter().flatten() {
+                self.report(drawn.origin(element).at(problem));
+            }
         }
-        for probe in &self.raw.probes {
-            check(&probe.origin, probe.text, ElementClass::Probe);
-        }
-        for (origin, problems) in found {
-            self.report_all(&origin, problems);
-        }
-    }
-
-    fn report_all(&mut self, origin: &Origin, problems: Vec<Diagnostic>) {
-        for problem in problems {
-            self.report(origin.at(problem));
+        let problems = self.raw.probes.iter().flat_map(|probe| {
+            let problems = drawn.text(probe.text).map(|text| text.problems(ElementClass::Probe));
+            problems.into_iter().flatten().map(|problem| probe.origin.at(problem))
+        });
+        for problem in problems.collect::<Vec<_>>() {
+            self.report(problem);
         }
     }
 
     fn define_variables(&mut self) {
-        let parameters = &self.raw.parameters;
-        let pieces = parameters.pieces().filter(|piece| piece.letter == Some(Letter::Variable));
+        let parameters = self.raw.parameters();
+        if !parameters.letters.contains(Letter::Variable) {
+            return;
+        }
+        let pieces = parameters.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
         let (mut definitions, mut problems) = (Vec::new(), Vec::new());
         for piece in pieces {
-            match Definition::parse(parameters.value(&piece)) {
+            match Definition::parse(parameters.value(piece)) {
                 Ok(definition) => definitions.push(definition),
                 Err(problem) => {
-                    problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(&piece))));
+                    problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
                 }
             }
         }
@@ -92,13 +91,13 @@ impl Collected<'_> {
     }
 }
 
-/// The path that @ names, with its parameters and where they stand.
-fn referenced(
-    text: &ParameterText,
+/// The path that @ names, with its start.
+fn referenced<'s>(
+    text: ParameterText<'_>,
     piece: &Piece,
-    starts: &Starts,
-) -> Result<(PathName, (ParameterText, Origin)), Box<Diagnostic>> {
-    if text.pieces().nth(1).is_some() {
+    starts: &'s Starts,
+) -> Result<(&'s PathName, &'s Start), Box<Diagnostic>> {
+    if text.pieces().len() > 1 {
         return Err(Box::new(Diagnostic::new(&messages::AT_WITH_OTHERS)));
     }
     let name = PathName::new(text.value(piece));
@@ -107,8 +106,8 @@ fn referenced(
         let problem = Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known);
         return Err(Box::new(problem));
     };
-    if start.0.piece(Letter::At).is_some() {
+    if start.borrows {
         return Err(Box::new(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str())));
     }
-    Ok((name.clone(), start.clone()))
+    Ok((name, start))
 }

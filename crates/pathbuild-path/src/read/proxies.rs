@@ -1,21 +1,21 @@
 //! Proxy lines: drawn beside a component's path, to be copied into projects. (spec/20-paths-and-files.md, "Q-projects")
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use pathbuild_diagnostic::{ElementId, TextFault};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
 use super::collect::{Owner, plane_arc, xy};
-use super::texts::{Count, Texts};
+use super::layers::Count;
+use super::texts::Texts;
 use crate::assign::Candidate;
-use crate::element::{Origin, Shape, shown};
+use crate::element::{Origin, Shape, Source};
 use crate::geometry::{Curve, Line};
 use crate::letter::Letter;
 use crate::line_type::LineType;
 use crate::name::PathName;
 use crate::raw::{Language, Position};
-use crate::text::{ParameterText, Piece};
+use crate::text::{ParameterText, ParameterTexts, Piece};
 
 /// A DASHDOT line or arc with a subpath's text, on a layer that is no path layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,10 +27,15 @@ pub struct ProxyLine {
     /// What is drawn.
     pub curve: Curve,
     /// The text, which has a `>`.
-    pub text: ParameterText,
+    text: ParameterTexts,
 }
 
 impl ProxyLine {
+    /// Its text.
+    pub fn text(&self) -> ParameterText<'_> {
+        self.text.get(0).unwrap_or_default()
+    }
+
     /// The path that it stands for; `None` when there is no path name after `>`.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
@@ -39,21 +44,21 @@ impl ProxyLine {
 
     /// What it says of a letter. A value that refers to variables of whoever copies it says nothing.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
-        self.known(&self.text.piece(letter)?)
+        self.known(self.text().piece(letter)?)
     }
 
     /// The values that it sets, by variable.
     pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
-        let pieces = self.text.pieces().filter(|piece| piece.letter == Some(Letter::Variable));
+        let pieces = self.text().pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
         pieces.filter_map(|piece| {
-            let mut value = self.known(&piece)?.0.chars();
+            let mut value = self.known(piece)?.0.chars();
             Some((value.next()?, value.as_str()))
         })
     }
 
     fn known(&self, piece: &Piece) -> Option<(&str, TextFault)> {
-        let value = self.text.value(piece);
-        (!value.contains('=')).then(|| (value, self.text.fault(piece)))
+        let value = self.text().value(piece);
+        (!value.contains('=')).then(|| (value, self.text().fault(piece)))
     }
 }
 
@@ -61,31 +66,29 @@ impl ProxyLine {
 pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
     let is_path: Vec<bool> =
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
-    let names: Vec<Arc<str>> = drawing.layers.iter().map(|layer| Arc::from(&*layer.name)).collect();
     let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
-    for (number, name) in (0_u32..).zip(&names) {
-        texts.add_layer(number, name, Count::default());
+    for layer in &drawing.layers {
+        texts.add_layer(&layer.name, Count::default());
     }
     for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
         if is_path[entity.layer as usize] {
             continue;
         }
-        let layer = &names[entity.layer as usize];
-        let origin =
-            |point| Origin { id, entity: entity.kind, layer: Arc::clone(layer), point: shown(point) };
+        let source = Source { id, entity: entity.kind, layer: entity.layer };
         match &entity.geometry {
             Geometry::Text(text) if is_subpath(&text.string) => {
-                texts.add_text(text, entity.layer, origin(xy(text.anchor)));
+                texts.add_text(text, source);
             }
             Geometry::MText(text) if is_subpath(&text.plain) => {
-                texts.add_mtext(text, entity.layer, origin(xy(text.anchor)));
+                texts.add_mtext(text, source);
             }
             _ => {
                 let Some(curve) = dash_dotted(entity, language) else { continue };
                 let shape = Shape::Curve(curve);
-                let candidate = Candidate { id, shape, group: entity.group, is_taken: false };
-                texts.add_candidate(entity.layer, candidate, Owner::Faulty);
-                curves.insert(id, (origin(curve.start()), curve));
+                let group = entity.group;
+                let candidate = Candidate { id, shape, group, owner: Owner::Faulty, is_taken: false };
+                texts.add_candidate(entity.layer, candidate);
+                curves.insert(id, (texts.origin(source, curve.start()), curve));
             }
         }
     }
@@ -94,7 +97,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
         let (origin, curve) = curves.remove(id)?;
         let at = drawing.origins.get(id.0 as usize)?;
         let position = Position { line: at.line, handle: at.handle };
-        Some(ProxyLine { origin, position, curve, text: ParameterText::new(&found.string) })
+        Some(ProxyLine { origin, position, curve, text: (&*found.string).into() })
     });
     let mut lines: Vec<ProxyLine> = with_text.collect();
     lines.sort_by_key(|line| line.origin.id);
@@ -102,7 +105,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
 }
 
 fn is_subpath(text: &str) -> bool {
-    ParameterText::new(text).piece(Letter::Embed).is_some()
+    ParameterTexts::from(text).get(0).is_some_and(|text| text.piece(Letter::Embed).is_some())
 }
 
 fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {

@@ -9,16 +9,17 @@ use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind};
 use pathbuild_dxf::{MText, Text};
 
 use super::collect::{Collected, Owner, candidate_word};
+use super::layers::Count;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
-use crate::element::{Origin, Shape, shown};
-use crate::text::{ParameterText, without_percent_codes};
+use crate::element::{Origin, Shape, Source, shown};
+use crate::geometry::Xy;
+use crate::text::{ParameterTexts, without_percent_codes};
 use crate::text_circle::TextCircle;
 
-/// Texts and candidates of the layers of one path, in order of the layers' numbers. Tilde layers are layers of their own: what is on
-/// them find only each other.
+/// Texts and candidates of the layers of one path. Tilde layers are layers of their own: what is on them find only each other.
 #[derive(Default)]
 pub(crate) struct Texts<'d> {
-    layers: Vec<(u32, LayerTexts<'d>)>,
+    layers: Vec<LayerTexts<'d>>,
 }
 
 struct LayerTexts<'d> {
@@ -26,15 +27,17 @@ struct LayerTexts<'d> {
     candidates: Vec<Candidate>,
     /// Where they lie, once that is asked for.
     boxes: Boxes,
-    owners: Vec<Owner>,
     texts: Vec<FoundText<'d>>,
 }
 
-#[derive(Clone)]
+/// A text of the drawing.
+#[derive(Clone, Copy)]
 struct FoundText<'d> {
+    source: Source,
+    anchor: Xy,
     circle: TextCircle,
-    string: Cow<'d, str>,
-    origin: Origin,
+    /// As the drawing has it.
+    string: &'d str,
 }
 
 /// A text and what it belongs to.
@@ -45,87 +48,92 @@ pub(crate) struct Match<'d> {
     pub(crate) owners: Vec<(ElementId, Shape)>,
 }
 
-/// How many entities there are on a layer.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Count {
-    pub(crate) texts: usize,
-    pub(crate) others: usize,
-}
-
 impl<'d> Texts<'d> {
-    /// A layer, with how much is on it as far as that is known. All are added before what is on them, in order of their numbers.
-    pub(crate) fn add_layer(&mut self, layer: u32, name: &Arc<str>, count: Count) {
-        self.layers.push((layer, LayerTexts::new(name, count)));
+    pub(crate) fn with_capacity(layers: usize) -> Self {
+        Self { layers: Vec::with_capacity(layers) }
     }
 
-    pub(crate) fn add_text(&mut self, text: &'d Text, layer: u32, origin: Origin) {
+    /// The next layer, with how much is on it as far as that is known.
+    pub(crate) fn add_layer(&mut self, name: &str, count: Count) {
+        self.layers.push(LayerTexts {
+            name: name.into(),
+            candidates: Vec::with_capacity(count.others()),
+            boxes: Boxes::default(),
+            texts: Vec::with_capacity(count.texts),
+        });
+    }
+
+    /// The names of the layers in order.
+    pub(crate) fn into_layer_names(self) -> Vec<Arc<str>> {
+        self.layers.into_iter().map(|layer| layer.name).collect()
+    }
+
+    /// Where an entity is that begins, or has its centre, at a point.
+    pub(crate) fn origin(&self, source: Source, point: Xy) -> Origin {
+        self.layers[source.layer as usize].origin(source, point)
+    }
+
+    pub(crate) fn add_text(&mut self, text: &'d Text, source: Source) {
         let circle = TextCircle::of_text(text);
-        let string = without_percent_codes(&text.string);
-        self.layer(layer).texts.push(FoundText { circle, string, origin });
+        let anchor = Xy::new(text.anchor.x, text.anchor.y);
+        self.layer(source.layer).texts.push(FoundText { source, anchor, circle, string: &text.string });
     }
 
-    pub(crate) fn add_mtext(&mut self, text: &'d MText, layer: u32, origin: Origin) {
+    pub(crate) fn add_mtext(&mut self, text: &'d MText, source: Source) {
         let circle = TextCircle::of_mtext(text);
-        let string = without_percent_codes(&text.plain);
-        self.layer(layer).texts.push(FoundText { circle, string, origin });
+        let anchor = Xy::new(text.anchor.x, text.anchor.y);
+        self.layer(source.layer).texts.push(FoundText { source, anchor, circle, string: &text.plain });
+    }
+
+    pub(crate) fn add_candidate(&mut self, layer: u32, candidate: Candidate) {
+        self.layer(layer).candidates.push(candidate);
+    }
+
+    fn layer(&mut self, layer: u32) -> &mut LayerTexts<'d> {
+        &mut self.layers[layer as usize]
     }
 
     /// Each text with its circle and the candidates that it belongs to, layer by layer.
     pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
         let mut matched = Vec::new();
-        for (_, layer) in &mut self.layers {
+        for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
             layer.each_match(|layer, text, owners| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
-                let FoundText { circle, string, origin } = text.clone();
-                matched.push(Match { string, circle, origin, owners });
+                let origin = layer.origin(text.source, text.anchor);
+                let string = without_percent_codes(text.string);
+                matched.push(Match { string, circle: text.circle, origin, owners });
             });
         }
         matched
     }
 
-    pub(crate) fn add_candidate(&mut self, layer: u32, candidate: Candidate, owner: Owner) {
-        let layer = self.layer(layer);
-        layer.candidates.push(candidate);
-        layer.owners.push(owner);
-    }
-
-    fn layer(&mut self, layer: u32) -> &mut LayerTexts<'d> {
-        let place = self.layers.binary_search_by_key(&layer, |(number, _)| *number);
-        &mut self.layers[place.expect("every layer was added")].1
-    }
-
     /// Gives each text to its element; what finds none is PB107.
-    pub(crate) fn assign(mut self, path: &mut Collected<'_>) {
-        path.raw.texts.reserve_exact(self.layers.iter().map(|(_, layer)| layer.texts.len()).sum());
-        for (_, layer) in &mut self.layers {
+    pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
+        let texts = || self.layers.iter().flat_map(|layer| &layer.texts);
+        path.given.reserve(texts().count(), texts().map(|text| text.string.len()).sum());
+        for layer in &mut self.layers {
             layer.assign(path);
         }
-        if self.layers.iter().all(|(_, layer)| layer.texts.is_empty()) {
+        if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
         }
-        for (_, layer) in &mut self.layers {
+        for layer in &mut self.layers {
             layer.boxes = Boxes::new(&layer.candidates);
         }
-        for (number, layer) in &self.layers {
+        for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
-                let elsewhere = self.layers.iter().filter(|(other, _)| other != number);
-                let problem = layer.without_element(text, elsewhere.map(|(_, other)| other));
-                path.raw.diagnostics.push(problem);
+                let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
+                let problem = layer.without_element(text, others.map(|(_, other)| other));
+                path.diagnostics.push(problem);
             }
         }
     }
 }
 
 impl<'d> LayerTexts<'d> {
-    fn new(name: &Arc<str>, count: Count) -> Self {
-        Self {
-            name: Arc::clone(name),
-            candidates: Vec::with_capacity(count.others),
-            boxes: Boxes::default(),
-            owners: Vec::with_capacity(count.others),
-            texts: Vec::with_capacity(count.texts),
-        }
+    fn origin(&self, source: Source, point: Xy) -> Origin {
+        Origin::new(source, &self.name, point)
     }
 
     /// Gives each text to its element. What finds no element stays in `texts`.
@@ -133,7 +141,7 @@ impl<'d> LayerTexts<'d> {
         let mut open = Vec::new();
         self.each_match(|layer, text, owners| {
             if owners.is_empty() {
-                open.push(text.clone());
+                open.push(*text);
             } else {
                 layer.give(text, owners, path);
             }
@@ -148,7 +156,7 @@ impl<'d> LayerTexts<'d> {
             return;
         }
         self.boxes = Boxes::new(&self.candidates);
-        let is_mtext = |text: &&FoundText<'_>| text.origin.entity == EntityKind::MText;
+        let is_mtext = |text: &&FoundText<'_>| text.source.entity == EntityKind::MText;
         let in_order = texts.iter().filter(|text| !is_mtext(text)).chain(texts.iter().filter(is_mtext));
         for text in in_order {
             let owners =
@@ -173,14 +181,12 @@ impl<'d> LayerTexts<'d> {
     }
 
     fn give(&self, text: &FoundText<'_>, owners: Range<usize>, path: &mut Collected<'_>) {
-        let raw = &mut path.raw;
-        let number = u32::try_from(raw.texts.len()).unwrap_or(u32::MAX);
-        raw.texts.push(ParameterText::new(&text.string));
-        for owner in &self.owners[owners] {
-            let owner = match *owner {
-                Owner::Start => raw.start.as_mut().map(|start| &mut start.text),
-                Owner::Probe(probe) => Some(&mut raw.probes[probe].text),
-                Owner::Element(element) => Some(&mut path.elements[element].text),
+        let number = path.given.push(&without_percent_codes(text.string));
+        for owner in &self.candidates[owners] {
+            let owner = match owner.owner {
+                Owner::Start => path.start.as_mut().map(|start| &mut start.text),
+                Owner::Probe(probe) => Some(&mut path.probes[probe].text),
+                Owner::Element(element) => Some(&mut path.elements.get_mut(element).text),
                 Owner::Faulty => None,
             };
             if let Some(owner) = owner {
@@ -197,35 +203,37 @@ impl<'d> LayerTexts<'d> {
     where
         'd: 'a,
     {
+        let string = without_percent_codes(text.string);
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
-            .with("text", text.string.replace('\n', " "))
+            .with("text", string.replace('\n', " "))
             .with("centre", shown(text.circle.centre))
-            .with("diameter", 2.0 * text.circle.radius)
-            .with_text(ParameterText::new(&text.string).whole());
+            .with("diameter", 2.0 * text.circle.radius);
+        diagnostic.text = ParameterTexts::from(&*string).get(0).map(|text| text.whole());
         if let Some(miss) = nearest_miss(&text.circle, &self.candidates, &self.boxes) {
-            let shape = &self.candidates[miss.candidate].shape;
+            let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,
                 vec![
-                    ("element", candidate_word(shape, self.owners[miss.candidate]).into()),
-                    ("point", shown(shape.point()).into()),
+                    ("element", candidate_word(candidate).into()),
+                    ("point", shown(candidate.shape.point()).into()),
                     ("distance", miss.distance.into()),
                 ],
             );
         }
-        text.origin.at(elsewhere.fold(diagnostic, |diagnostic, layer| layer.would_take(text, diagnostic)))
+        let diagnostic = elsewhere.fold(diagnostic, |diagnostic, layer| layer.would_take(text, diagnostic));
+        self.origin(text.source, text.anchor).at(diagnostic)
     }
 
     /// Notes that a text would have found its element, had it been on this layer.
     fn would_take(&self, text: &FoundText<'_>, diagnostic: Diagnostic) -> Diagnostic {
         let Some(index) = find(&text.circle, &self.candidates, &self.boxes) else { return diagnostic };
-        let shape = &self.candidates[index].shape;
+        let candidate = &self.candidates[index];
         diagnostic.note(
             &messages::ELEMENT_ON_OTHER_LAYER,
             vec![
                 ("layer", (&*self.name).into()),
-                ("element", candidate_word(shape, self.owners[index]).into()),
-                ("point", shown(shape.point()).into()),
+                ("element", candidate_word(candidate).into()),
+                ("point", shown(candidate.shape.point()).into()),
             ],
         )
     }

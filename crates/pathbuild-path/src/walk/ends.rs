@@ -92,7 +92,7 @@ fn floor(number: f64) -> i64 {
 }
 
 /// The bucket of a square among so many. The upper bits of a product depend on all bits of its factors.
-#[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "any bits are as good")]
+#[expect(clippy::cast_sign_loss, reason = "any bits are as good")]
 fn bucket_of(Square(column, row): Square, count: usize) -> usize {
     const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
     let mixed = (column as u64).wrapping_mul(ODD).rotate_left(32) ^ row as u64;

@@ -22,7 +22,7 @@ impl Walk<'_> {
         if above(distance, self.join_tolerance) {
             return None;
         }
-        self.report_join(self.path.origin(&self.path.segments[nearest]), distance);
+        self.report_join(&self.path.origin(&self.path.segments[nearest]), distance);
         Some(nearest)
     }
 

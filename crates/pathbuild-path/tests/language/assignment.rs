@@ -14,7 +14,7 @@ fn owners(statements: &str) -> Vec<String> {
     let raw = drawing(statements);
     assert_eq!(codes(&raw.diagnostics), [""; 0], "{statements}");
     let owner = |element: &pathbuild_path::Element| {
-        let text = raw.text_of(element.text).map_or("-", pathbuild_path::ParameterText::as_str);
+        let text = raw.drawn.text(element.text).map_or("-", |text| text.as_str());
         let shape = match element.shape {
             Shape::Circle { .. } => "circle",
             Shape::Curve(Curve::Line(_)) => "line",
@@ -22,7 +22,7 @@ fn owners(statements: &str) -> Vec<String> {
         };
         format!("{shape} {text}")
     };
-    raw.elements.iter().map(owner).collect()
+    raw.drawn.elements.iter().map(owner).collect()
 }
 
 /// Whether a text at a point finds an element.
@@ -201,8 +201,8 @@ fn probes_and_the_start_take_texts() {
         text("0,0.5", "T5O3"),
         text("50,50.5", "T4.5")
     ));
-    assert_eq!(raw.text_of(raw.start.as_ref().unwrap().text).unwrap().as_str(), "T5O3");
-    assert_eq!(raw.text_of(raw.probes[0].text).unwrap().as_str(), "T4.5");
+    assert_eq!(raw.drawn.text(raw.start.as_ref().unwrap().text).unwrap().as_str(), "T5O3");
+    assert_eq!(raw.drawn.text(raw.probes[0].text).unwrap().as_str(), "T4.5");
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn text_and_element_are_on_exactly_the_same_layer() {
 #[test]
 fn tilde_layers_keep_texts_apart() {
     let raw = drawing(&format!("mill 0,0 40,0\nlayer 1234.1P~A\nmill 0,2 40,2\n{}", text("20,0.1", "F100")));
-    let texts: Vec<bool> = raw.elements.iter().map(|element| element.text.is_some()).collect();
+    let texts: Vec<bool> = raw.drawn.elements.iter().map(|element| element.text.is_some()).collect();
     assert_eq!(texts, [false, true]);
 }
 

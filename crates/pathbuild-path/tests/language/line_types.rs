@@ -67,13 +67,13 @@ fn an_alias_holds_in_a_drawing() {
     let mut language = language();
     language.line_types.insert("Schnitt", LineType::Continuous);
     let (raw, _) = &read_as(&drawing, &language).paths[0];
-    assert_eq!((codes(&raw.diagnostics), raw.elements[0].role), (vec![], Role::Cut(Cut::Mill)));
+    assert_eq!((codes(&raw.diagnostics), raw.drawn.elements[0].role), (vec![], Role::Cut(Cut::Mill)));
 }
 
 /// What a drawn entity means: its role, or the code of what is wrong.
 fn meaning(statement: &str) -> String {
     let raw = raw(&path("T5 O3 I1 B0 D2 P1 U1", &format!("{statement}\nend 40,0")));
-    match (raw.diagnostics.first(), raw.elements.first(), raw.probes.len()) {
+    match (raw.diagnostics.first(), raw.drawn.elements.first(), raw.probes.len()) {
         (Some(found), ..) => found.code().to_string(),
         (None, Some(element), 0) => format!("{:?}", element.role),
         (None, None, 1) => "probe".to_owned(),
@@ -125,5 +125,5 @@ fn circles_mean_what_the_table_says() {
 #[test]
 fn a_line_takes_its_layers_line_type() {
     let drawing = "layer 1234.1P DIVIDE\nstart 0,0 \"T5 O3 I1 D2\"\nline BYLAYER 0,0 20,0\nend 20,0";
-    assert_eq!(raw(drawing).elements[0].role, Role::Cut(Cut::Mark));
+    assert_eq!(raw(drawing).drawn.elements[0].role, Role::Cut(Cut::Mark));
 }

@@ -59,7 +59,7 @@ fn a_path_is_on_all_layers_of_its_name() {
     let file = read("layer 1234.1P\nstart 0,0 \"T5 O3 I1 B0\"\nend 20,0\nlayer 1234_1p~B\nmill 0,0 20,0");
     assert_eq!(file.paths.len(), 1);
     let (path, _) = &file.paths[0];
-    assert_eq!((path.name.as_str(), &*path.layer, path.elements.len()), ("1234.1P", "1234.1P", 1));
+    assert_eq!((path.name.as_str(), path.layer(), path.drawn.elements.len()), ("1234.1P", "1234.1P", 1));
     assert_eq!(codes(&path.diagnostics), [""; 0]);
 }
 

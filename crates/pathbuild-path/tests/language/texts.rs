@@ -1,16 +1,17 @@
 //! What stands in a parameter text. (spec/10-drawing.md, "Inside a text")
 
-use pathbuild_path::{ElementClass, Letter, ParameterText, parse_integer, parse_number};
+use pathbuild_path::{ElementClass, Letter, ParameterTexts, parse_integer, parse_number};
 
 use crate::support::{codes, compile, path, raw, wrong};
 
 /// The pieces of a text: letters with their values, `?` for what is no letter.
 fn pieces(text: &str) -> Vec<String> {
-    let text = ParameterText::new(text);
-    let piece = |piece: pathbuild_path::Piece| {
-        format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(&piece))
+    let texts = ParameterTexts::from(text);
+    let text = texts.get(0).unwrap();
+    let piece = |piece: &pathbuild_path::Piece| {
+        format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(piece))
     };
-    text.pieces().map(piece).collect()
+    text.pieces().iter().map(piece).collect()
 }
 
 #[test]
@@ -48,7 +49,7 @@ fn the_first_character_is_the_letter() {
 fn percent_codes_are_replaced() {
     let text = |codes: &str| {
         let raw = raw(&path("T5 O3 I1 B0", &format!("mill 0,0 40,0 \"Q{codes}\"\nend 40,0")));
-        raw.text_of(raw.elements[0].text).unwrap().as_str().to_owned()
+        raw.drawn.text(raw.drawn.elements[0].text).unwrap().as_str().to_owned()
     };
     assert_eq!(text("%%c%%d%%p"), "Q_D_G_+");
     assert_eq!(text("%%C%%D%%P"), "Q_D_G_+");
@@ -56,27 +57,31 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%u%%"), "Q%%u%%");
 }
 
+fn problems_of(text: &str, class: ElementClass) -> Vec<pathbuild_diagnostic::Diagnostic> {
+    ParameterTexts::from(text).get(0).unwrap().problems(class)
+}
+
 fn problems(text: &str) -> Vec<String> {
-    codes(&ParameterText::new(text).problems(ElementClass::Mill))
+    codes(&problems_of(text, ElementClass::Mill))
 }
 
 #[test]
 fn a_letter_stands_once_in_a_text() {
     assert_eq!(problems("B1 F100"), [""; 0]);
     assert_eq!(problems("B1 F100 B1"), ["PB204 B"]);
-    let variables = |text: &str| codes(&ParameterText::new(text).problems(ElementClass::PathStart));
+    let variables = |text: &str| codes(&problems_of(text, ElementClass::PathStart));
     assert_eq!(variables(":a1~2 :b1~2"), [""; 0]);
     assert_eq!(variables(":a1~2 :b1~2 :a3~4"), ["PB204"]);
 }
 
 #[test]
 fn letters_are_upper_case_and_the_help_says_so() {
-    let found = ParameterText::new("b1").problems(ElementClass::Mill);
+    let found = problems_of("b1", ElementClass::Mill);
     assert_eq!(codes(&found), ["PB202 b"]);
     assert!(
         found[0].help(pathbuild_diagnostic::Lang::En).unwrap().starts_with("letters are upper case: \"B\"?")
     );
-    let found = ParameterText::new("X1").problems(ElementClass::Mill);
+    let found = problems_of("X1", ElementClass::Mill);
     assert_eq!(
         found[0].help(pathbuild_diagnostic::Lang::En).unwrap(),
         "it knows B, C, F, I, N, Q, W; values follow their letter without a space"
@@ -85,7 +90,7 @@ fn letters_are_upper_case_and_the_help_says_so() {
 
 #[test]
 fn the_offending_piece_is_underlined() {
-    let found = ParameterText::new("F100 X1 B0").problems(ElementClass::Mill);
+    let found = problems_of("F100 X1 B0", ElementClass::Mill);
     let text = found[0].text.as_ref().unwrap();
     assert_eq!(&text.text[text.span()], "X1");
 }

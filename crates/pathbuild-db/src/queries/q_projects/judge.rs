@@ -68,8 +68,8 @@ impl<'db> Judge<'db> {
     /// PB517, without a place.
     fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
         let language = Settings::get(self.component.db).language(self.component.db);
-        let written = proxy.text.piece(Letter::Embed);
-        let written = written.map(|piece| (proxy.text.value(&piece), proxy.text.fault(&piece)));
+        let written = proxy.text().piece(Letter::Embed);
+        let written = written.map(|piece| (proxy.text().value(piece), proxy.text().fault(piece)));
         let Some((written, fault)) = written.filter(|(written, _)| !written.contains('=')) else {
             return Vec::new();
         };

@@ -48,7 +48,8 @@ fn line<'db>(component: &Component<'db>, name: &PathName) -> Option<(&'db Path, 
 fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
     let mut pieces = vec![format!(">{}", path.name)];
     if let Some(proxy) = proxy {
-        let others = proxy.text.pieces().filter_map(|piece| Some((piece.letter?, proxy.text.value(&piece))));
+        let others = proxy.text().pieces().iter();
+        let others = others.filter_map(|piece| Some((piece.letter?, proxy.text().value(piece))));
         let others = others.filter(|(letter, value)| {
             !matches!(letter, Letter::Embed | Letter::Variable) && !value.contains('=')
         });
