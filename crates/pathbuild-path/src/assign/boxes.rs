@@ -92,7 +92,10 @@ impl Box2 {
         Self { low: [centre.x - half, centre.y - half], high: [centre.x + half, centre.y + half] }
     }
 
-    /// All four are compared, whatever the first says: that is done at once, and nothing has to be guessed.
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "four comparisons at once, none of which has to be guessed"
+    )]
     fn touches(&self, other: &Self) -> bool {
         (self.low[0] <= other.high[0])
             & (self.low[1] <= other.high[1])

@@ -13,7 +13,7 @@ use super::layers::Count;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
-use crate::text::{ParameterTexts, without_percent_codes};
+use crate::text::{ParameterText, ParameterTexts, without_percent_codes};
 use crate::text_circle::TextCircle;
 
 /// Texts and candidates of the layers of one path. Tilde layers are layers of their own: what is on them find only each other.
@@ -208,7 +208,7 @@ impl<'d> LayerTexts<'d> {
             .with("text", string.replace('\n', " "))
             .with("centre", shown(text.circle.centre))
             .with("diameter", 2.0 * text.circle.radius);
-        diagnostic.text = ParameterTexts::from(&*string).get(0).map(|text| text.whole());
+        diagnostic.text = ParameterTexts::from(&*string).get(0).map(ParameterText::whole);
         if let Some(miss) = nearest_miss(&text.circle, &self.candidates, &self.boxes) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
