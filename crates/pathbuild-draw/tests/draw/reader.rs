@@ -160,9 +160,9 @@ fn polylines_and_blocks_are_read_as_their_parts() {
 
 /// The texts of a path's start and elements, in the order in which the path has them.
 fn texts_found(path: &RawPath) -> Vec<String> {
-    let text = |index| path.text_of(index).map(|text| text.as_str().to_owned()).unwrap_or_default();
+    let text = |index| path.drawn.text(index).map(|text| text.as_str().to_owned()).unwrap_or_default();
     let markers = path.start.iter().chain(&path.probes).map(|marker| text(marker.text));
-    markers.chain(path.elements.iter().map(|element| text(element.text))).collect()
+    markers.chain(path.drawn.elements.iter().map(|element| text(element.text))).collect()
 }
 
 /// The texts that were drawn, in that order.
