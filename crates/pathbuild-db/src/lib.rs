@@ -20,10 +20,10 @@ pub use database::{Database, Db};
 pub use guard::Underway;
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use queries::{
-    Brief, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey, Outcome,
-    PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Trace, assigned_texts, chains, check_file,
-    check_target, closure, combinations, content_hash, drawing_names, embeds, find_path, head, holders,
-    is_clear, locate, mentioned, name_table, path, path_names, path_place, program, q_project,
+    Brief, Clear, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey,
+    Outcome, PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Trace, assigned_texts, chains,
+    check_file, check_target, clear, closure, combinations, content_hash, drawing_names, embeds, find_path,
+    head, holders, locate, mentioned, name_table, path, path_names, path_place, program, q_project,
     q_project_findings, raw_file, raw_path, search_directories, summary, trace, try_mentioned,
 };
 pub use settings::{Limits, Lookup, Reading, Restriction, Settings};

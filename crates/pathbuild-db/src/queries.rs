@@ -7,11 +7,11 @@
 
 mod ahead;
 mod brief;
-use crate::database::Db;
-
+mod clear;
 mod combinations;
 mod edges;
 mod embedding;
+mod fit;
 mod hints;
 mod instance;
 mod joined;
@@ -25,8 +25,11 @@ mod survey;
 mod texts;
 mod traces;
 
+use crate::database::Db;
+
 pub use ahead::{mentioned, try_mentioned};
 pub use brief::{Brief, Head, Summary, head, summary};
+pub use clear::{Clear, clear};
 pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
@@ -37,7 +40,6 @@ pub use q_projects::{QProject, QProjectLine, q_project, q_project_findings};
 pub use raw::{NameKey, PathPlace, content_hash, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
-pub use survey::is_clear;
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
 

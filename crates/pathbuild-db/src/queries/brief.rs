@@ -93,7 +93,7 @@ mod query {
     #[salsa::tracked]
     pub(super) fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
         let raw = instance.raw(db);
-        raw.map(|raw| new_summary(db, instance.file(db), raw, instance.bindings(db))).unwrap_or_default()
+        raw.map(|raw| new_summary(db, instance.file(db), raw, instance.bindings(db)).0).unwrap_or_default()
     }
 }
 
@@ -103,27 +103,46 @@ impl Head {
     }
 }
 
-/// The summary of a path that was read from a file, with values for its variables.
-pub(super) fn new_summary(db: &dyn Db, file: SourceFile, raw: &RawPath, bindings: &Bindings) -> Summary {
-    let BoundPath { path, diagnostics } = bind_raw(db, raw, bindings);
-    Summary { problems: diagnostics, brief: path.map(|path| brief(db, file, path)) }
+impl Summary {
+    /// Whether there is nothing to say of the path itself.
+    pub(super) fn is_clear(&self) -> bool {
+        let is_clear = |brief: &Brief| brief.sweep_problems.is_empty() && brief.walk_problems.is_empty();
+        self.problems.is_empty() && self.brief.as_ref().is_some_and(is_clear)
+    }
+
+    /// Whether the path has subpath segments.
+    pub(super) fn has_subpaths(&self) -> bool {
+        self.brief.as_ref().is_some_and(|brief| brief.has_subpaths)
+    }
 }
 
-fn brief(db: &dyn Db, file: SourceFile, path: Path) -> Brief {
-    let walked = walk(db, &path);
+/// The summary of a path that was read from a file, with values for its variables; and the path, where nothing is an error.
+pub(super) fn new_summary(
+    db: &dyn Db,
+    file: SourceFile,
+    raw: &RawPath,
+    bindings: &Bindings,
+) -> (Summary, Option<Path>) {
+    let BoundPath { path, diagnostics } = bind_raw(db, raw, bindings);
+    let brief = path.as_ref().map(|path| brief(db, file, path));
+    (Summary { problems: diagnostics, brief }, path)
+}
+
+fn brief(db: &dyn Db, file: SourceFile, path: &Path) -> Brief {
+    let walked = walk(db, path);
     let with_hints = |found| with_other_layers(db, file, &path.name, found);
     Brief {
+        name: path.name.clone(),
+        tool: path.tool,
+        thickness: path.thickness,
+        material: path.material.clone(),
+        output_suffix: path.output_suffix.clone(),
         size: (path.end - path.start).norm(),
         needs_feed: path.needs_feed(),
         has_probes: !path.probes.is_empty(),
         has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
         sweep_problems: path.check_sweep_height(path.embedded_sweep_height()),
-        moves: own_moves(&path, &walked.items),
+        moves: own_moves(path, &walked.items),
         walk_problems: walked.diagnostics.into_iter().map(with_hints).collect(),
-        name: path.name,
-        tool: path.tool,
-        thickness: path.thickness,
-        material: path.material,
-        output_suffix: path.output_suffix,
     }
 }

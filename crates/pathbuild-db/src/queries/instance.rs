@@ -6,6 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Path, RawPath, Walked};
 
 use super::raw::{NameKey, internal_error, raw_path};
+use super::survey::surveyed;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
@@ -44,6 +45,14 @@ pub struct BoundPath {
 #[salsa::tracked(lru = 0)]
 pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     bind(db, instance)
+}
+
+/// The path, where nothing is an error: for whoever asks what it embeds.
+pub(super) fn bound_path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db Path> {
+    let survey = surveyed(db, instance.file(db));
+    let known = survey.and_then(|survey| survey.path(instance.name(db).folded(db)));
+    let kept = known.and_then(|known| known.path_with(instance.bindings(db)));
+    kept.or_else(|| path(db, instance).path.as_ref())
 }
 
 /// Walks along a path. Empty where there is no sound path.

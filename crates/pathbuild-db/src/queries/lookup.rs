@@ -1,6 +1,7 @@
 //! Where paths are: file names to files. (spec/20-paths-and-files.md)
 
 use std::borrow::Cow;
+use std::cell::LazyCell;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{PathKey, PathName, RangeTable, Ranges};
@@ -26,7 +27,7 @@ pub struct Found {
     /// The files that may hold it by their names.
     pub searched: Vec<SourceFile>,
     /// The directories that were looked through.
-    pub directories: Vec<Utf8PathBuf>,
+    pub directories: Vec<Directory>,
 }
 
 impl NameTable {
@@ -68,54 +69,86 @@ pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
 pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Cow<'db, Found> {
     if db.is_surveying() {
         // What is asked once need not be kept.
-        Cow::Owned(find(db, from, name))
+        Cow::Owned(Search::new(db, from).find(&PathName::new(name.folded(db))))
     } else {
         Cow::Borrowed(query::find_path(db, from, name))
     }
 }
 
-/// The files of a directory that may hold a path by their names: unchanged by files that cannot.
-fn files_in<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Cow<'db, [SourceFile]> {
-    if db.is_surveying() {
-        Cow::Owned(find_files(db, directory, name))
-    } else {
-        Cow::Borrowed(query::files_for(db, directory, name))
-    }
-}
-
 /// As they are asked where drawings are not surveyed.
 mod query {
-    use super::{Found, find, find_files};
+    use pathbuild_path::{PathKey, PathName};
+
+    use super::{Found, Search, name_table};
     use crate::database::Db;
     use crate::inputs::{Directory, SourceFile};
     use crate::queries::raw::NameKey;
+    use crate::settings::Settings;
 
     #[salsa::tracked]
     pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
-        find(db, from, name)
+        let files = |directory| files_for(db, directory, name).clone();
+        Search::new(db, from).find_among(&PathName::new(name.folded(db)), files)
     }
 
+    /// The files of a directory that may hold a path by their names: unchanged by files that cannot.
     #[salsa::tracked]
-    pub(super) fn files_for<'db>(
-        db: &'db dyn Db,
-        directory: Directory,
-        name: NameKey<'db>,
-    ) -> Vec<SourceFile> {
-        find_files(db, directory, name)
+    fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
+        let pattern = &Settings::get(db).language(db).path_pattern;
+        let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
+        name_table(db, directory).files(db, directory, &key)
     }
 }
 
-fn find<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
-    if defines(db, from, name) {
-        return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
-    }
-    find_in(db, search_directories(db, from), name)
+/// Where paths are looked for that a drawing refers to.
+pub(super) struct Search<'db> {
+    db: &'db dyn Db,
+    from: SourceFile,
+    directories: Vec<Directory>,
 }
 
-fn find_files<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
-    let pattern = &Settings::get(db).language(db).path_pattern;
-    let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
-    name_table(db, directory).files(db, directory, &key)
+impl<'db> Search<'db> {
+    pub(super) fn new(db: &'db dyn Db, from: SourceFile) -> Self {
+        let directories = search_directories(db, from);
+        Self { db, from, directories: directories.iter().map(|path| db.directory(path)).collect() }
+    }
+
+    /// Where a path is; nothing of it is kept.
+    pub(super) fn find(&self, name: &PathName) -> Found {
+        let pattern = &Settings::get(self.db).language(self.db).path_pattern;
+        let key = LazyCell::new(|| PathKey::new(&name.folded(), pattern));
+        self.find_among(name, |directory| {
+            let files = |key| name_table(self.db, directory).files(self.db, directory, key);
+            key.as_ref().map(files).unwrap_or_default()
+        })
+    }
+
+    /// The same, when it is known which files of a directory may hold it by their names.
+    fn find_among(&self, name: &PathName, files: impl Fn(Directory) -> Vec<SourceFile>) -> Found {
+        let Self { db, from, .. } = *self;
+        if defines(db, from, name) {
+            return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
+        }
+        let mut searched: Vec<SourceFile> = Vec::new();
+        for file in self.directories.iter().flat_map(|directory| files(*directory)) {
+            if !searched.contains(&file) {
+                searched.push(file);
+            }
+        }
+        let mut files: Vec<SourceFile> =
+            searched.iter().copied().filter(|file| defines(db, *file, name)).collect();
+        if files.len() > 1 {
+            // The same file reached under two names is no duplicate.
+            let mut seen = Vec::new();
+            files.retain(|file| {
+                let canonical = db.system().canonical(file.path(db));
+                let is_new = !seen.contains(&canonical);
+                seen.push(canonical);
+                is_new
+            });
+        }
+        Found { files, searched, directories: self.directories.clone() }
+    }
 }
 
 /// The directories in which paths are looked for that a drawing refers to, in order.
@@ -137,31 +170,6 @@ pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<Source
     let Some(key) = PathKey::new(name.as_str(), pattern) else { return Vec::new() };
     let files = name_table(db, directory).files(db, directory, &key).into_iter();
     files.filter(|file| super::raw::path_names(db, *file).contains(name)).collect()
-}
-
-/// Where a path is in some directories, whose names must be normalised.
-fn find_in<'db>(db: &'db dyn Db, directories: Vec<Utf8PathBuf>, name: NameKey<'db>) -> Found {
-    let mut searched: Vec<SourceFile> = Vec::new();
-    for directory in &directories {
-        for file in files_in(db, db.directory(directory), name).iter() {
-            if !searched.contains(file) {
-                searched.push(*file);
-            }
-        }
-    }
-    let mut files: Vec<SourceFile> =
-        searched.iter().copied().filter(|file| defines(db, *file, name)).collect();
-    if files.len() > 1 {
-        // The same file reached under two names is no duplicate.
-        let mut seen = Vec::new();
-        files.retain(|file| {
-            let canonical = db.system().canonical(file.path(db));
-            let is_new = !seen.contains(&canonical);
-            seen.push(canonical);
-            is_new
-        });
-    }
-    Found { files, searched, directories }
 }
 
 /// The names of paths in files that were searched, for proposing near ones.

@@ -141,8 +141,8 @@ fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Opt
 }
 
 /// Whether a file defines a path: unchanged by edits of the path itself.
-pub(super) fn defines<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> bool {
-    path_names(db, file).contains(&PathName::new(name.folded(db)))
+pub(super) fn defines(db: &dyn Db, file: SourceFile, name: &PathName) -> bool {
+    path_names(db, file).contains(name)
 }
 
 /// A raw path of a file.

@@ -4,13 +4,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use pathbuild_path::{Bindings, PathName, RawPath, SourceMap};
+use pathbuild_path::{Bindings, Path, PathName, RawPath, SourceMap};
 
-use super::brief::{Brief, Head, Summary, new_summary};
+use super::brief::{Head, Summary, new_summary};
 use super::raw::{FileReport, read};
 use crate::database::Db;
 use crate::inputs::SourceFile;
-use crate::settings::{Limits, Settings};
 
 /// What is known of a drawing.
 #[derive(Clone, Debug)]
@@ -30,7 +29,9 @@ pub(super) struct SurveyedPath {
     examples: Bindings,
     /// What comes of it with these; nothing where that shows a bug, which is reported when it shows again.
     summary: Option<Summary>,
-    /// What was read, if it will be asked for: where it has variables, or embeds others.
+    /// The path with these values, where it embeds others.
+    path: Option<Path>,
+    /// What was read, where it has variables.
     raw: Option<RawPath>,
     /// Where its elements are, if that will be asked for.
     map: Option<SourceMap>,
@@ -39,14 +40,6 @@ pub(super) struct SurveyedPath {
 /// The survey of a drawing, where drawings are surveyed.
 pub(super) fn surveyed(db: &dyn Db, file: SourceFile) -> Option<&Survey> {
     db.is_surveying().then(|| survey(db, file))
-}
-
-/// Whether it is known of a drawing's path that checking it finds nothing: drawings are surveyed, the path embeds nothing, and nothing is to be
-/// said of it.
-pub fn is_clear(db: &dyn Db, file: SourceFile, name: &PathName) -> bool {
-    let Limits { moves, paths } = Settings::get(db).limits(db);
-    let summary = surveyed(db, file).and_then(|survey| survey.path(name.as_str())?.summary.as_ref());
-    summary.is_some_and(|summary| summary.is_clear_within(moves) && paths > 0)
 }
 
 #[salsa::tracked(no_eq)]
@@ -83,15 +76,16 @@ impl SurveyedPath {
         let head = Head::new(&raw);
         let examples = Bindings::check_values(&head.definitions);
         let summary = || new_summary(db, file, &raw, &examples);
-        let summary = catch_unwind(AssertUnwindSafe(summary)).ok();
-        let brief = summary.as_ref().and_then(|summary| summary.brief.as_ref());
-        let has_more = !examples.is_empty() || brief.is_some_and(|brief| brief.has_subpaths);
-        let is_clear = summary.as_ref().is_some_and(|summary| summary.is_clear_within(u64::MAX));
+        let (summary, path) = catch_unwind(AssertUnwindSafe(summary)).ok().unzip();
+        let is_clear = summary.as_ref().is_some_and(Summary::is_clear);
+        let has_subpaths = summary.as_ref().is_some_and(Summary::has_subpaths);
+        let has_variables = !examples.is_empty();
         Self {
             head,
+            path: path.flatten().filter(|_| has_subpaths),
+            raw: has_variables.then_some(raw),
+            map: (has_variables || has_subpaths || !is_clear).then_some(map),
             examples,
-            raw: has_more.then_some(raw),
-            map: (has_more || !is_clear).then_some(map),
             summary,
         }
     }
@@ -99,6 +93,16 @@ impl SurveyedPath {
     /// What comes of it with these values, if they are the example values.
     pub(super) fn summary_with(&self, bindings: &Bindings) -> Option<&Summary> {
         self.summary.as_ref().filter(|_| self.examples == *bindings)
+    }
+
+    /// The path with these values, if they are the example values and it embeds others.
+    pub(super) fn path_with(&self, bindings: &Bindings) -> Option<&Path> {
+        self.path.as_ref().filter(|_| self.examples == *bindings)
+    }
+
+    /// What comes of it with the example values, and the path if it embeds others.
+    pub(super) fn with_examples(&self) -> Option<(&Summary, Option<&Path>)> {
+        Some((self.summary.as_ref()?, self.path.as_ref()))
     }
 
     /// What was read, where it was kept.
@@ -109,17 +113,5 @@ impl SurveyedPath {
     /// Where its elements are, where that was kept.
     pub(super) fn map(&self) -> Option<&SourceMap> {
         self.map.as_ref()
-    }
-}
-
-impl Summary {
-    /// Whether there is nothing to say of the path itself, and it embeds nothing.
-    fn is_clear_within(&self, limit: u64) -> bool {
-        let is_clear = |brief: &Brief| {
-            !brief.has_subpaths
-                && brief.moves <= limit
-                && [&brief.sweep_problems, &brief.walk_problems].into_iter().all(Vec::is_empty)
-        };
-        self.problems.is_empty() && self.brief.as_ref().is_some_and(is_clear)
     }
 }

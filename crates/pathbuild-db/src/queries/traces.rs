@@ -5,7 +5,7 @@ use pathbuild_path::PathName;
 
 use super::embedding::embeds;
 use super::instance::Instance;
-use super::lookup::find_path;
+use super::lookup::{Found, find_path};
 use super::raw::NameKey;
 use super::reach::closure;
 use crate::database::Db;
@@ -44,15 +44,20 @@ impl Trace {
         let from = instance.file(db);
         self.add_file(from);
         for name in embeds(db, instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
-            let found = find_path(db, from, NameKey::of(db, name));
-            for file in &found.searched {
-                self.add_file(*file);
-            }
-            if !found.directories.is_empty() {
-                let sought = Sought { name: name.clone(), directories: found.directories.clone() };
-                if !self.lookups.contains(&sought) {
-                    self.lookups.push(sought);
-                }
+            self.add_found(db, name, &find_path(db, from, NameKey::of(db, name)));
+        }
+    }
+
+    /// Adds what was looked for.
+    pub(super) fn add_found(&mut self, db: &dyn Db, name: &PathName, found: &Found) {
+        for file in &found.searched {
+            self.add_file(*file);
+        }
+        if !found.directories.is_empty() {
+            let directories = found.directories.iter().map(|directory| directory.path(db).clone());
+            let sought = Sought { name: name.clone(), directories: directories.collect() };
+            if !self.lookups.contains(&sought) {
+                self.lookups.push(sought);
             }
         }
     }

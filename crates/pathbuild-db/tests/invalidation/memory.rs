@@ -1,5 +1,7 @@
 //! Bounded memory: what is dropped, what stays, and that nobody sees a difference.
 
+use pathbuild_db::Role;
+
 use crate::embedding::component;
 use crate::world::World;
 
@@ -30,7 +32,7 @@ fn world() -> World {
 fn a_project_is_judged_without_the_paths_it_embeds() {
     let mut world = world();
     world.db.drop_large();
-    let codes = world.judge("other", "lib/8002.1P.dxf", "8002.1P");
+    let codes = world.judge("other", "lib/8002.1P.dxf", "8002.1P", Role::Emitted);
     assert!(codes.is_empty(), "{codes:?}");
     let ran = world.ran();
     assert!(ran.contains("closure other") && ran.contains("embeddings other"), "{ran:?}");

@@ -1,35 +1,49 @@
 //! Surveyed drawings: what is known of them at once, and that it is what would be found path by path.
 
-use pathbuild_db::{Limits, Role, Settings, Target, check_target, is_clear, locate, path_names};
+use pathbuild_db::{Limits, Role, Settings, Target, check_target, clear, locate, path_names, trace};
 use pathbuild_diagnostic::Diagnostic;
 use salsa::Setter;
 
 use crate::embedding::component;
 use crate::world::World;
 
-const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
 /// Its second path has a variable, its third does not go on.
-const SEVERAL: &str = "layer 1114.1P\nstart 0,50 \"T5 O3 I1 B0\"\nmill 0,50 20,50\nend 20,50\n\
-    layer 1114.2P\nstart 0,60 \"T5 O3 I1 :B0,1\"\nmill 0,60 20,60 \"B=B\"\nend 20,60\n\
-    layer 1114.3P\nstart 0,70 \"T5 O3 I1 B0\"\nmill 0,70 10,70\nend 20,70";
-/// It embeds a path that is nowhere.
-const ASTRAY: &str = "layer 8002.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1119.1P\"\nend 20,0";
+const SEVERAL: &str = "layer 1114.1P\nstart 0,50 \"T5 O3 I1 Mx B0\"\nmill 0,50 20,50\nend 20,50\n\
+    layer 1114.2P\nstart 0,60 \"T5 O3 I1 Mx :B0,1\"\nmill 0,60 20,60 \"B=B\"\nend 20,60\n\
+    layer 1114.3P\nstart 0,70 \"T5 O3 I1 Mx B0\"\nmill 0,70 10,70\nend 20,70";
 
-const DRAWINGS: [(&str, &[&str]); 5] = [
+/// Each drawing with its paths.
+const DRAWINGS: [(&str, &[&str]); 11] = [
     ("lib/1111.1P.dxf", &["1111.1P"]),
     ("lib/1112.1P.dxf", &["1112.1P"]),
-    ("lib/1114.1P.dxf", &["1114.1P", "1114.2P", "1114.3P"]),
+    ("lib/1114.1-1114.3P.dxf", &["1114.1P", "1114.2P", "1114.3P"]),
     ("lib/8001.1P.dxf", &["8001.1P"]),
     ("lib/8002.1P.dxf", &["8002.1P"]),
+    ("lib/8003.1P.dxf", &["8003.1P"]),
+    ("lib/8004.1P.dxf", &["8004.1P"]),
+    ("lib/8005.1P.dxf", &["8005.1P"]),
+    ("lib/8006.1P.dxf", &["8006.1P"]),
+    ("lib/8007.1P.dxf", &["8007.1P"]),
+    ("lib/8008.1P.dxf", &["8008.1P"]),
 ];
+
+fn project(path: &str, embedded: &str, length: u32) -> String {
+    format!("layer {path}\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 {length},0 \"{embedded}\"\nend {length},0")
+}
 
 fn world(is_surveyed: bool) -> World {
     let mut world = World::new(&[
         ("lib/1111.1P.dxf", &component("1111.1P", "0")),
         ("lib/1112.1P.dxf", &component("1112.1P", "9")),
-        ("lib/1114.1P.dxf", SEVERAL),
-        ("lib/8001.1P.dxf", PROJECT),
-        ("lib/8002.1P.dxf", ASTRAY),
+        ("lib/1114.1-1114.3P.dxf", SEVERAL),
+        ("lib/8001.1P.dxf", &project("8001.1P", ">1111.1P", 20)),
+        ("lib/8002.1P.dxf", &project("8002.1P", ">1119.1P", 20)),
+        ("lib/8003.1P.dxf", &project("8003.1P", ">8001.1P", 20)),
+        ("lib/8004.1P.dxf", &project("8004.1P", ">1111.1P", 21)),
+        ("lib/8005.1P.dxf", &project("8005.1P", ">1114.2P :B1", 20)),
+        ("lib/8006.1P.dxf", &project("8006.1P", ">1114.2P :B2", 20)),
+        ("lib/8007.1P.dxf", &project("8007.1P", ">1114.3P", 20)),
+        ("lib/8008.1P.dxf", &project("8008.1P", ">8008.1P", 20)),
     ]);
     if is_surveyed {
         world.db.survey_drawings();
@@ -51,11 +65,11 @@ fn findings(world: &World) -> Vec<(String, Vec<Diagnostic>)> {
     found
 }
 
-fn clear(world: &World) -> Vec<&'static str> {
+fn clear_paths(world: &World) -> Vec<&'static str> {
     let paths = DRAWINGS.iter().flat_map(|(file, paths)| paths.iter().map(move |path| (*file, *path)));
     let is_clear = |(file, path): &(&str, &str)| {
         let (file, name) = world.path(file, path);
-        is_clear(&world.db, file, &name)
+        clear(&world.db, file, &name).is_some()
     };
     paths.filter(is_clear).map(|(_, path)| path).collect()
 }
@@ -67,48 +81,72 @@ fn what_is_found_in_surveyed_drawings_is_what_is_found_in_others() {
     assert_eq!(found, findings(&other));
     let wrong: Vec<&str> =
         found.iter().filter(|(_, found)| !found.is_empty()).map(|(path, _)| path.as_str()).collect();
-    assert_eq!(wrong, ["1112.1P", "1114.3P", "8002.1P"]);
+    assert_eq!(wrong, ["1112.1P", "1114.3P", "8002.1P", "8004.1P", "8006.1P", "8007.1P", "8008.1P"]);
     assert!(found.iter().flat_map(|(_, found)| found).all(|found| found.place.line.is_some()), "{found:?}");
-    let names = |world: &World| path_names(&world.db, world.path("lib/1114.1P.dxf", "").0).to_vec();
+    let names = |world: &World| path_names(&world.db, world.path(DRAWINGS[2].0, "").0).to_vec();
     assert_eq!(names(&surveyed), names(&other));
 }
 
+/// What embeds a path that embeds others is looked at more closely.
 #[test]
-fn a_path_is_clear_if_nothing_is_found_in_it_and_it_embeds_nothing() {
-    assert_eq!(clear(&world(true)), ["1111.1P", "1114.1P", "1114.2P"]);
-    assert!(clear(&world(false)).is_empty());
+fn a_path_is_clear_if_nothing_is_found_in_it_or_what_it_embeds() {
+    assert_eq!(clear_paths(&world(true)), ["1111.1P", "1114.1P", "1114.2P", "8001.1P", "8005.1P"]);
+    assert!(clear_paths(&world(false)).is_empty());
     let surveyed = world(true);
     let (file, name) = surveyed.path("lib/1111.1P.dxf", "1119.1P");
-    assert!(!is_clear(&surveyed.db, file, &name));
+    assert!(clear(&surveyed.db, file, &name).is_none());
 }
 
 #[test]
-fn a_path_beyond_the_limit_of_moves_is_not_clear() {
-    let mut world = world(true);
-    let moves = |world: &mut World, moves| {
-        let limits = Limits { moves, ..Limits::default() };
-        Settings::get(&world.db).set_limits(&mut world.db).to(limits);
-    };
-    let least = (0..1000).find(|least| {
-        moves(&mut world, *least);
-        clear(&world).contains(&"1111.1P")
-    });
-    let least = least.expect("some number of moves is enough");
-    let too_many =
-        |world: &World| findings(world)[0].1.iter().any(|found| found.code().to_string() == "PB005");
-    assert!(!too_many(&world));
-    moves(&mut world, least - 1);
-    assert!(too_many(&world));
+fn a_clear_path_has_the_trace_that_it_would_have_else() {
+    let world = world(true);
+    for file in ["lib/1111.1P.dxf", "lib/8001.1P.dxf", "lib/8005.1P.dxf"] {
+        let (file, name) = world.path(file, file.strip_prefix("lib/").unwrap().strip_suffix(".dxf").unwrap());
+        let target = Target::new(&world.db, file, name.as_str().into(), Role::Checked);
+        let clear = clear(&world.db, file, &name).unwrap();
+        assert_eq!(clear.trace(&world.db, file), *trace(&world.db, target));
+        let reached: Vec<_> = std::iter::once(file).chain(clear.files()).collect();
+        assert_eq!(reached, trace(&world.db, target).files);
+    }
 }
 
-/// A library is gone through with one query for each drawing that embeds nothing.
+#[test]
+fn a_path_beyond_a_limit_is_not_clear() {
+    let most = Limits::default();
+    let limits = [
+        ("1111.1P", (|moves| Limits { moves, ..Limits::default() }) as fn(u64) -> Limits),
+        ("8001.1P", |moves| Limits { moves, ..Limits::default() }),
+        ("8001.1P", |paths| Limits { paths, ..Limits::default() }),
+    ];
+    for (path, limits) in limits {
+        let mut world = world(true);
+        let set = |world: &mut World, limits| Settings::get(&world.db).set_limits(&mut world.db).to(limits);
+        let least = (0..1000).find(|least| {
+            _ = set(&mut world, limits(*least));
+            clear_paths(&world).contains(&path)
+        });
+        let is_refused = |world: &World| {
+            let found = findings(world).into_iter().find(|(found, _)| found == path).unwrap().1;
+            found.iter().any(|found| found.code().to_string() == "PB005")
+        };
+        assert!(!is_refused(&world), "{path}");
+        _ = set(&mut world, limits(least.unwrap() - 1));
+        assert!(is_refused(&world), "{path}");
+        _ = set(&mut world, most);
+        assert!(!is_refused(&world), "{path}");
+    }
+}
+
+/// A library is gone through with one query for each drawing of which there is nothing to say.
 #[test]
 fn nothing_large_is_asked_of_what_is_clear() {
     let mut world = world(true);
-    world.judge("project", "lib/8001.1P.dxf", "8001.1P");
+    world.judge("nested", "lib/8003.1P.dxf", "8003.1P", Role::Checked);
     let ran = world.ran();
-    assert!(ran.contains("survey project") && ran.contains("closure project"), "{ran:?}");
-    for query in ["raw_file", "path_names", "file_report", "head", "summary", "find_path", "files_for"] {
-        assert!(!ran.contains(&format!("{query} project")), "{query}: {ran:?}");
+    assert!(ran.contains("survey nested") && ran.contains("closure nested"), "{ran:?}");
+    for query in
+        ["raw_file", "path", "path_names", "file_report", "head", "summary", "find_path", "files_for"]
+    {
+        assert!(!ran.contains(&format!("{query} nested")), "{query}: {ran:?}");
     }
 }

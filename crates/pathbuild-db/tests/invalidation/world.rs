@@ -79,14 +79,14 @@ impl World {
 
     /// Asks for a path to be emitted, and remembers what ran for the first time.
     pub(crate) fn ask(&mut self, label: &'static str, file: &str, path: &str) {
-        let target = self.new_target(label, file, path);
+        let target = self.new_target(label, file, path, Role::Emitted);
         outcome(&self.db, target);
         self.note(label);
     }
 
     /// Asks what is wrong with a path, and no more: the codes.
-    pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str) -> Vec<String> {
-        let target = self.new_target(label, file, path);
+    pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Vec<String> {
+        let target = self.new_target(label, file, path, role);
         let codes = check_target(&self.db, target).iter().map(|found| found.code().to_string()).collect();
         self.note(label);
         codes
@@ -102,8 +102,8 @@ impl World {
         (self.db.file(file.into()), PathName::new(path))
     }
 
-    fn new_target(&mut self, label: &'static str, file: &str, path: &str) -> Target {
-        let target = Target::new(&self.db, self.db.file(file.into()), path.into(), Role::Emitted);
+    fn new_target(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Target {
+        let target = Target::new(&self.db, self.db.file(file.into()), path.into(), role);
         self.targets.push((label, target));
         self.log.lock().unwrap().clear();
         target

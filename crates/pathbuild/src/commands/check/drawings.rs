@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, is_clear, path_names};
+use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, clear, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
@@ -46,13 +46,20 @@ pub(super) fn check_library(
 fn check_surveyed(asking: &Asking<'_>, file: SourceFile) -> (DrawingResult, Vec<Trace>) {
     let db = asking.db();
     let names = path_names(db, file);
-    let open = names.iter().filter(|name| !is_clear(db, file, name));
-    let checked: Vec<CheckedTarget> =
-        open.map(|name| asking.check(Target::new(db, file, name.as_str().into(), Role::Checked))).collect();
-    let diagnostics = checked.iter().flat_map(|checked| &checked.diagnostics).cloned().collect();
-    let asked = Asked { file, names: names.into() };
-    let traces = if asking.is_traced() { traces(file, &checked) } else { Vec::new() };
-    (result(db, &asked, &checked, diagnostics), traces)
+    let (mut diagnostics, mut reached) = (Vec::new(), vec![file]);
+    let mut traces = own_trace(asking.is_traced(), file);
+    for name in names {
+        if let Some(clear) = clear(db, file, name) {
+            reached.extend(clear.files());
+            traces.extend(asking.is_traced().then(|| clear.trace(db, file)));
+        } else {
+            let checked = asking.check(Target::new(db, file, name.as_str().into(), Role::Checked));
+            diagnostics.extend(checked.diagnostics);
+            reached.extend(checked.files);
+            traces.extend(checked.trace);
+        }
+    }
+    (result(db, names, diagnostics, reached), traces)
 }
 
 /// What is found in paths of drawings, and in the drawings.
@@ -69,8 +76,11 @@ pub(super) fn check_paths(
         let checked: Vec<CheckedTarget> = results.by_ref().take(questions.targets.len()).collect();
         let mut diagnostics = questions.warnings;
         diagnostics.extend(found(session, &checked, with_all_values));
-        let traces = if session.is_traced() { traces(asked.file, &checked) } else { Vec::new() };
-        (result(session.db(), asked, &checked, diagnostics), traces)
+        let files = checked.iter().flat_map(|checked| &checked.files);
+        let reached = std::iter::once(&asked.file).chain(files).copied().collect();
+        let mut traces = own_trace(session.is_traced(), asked.file);
+        traces.extend(checked.iter().filter_map(|checked| checked.trace.clone()));
+        (result(session.db(), &asked.names, diagnostics, reached), traces)
     };
     asked.iter().zip(questions).map(&mut of_drawing).collect()
 }
@@ -112,23 +122,19 @@ fn found(session: &Session<'_>, checked: &[CheckedTarget], with_all_values: bool
 /// Adds to what is found in a drawing's paths what is wrong with the files that they reach.
 fn result(
     db: &Database,
-    asked: &Asked<'_>,
-    checked: &[CheckedTarget],
+    names: &[PathName],
     mut diagnostics: Vec<Diagnostic>,
+    mut reached: Vec<SourceFile>,
 ) -> DrawingResult {
-    let mut reached = vec![asked.file];
-    reached.extend(checked.iter().flat_map(|checked| &checked.files).copied().filter(|it| *it != asked.file));
     if reached.len() > 1 {
         reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
         reached.dedup();
     }
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
-    let names = asked.names.iter().map(|name| name.as_str().into()).collect();
-    DrawingResult { names, diagnostics }
+    DrawingResult { names: names.iter().map(|name| name.as_str().into()).collect(), diagnostics }
 }
 
-/// What a drawing's results were found from.
-fn traces(file: SourceFile, checked: &[CheckedTarget]) -> Vec<Trace> {
-    let own = Trace { files: vec![file], lookups: Vec::new() };
-    std::iter::once(own).chain(checked.iter().filter_map(|checked| checked.trace.clone())).collect()
+/// What a drawing's results were found from whatever its paths are, where that is noted.
+fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
+    if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }
