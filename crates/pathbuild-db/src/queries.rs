@@ -20,6 +20,7 @@ mod lookup;
 mod q_projects;
 mod raw;
 mod reach;
+mod reading;
 mod report;
 mod survey;
 mod texts;
@@ -43,7 +44,7 @@ pub use report::{check_file, check_target, locate};
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
 
-pub(crate) use raw::internal_error;
+pub(crate) use reading::internal_error;
 
 /// Keeps at most so many results of each of the queries whose values are large and can be made again from a file.
 pub(crate) fn bound(db: &mut dyn Db, kept: usize) {

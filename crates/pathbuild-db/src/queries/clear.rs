@@ -58,7 +58,8 @@ fn clear_path(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<Clear> {
         }
     }
     let limits: Limits = Settings::get(db).limits(db);
-    (moves <= limits.moves && clear.embedded.len() as u64 + 1 <= limits.paths).then_some(clear)
+    // Itself is one more path.
+    (moves <= limits.moves && (clear.embedded.len() as u64) < limits.paths).then_some(clear)
 }
 
 fn subpaths(path: &Path) -> impl Iterator<Item = (&Segment, &Subpath)> {

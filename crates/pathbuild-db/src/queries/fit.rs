@@ -25,7 +25,7 @@ pub(super) fn bindings(subpath: &Subpath) -> Bindings {
     Bindings::new(subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone()))))
 }
 
-impl<'db> Outer<'db> {
+impl Outer<'_> {
     /// What keeps it from embedding a path of this name: E, or a restriction.
     pub(super) fn forbidden(&self, name: &PathName) -> Option<Diagnostic> {
         let problem =

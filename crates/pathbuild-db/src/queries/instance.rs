@@ -5,7 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Path, RawPath, Walked};
 
-use super::raw::{NameKey, internal_error, raw_path};
+use super::raw::{NameKey, raw_path};
+use super::reading::internal_error;
 use super::survey::surveyed;
 use crate::database::Db;
 use crate::inputs::SourceFile;

@@ -1,19 +1,14 @@
-//! Reading drawings: a file to its raw paths.
+//! The raw paths of files, and what else was read from them.
 
-use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_dxf::Options;
 use pathbuild_path::{PathName, Position, RawPath, SourceMap};
 
+use super::reading::read;
 use super::survey::{SurveyedPath, surveyed};
 use crate::database::Db;
 use crate::inputs::SourceFile;
-use crate::settings::{Reading, Settings};
-use crate::system::ReadError;
 
 /// A path's name without regard to case, as a key.
 #[salsa::interned(debug)]
@@ -63,26 +58,6 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let (paths, report) = read(db, file);
     let entry = |(raw, map)| PathEntry { raw: Arc::new(raw), map };
     FileContents::new(paths.into_iter().map(entry).collect(), report)
-}
-
-/// The paths of a drawing with where their elements are in the file, and what is known of it as a whole.
-pub(super) fn read(db: &dyn Db, file: SourceFile) -> (Vec<(RawPath, SourceMap)>, FileReport) {
-    // Asked for first: it stands for the bytes that are read behind salsa's back.
-    file.revision(db);
-    let settings = Settings::get(db);
-    let reading = settings.reading(db);
-    let mut hash = None;
-    let read = with_bytes(db, file, reading.file_size, |bytes| {
-        // Of these bytes, not of what a second look would find: they are what is compiled.
-        hash = reading.is_hashed.then(|| *blake3::hash(bytes).as_bytes());
-        parse(bytes, reading, settings.language(db))
-    });
-    let read = read.unwrap_or_else(|error| Err(Box::new(unreadable(error, reading))));
-    let raw = read
-        .unwrap_or_else(|problem| pathbuild_path::RawFile { paths: Vec::new(), diagnostics: vec![*problem] });
-    let in_this_file = |diagnostic: Diagnostic| diagnostic.in_file(file.path(db));
-    let diagnostics = raw.diagnostics.into_iter().map(in_this_file).collect();
-    (raw.paths, FileReport { diagnostics, hash })
 }
 
 impl FileContents {
@@ -202,67 +177,6 @@ pub(super) fn file_diagnostics(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
 /// The hash of the bytes that a file's paths were read from; `None` where it could not be read, or the settings do not ask for hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
     file_report(db, file).hash
-}
-
-thread_local! {
-    /// Where drawings are read into, one after the other.
-    static BYTES: Cell<Vec<u8>> = const { Cell::new(Vec::new()) };
-}
-
-/// As much memory is kept for the next drawing; few have more bytes.
-const KEPT: usize = 1 << 20;
-
-/// Works on the bytes of a drawing.
-fn with_bytes<R>(
-    db: &dyn Db,
-    file: SourceFile,
-    limit: u64,
-    work: impl FnOnce(&[u8]) -> R,
-) -> Result<R, ReadError> {
-    let mut bytes = BYTES.take();
-    let result = db.system().read_into(file.path(db), limit, &mut bytes).map(|()| work(&bytes));
-    if bytes.capacity() <= KEPT {
-        BYTES.set(bytes);
-    }
-    result
-}
-
-/// A panic in here is a bug that one file shows: it must not keep the others from being read.
-fn parse(
-    bytes: &[u8],
-    reading: &Reading,
-    language: &pathbuild_path::Language,
-) -> Result<pathbuild_path::RawFile, Box<Diagnostic>> {
-    let read = || {
-        let options = Options {
-            keep_layer: &|layer| language.path_pattern.is_layer(layer),
-            units: reading.units,
-            approximate_curves: reading.approximate_curves,
-            max_entities: reading.entities,
-            max_text: reading.text_length,
-        };
-        pathbuild_path::raw_file(&pathbuild_dxf::read(bytes, &options), language)
-    };
-    catch_unwind(AssertUnwindSafe(read)).map_err(|payload| Box::new(internal_error(&*payload)))
-}
-
-/// PB006 for a panic that is not salsa's own way of cancelling.
-pub(crate) fn internal_error(payload: &(dyn std::any::Any + Send)) -> Diagnostic {
-    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
-    Diagnostic::new(&messages::INTERNAL).with("reason", reason)
-}
-
-fn unreadable(error: ReadError, reading: &Reading) -> Diagnostic {
-    match error {
-        ReadError::Missing => Diagnostic::new(&messages::MISSING),
-        ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
-        ReadError::Other(reason) => Diagnostic::new(&messages::UNREADABLE).with("reason", &*reason),
-        ReadError::TooLarge { size } => Diagnostic::new(&messages::LIMIT)
-            .with("what", format!("the file's size of {size} bytes"))
-            .with("limit", format!("{} bytes", reading.file_size))
-            .with("key", "file-size"),
-    }
 }
 
 /// See [`bound`](super::bound).

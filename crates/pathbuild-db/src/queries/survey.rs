@@ -7,7 +7,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use pathbuild_path::{Bindings, Path, PathName, RawPath, SourceMap};
 
 use super::brief::{Head, Summary, new_summary};
-use super::raw::{FileReport, read};
+use super::raw::FileReport;
+use super::reading::read;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 
@@ -30,9 +31,9 @@ pub(super) struct SurveyedPath {
     /// What comes of it with these; nothing where that shows a bug, which is reported when it shows again.
     summary: Option<Summary>,
     /// The path with these values, where it embeds others.
-    path: Option<Path>,
+    path: Option<Box<Path>>,
     /// What was read, where it has variables.
-    raw: Option<RawPath>,
+    raw: Option<Box<RawPath>>,
     /// Where its elements are, if that will be asked for.
     map: Option<SourceMap>,
 }
@@ -82,8 +83,8 @@ impl SurveyedPath {
         let has_variables = !examples.is_empty();
         Self {
             head,
-            path: path.flatten().filter(|_| has_subpaths),
-            raw: has_variables.then_some(raw),
+            path: path.flatten().filter(|_| has_subpaths).map(Box::new),
+            raw: has_variables.then(|| Box::new(raw)),
             map: (has_variables || has_subpaths || !is_clear).then_some(map),
             examples,
             summary,
@@ -97,17 +98,17 @@ impl SurveyedPath {
 
     /// The path with these values, if they are the example values and it embeds others.
     pub(super) fn path_with(&self, bindings: &Bindings) -> Option<&Path> {
-        self.path.as_ref().filter(|_| self.examples == *bindings)
+        self.path.as_deref().filter(|_| self.examples == *bindings)
     }
 
     /// What comes of it with the example values, and the path if it embeds others.
     pub(super) fn with_examples(&self) -> Option<(&Summary, Option<&Path>)> {
-        Some((self.summary.as_ref()?, self.path.as_ref()))
+        Some((self.summary.as_ref()?, self.path.as_deref()))
     }
 
     /// What was read, where it was kept.
     pub(super) fn raw(&self) -> Option<&RawPath> {
-        self.raw.as_ref()
+        self.raw.as_deref()
     }
 
     /// Where its elements are, where that was kept.

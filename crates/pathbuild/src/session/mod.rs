@@ -133,7 +133,7 @@ impl<'a> Session<'a> {
 
     /// The drawing under a path.
     pub fn file(&self, path: &Utf8Path) -> SourceFile {
-        self.db.file(&self.normal(path))
+        if self.is_normal(path) { self.db.file(path) } else { self.db.file(&self.normal(path)) }
     }
 
     /// The one spelling of a path: relative to the working directory where it lies below it, without `.` and `x/..`.
@@ -143,12 +143,16 @@ impl<'a> Session<'a> {
 
     /// The same of a path that nobody else needs.
     fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
-        if is_normal(&path) { path } else { self.normal(&path) }
+        if self.is_normal(&path) { path } else { self.normal(&path) }
+    }
+
+    fn is_normal(&self, path: &Utf8Path) -> bool {
+        is_normal(path, &self.context.working_directory)
     }
 }
 
 fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
-    if is_normal(path) {
+    if is_normal(path, working_directory) {
         return path.to_owned();
     }
     let relative = path.strip_prefix(working_directory).unwrap_or(path);
@@ -167,8 +171,10 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     normal
 }
 
-/// Whether a path is relative and has nothing to be taken away, as nearly all have.
-fn is_normal(path: &Utf8Path) -> bool {
+/// Whether a path has nothing to be taken away, as nearly all have: it is relative, or lies somewhere else than below the working directory.
+fn is_normal(path: &Utf8Path, working_directory: &Utf8Path) -> bool {
     let is_redundant = |part: &str| matches!(part, "" | "." | "..");
-    !cfg!(windows) && !path.as_str().split('/').any(is_redundant)
+    let below_root =
+        path.as_str().strip_prefix('/').filter(|_| !path.as_str().starts_with(working_directory.as_str()));
+    !cfg!(windows) && !below_root.unwrap_or(path.as_str()).split('/').any(is_redundant)
 }
