@@ -1,11 +1,11 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
-use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
+use std::collections::{BTreeMap, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
 use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
+use smol_str::SmolStr;
 
 use crate::curves::{Tolerance, TooManyPieces};
 use crate::faults::Fatal;
@@ -19,7 +19,7 @@ use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 pub(crate) struct Collector {
     drawing: Drawing,
     /// Numbers of [`Drawing::layers`] by folded name.
-    layers: HashMap<Box<str>, u32>,
+    layers: BTreeMap<SmolStr, u32>,
     /// For each of them, whether an invisible entity was found.
     has_invisible: Vec<bool>,
     /// The layer that the last entity was on.
@@ -49,7 +49,7 @@ pub(crate) struct Placed<'p> {
     pub(crate) layer_id: LayerId,
     pub(crate) layer: &'p UsedLayer,
     /// Resolved.
-    pub(crate) line_type: &'p Arc<str>,
+    pub(crate) line_type: &'p SmolStr,
     /// Its own place in the file, for what is wrong with it.
     pub(crate) own: Origin,
     /// That of the insertion it comes with, or its own.
@@ -76,7 +76,7 @@ impl Collector {
                 origins: Vec::with_capacity(USUAL),
                 ..Drawing::default()
             },
-            layers: HashMap::new(),
+            layers: BTreeMap::new(),
             has_invisible: Vec::new(),
             last: None,
             faulty: HashSet::new(),
@@ -233,7 +233,7 @@ impl Collector {
     fn new_layer(&mut self, used: &UsedLayer) -> u32 {
         let layer = u32::try_from(self.drawing.layers.len()).unwrap_or(u32::MAX);
         self.layers.insert(used.folded.clone(), layer);
-        self.drawing.layers.push(Layer { name: used.name.clone(), hidden: used.hidden });
+        self.drawing.layers.push(Layer { name: used.name.as_str().into(), hidden: used.hidden });
         self.has_invisible.push(false);
         layer
     }

@@ -1,6 +1,5 @@
-use std::sync;
-
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
+use smol_str::SmolStr;
 
 /// What the reader is told.
 pub struct Options<'a> {
@@ -93,7 +92,7 @@ pub struct Entity {
     pub layer: u32,
     /// The line type: its own, or its layer's where it says BYLAYER or nothing; CONTINUOUS for BYBLOCK in model space. Trimmed, without
     /// xref prefix, upper case.
-    pub line_type: sync::Arc<str>,
+    pub line_type: SmolStr,
     /// The entity in the file that it comes from: LINE, or LWPOLYLINE for a part of one.
     pub kind: EntityKind,
     /// Parts of the same polyline (or approximated curve) have the same number: a text that overlaps one of them belongs to all.
@@ -157,7 +156,7 @@ pub struct Circle {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     /// The string: decoded, `%%c` and the like not yet replaced.
-    pub string: Box<str>,
+    pub string: SmolStr,
     /// The point that the alignment is relative to: 11/21 where 72 or 73 say so, the middle of 10/20 and 11/21 for 72 = 3 and 5.
     pub anchor: Point3,
     /// Height in mm.
@@ -177,10 +176,8 @@ pub struct Text {
 /// A text of several lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MText {
-    /// The joined chunks, decoded, with their formatting codes.
-    pub raw: Box<str>,
     /// Plain text as spec/10-drawing.md defines it: line breaks as `\n`, `%%c` and the like not yet replaced.
-    pub plain: Box<str>,
+    pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,
     /// Height of a line's letters in mm.

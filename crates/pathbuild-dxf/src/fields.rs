@@ -112,7 +112,7 @@ impl<'a> Fields<'a> {
     fn keep(&mut self, group: &Group<'a>, repeats: u64) {
         let slot = group.role.slot();
         if let Some(value) = self.slots.get_mut(slot) {
-            *value = Value { bytes: group.raw, line: group.line, entity: self.entity };
+            *value = Value { bytes: group.raw, line: group.line(), entity: self.entity };
         }
         if repeats != 0 && slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
             self.repeated.push(group.pair());
@@ -130,7 +130,7 @@ impl<'a> Fields<'a> {
         match group.role {
             Role::BEGIN => return Ok(Some((group.pair(), Want::Keep))),
             Role::LAYER => {
-                let value = Value { bytes: without_cr(group.raw), line: group.line, entity: self.entity };
+                let value = Value { bytes: without_cr(group.raw), line: group.line(), entity: self.entity };
                 if want(value) == Want::Skip {
                     return Ok(Some((groups.next_zero()?, Want::Skip)));
                 }

@@ -1,6 +1,7 @@
 //! The layers of a block, as far as they show while its end is looked for.
 
 use crate::code::Role;
+use crate::encoding::is_plain;
 use crate::entities::is_end;
 use crate::fields::Value;
 use crate::groups::{Group, Groups};
@@ -54,10 +55,5 @@ fn layer_named<'a>(groups: &mut Groups<'a>, line: u32) -> Result<(Pair<'a>, Opti
 }
 
 fn value<'a>(group: &Group<'a>) -> Value<'a> {
-    Value::new(without_cr(group.raw), group.line)
-}
-
-/// Whether these are characters as they stand.
-fn is_plain(text: &[u8]) -> bool {
-    text.is_ascii() && !text.contains(&b'\\')
+    Value::new(without_cr(group.raw), group.line())
 }

@@ -10,7 +10,7 @@ pub(crate) struct Group<'a> {
     /// What its code says.
     pub(crate) role: Role,
     /// 1-based line of the code.
-    pub(crate) line: u32,
+    line: u64,
     /// The value, which may still have the CR of its line end.
     pub(crate) raw: &'a [u8],
 }
@@ -27,13 +27,19 @@ pub(crate) struct Groups<'a> {
 #[derive(Clone, Copy)]
 struct Ahead<'a> {
     line_ends: LineEnds<'a>,
-    line: u32,
+    line: u64,
 }
 
 impl<'a> Group<'a> {
+    /// 1-based line of the code.
+    #[inline]
+    pub(crate) fn line(&self) -> u32 {
+        shown(self.line)
+    }
+
     /// As a pair; one that only has a role has no code.
     pub(crate) fn pair(&self) -> Pair<'a> {
-        Pair { code: self.role.code().unwrap_or(-1), line: self.line, value: without_cr(self.raw) }
+        Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: without_cr(self.raw) }
     }
 }
 
@@ -45,7 +51,7 @@ impl<'a> Groups<'a> {
 
     /// Where the next one begins.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
-        self.begin.at(self.begin.bytes().len() - self.ahead.line_ends.rest().len(), self.ahead.line)
+        self.begin.at(self.begin.bytes().len() - self.ahead.line_ends.rest().len(), shown(self.ahead.line))
     }
 
     /// The next one for which `is_end`; those before are handed to `pass`.
@@ -86,28 +92,27 @@ impl<'a> Groups<'a> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
         self.ahead = Ahead::new(&pairs);
-        Ok(Group { role: Role::of(code), line, raw: value })
+        Ok(Group { role: Role::of(code), line: line.into(), raw: value })
     }
 }
 
 impl<'a> Ahead<'a> {
     fn new(pairs: &Pairs<'a>) -> Self {
-        Self { line_ends: LineEnds::new(&pairs.bytes()[pairs.consumed()..]), line: pairs.line() }
+        Self { line_ends: LineEnds::new(&pairs.bytes()[pairs.consumed()..]), line: pairs.line().into() }
     }
 
     /// The next pair, unless it is to be read with care: its code is written in an unusual way, its value is long, or the file ends.
     #[inline]
     fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
-        loop {
-            let (length, role) = Role::of_line(*self.line_ends.rest().first_chunk()?, code_end)?;
-            if let Some(raw) = self.line_ends.next_value(length) {
-                let line = self.line;
-                self.line = line.saturating_add(2);
-                return Some(Group { role, line, raw });
-            }
-            if !self.line_ends.look_ahead(code_end.last()) {
-                return None;
-            }
-        }
+        let (role, raw) = self.line_ends.next_pair(code_end)?;
+        let line = self.line;
+        self.line += 2;
+        Some(Group { role, line, raw })
     }
+}
+
+/// The number of a line as it is said.
+#[inline]
+fn shown(line: u64) -> u32 {
+    u32::try_from(line).unwrap_or(u32::MAX)
 }

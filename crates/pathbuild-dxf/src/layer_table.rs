@@ -1,9 +1,13 @@
 //! The LAYER table: the line types of layers, and which of them are frozen or off. (spec/10-drawing.md)
 //!
-//! Hardly any of a drawing's layers is ever looked for, so records are kept as they stand, in the order of their names.
+//! Hardly any of a drawing's layers is ever looked for, so records are kept as they stand, and put in the order of their names when the
+//! first is looked for.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
+
+use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::fields::Fields;
@@ -16,7 +20,7 @@ use crate::number::{real, whole};
 pub(crate) struct LayerTable<'a> {
     records: Vec<LayerRecord<'a>>,
     /// What records are found by, in order.
-    keys: Vec<Key>,
+    keys: OnceCell<Vec<Key>>,
 }
 
 /// A layer of the table.
@@ -41,21 +45,7 @@ struct Key {
 impl<'a> LayerTable<'a> {
     /// A table of these records.
     pub(crate) fn new(records: Vec<LayerRecord<'a>>) -> Self {
-        let mut keys = Vec::with_capacity(records.len());
-        for (record, LayerRecord { name, .. }) in records.iter().enumerate() {
-            keys.push(Key { record, begin: 0 });
-            let name = name.text();
-            let begin = name.len() - without_xref(name).len();
-            keys.extend((begin > 0).then_some(Key { record, begin }));
-        }
-        let mut table = Self { records, keys: Vec::new() };
-        // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
-        keys.sort_unstable_by(|a, b| {
-            let same_name = || (a.begin > 0, a.record).cmp(&(b.begin > 0, b.record));
-            compare_ascii(table.name(*a), table.name(*b)).then_with(same_name)
-        });
-        table.keys = keys;
-        table
+        Self { records, keys: OnceCell::new() }
     }
 
     /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
@@ -66,8 +56,24 @@ impl<'a> LayerTable<'a> {
 
     fn find(&self, name: &str) -> Option<&LayerRecord<'a>> {
         let is_before = |other: &Key| compare_ascii(self.name(*other), name) == Ordering::Less;
-        let first = self.keys.get(self.keys.partition_point(is_before))?;
+        let keys = self.keys.get_or_init(|| self.sorted_keys());
+        let first = keys.get(keys.partition_point(is_before))?;
         compare_ascii(self.name(*first), name).is_eq().then(|| &self.records[first.record])
+    }
+
+    fn sorted_keys(&self) -> Vec<Key> {
+        let mut keys = Vec::with_capacity(self.records.len());
+        for (record, LayerRecord { name, .. }) in self.records.iter().enumerate() {
+            let begin = name.text().len() - without_xref(name.text()).len();
+            keys.push(Key { record, begin: 0 });
+            keys.extend((begin > 0).then_some(Key { record, begin }));
+        }
+        // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
+        keys.sort_unstable_by(|a, b| {
+            let same_name = || (a.begin > 0, a.record).cmp(&(b.begin > 0, b.record));
+            compare_ascii(self.name(*a), self.name(*b)).then_with(same_name)
+        });
+        keys
     }
 
     fn name(&self, key: Key) -> &str {
@@ -88,7 +94,7 @@ impl<'a> LayerRecord<'a> {
     }
 
     /// The line type, upper case, if it has one.
-    pub(crate) fn line_type(&self) -> Option<Box<str>> {
+    pub(crate) fn line_type(&self) -> Option<SmolStr> {
         self.line_type.as_deref().map(line_type_name).filter(|name| !name.is_empty())
     }
 

@@ -4,7 +4,8 @@
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
-use std::sync::Arc;
+
+use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::layer_table::{LayerRecord, LayerTable};
@@ -39,11 +40,11 @@ struct FoundLayer<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct UsedLayer {
     /// Trimmed, decoded, without xref prefix.
-    pub(crate) name: Box<str>,
+    pub(crate) name: SmolStr,
     /// What it is compared by.
-    pub(crate) folded: Box<str>,
+    pub(crate) folded: SmolStr,
     /// Its line type, upper case.
-    pub(crate) line_type: Arc<str>,
+    pub(crate) line_type: SmolStr,
     /// Frozen or off.
     pub(crate) hidden: bool,
 }
@@ -113,8 +114,8 @@ impl<'a, 'o> Layers<'a, 'o> {
         let line_type = record.and_then(LayerRecord::line_type);
         UsedLayer {
             name: name.into(),
-            folded: folded(name).into(),
-            line_type: line_type.map_or_else(|| CONTINUOUS.into(), Arc::from),
+            folded: folded(name),
+            line_type: line_type.unwrap_or(CONTINUOUS),
             hidden: record.is_some_and(LayerRecord::is_hidden),
         }
     }

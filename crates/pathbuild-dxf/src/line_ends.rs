@@ -5,11 +5,15 @@
 
 use wide::u8x16;
 
+use crate::code::{CodeEnd, Role};
+
 /// The pairs ahead, with the line ends of some of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LineEnds<'a> {
     /// From the first byte that was looked at to the end of the file.
     bytes: &'a [u8],
+    /// As many of them as were looked at, and some more.
+    block: &'a [u8; LENGTH + CODE],
     /// Where the next pair begins in there.
     at: usize,
     /// The line ends behind, of the bytes that were looked at: bit n for byte n.
@@ -19,38 +23,51 @@ pub(crate) struct LineEnds<'a> {
 /// How many bytes are looked at together.
 const LENGTH: usize = 64;
 
+/// How many bytes the line of a code has at most.
+const CODE: usize = 8;
+
 impl<'a> LineEnds<'a> {
     /// Nothing was looked at yet of these bytes, which a pair begins with.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, ends: 0 }
+        Self { bytes, block: &[0; LENGTH + CODE], at: 0, ends: 0 }
     }
 
     /// The bytes from the next pair on.
-    #[inline]
     pub(crate) fn rest(&self) -> &'a [u8] {
         self.bytes.get(self.at..).unwrap_or_default()
     }
 
-    /// Looks at the bytes from the next pair on. Gives back whether this has told anything new.
+    /// Passes over the next pair, and gives back the role of its code, and its value. Not if it is long, if its code is written in an
+    /// unusual way, or if the bytes end soon.
     #[inline]
-    pub(crate) fn look_ahead(&mut self, line_end: u8) -> bool {
-        let rest = self.rest();
-        let Some(block) = rest.first_chunk().filter(|_| self.at > 0 || self.ends == 0) else { return false };
-        *self = Self { bytes: rest, at: 0, ends: places(block, line_end) };
-        true
+    pub(crate) fn next_pair(&mut self, code_end: CodeEnd) -> Option<(Role, &'a [u8])> {
+        let mut value_ends = without_first(self.ends);
+        if value_ends == 0 {
+            self.look_ahead(code_end.last())?;
+            value_ends = without_first(self.ends);
+            if value_ends == 0 {
+                return None;
+            }
+        }
+        // Two line ends are behind it, so this is no other place; but like that it shows.
+        let at = self.at % LENGTH;
+        let (length, role) = Role::of_line(*self.block[at..].first_chunk()?, code_end)?;
+        let end = value_ends.trailing_zeros() as usize;
+        // Whether there is a CR is nothing to branch on.
+        let has_cr = usize::from(self.block[end - 1] == b'\r');
+        let value = self.block.get(at + length..end - has_cr)?;
+        (self.at, self.ends) = (end + 1, without_first(value_ends));
+        Some((role, value))
     }
 
-    /// Passes over the next pair, whose value begins so many bytes on, and gives back the value; unless it ends behind what was looked at.
+    /// Looks for line ends from the next pair on.
     #[inline]
-    pub(crate) fn next_value(&mut self, begin: usize) -> Option<&'a [u8]> {
-        let ends = without_first(self.ends);
-        if ends == 0 {
-            return None;
-        }
-        let end = ends.trailing_zeros() as usize;
-        let value = self.bytes.get(self.at + begin..end)?;
-        (self.at, self.ends) = (end + 1, without_first(ends));
-        Some(value)
+    fn look_ahead(&mut self, line_end: u8) -> Option<()> {
+        let bytes = self.rest();
+        let block = bytes.first_chunk()?;
+        let (seen, _) = block.split_first_chunk()?;
+        *self = Self { bytes, block, at: 0, ends: places(seen, line_end) };
+        Some(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! The line types of entities. (spec/10-drawing.md, "Line types")
 
-use std::sync::Arc;
+use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::fields::Value;
@@ -8,7 +8,7 @@ use crate::names::{folded, without_xref};
 use crate::spellings::Spellings;
 
 /// What is taken where nothing is said.
-pub(crate) const CONTINUOUS: &str = "CONTINUOUS";
+pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 
 /// What an entity says about its line type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,9 +26,9 @@ pub(crate) enum LineType {
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
     last: Option<(&'a [u8], LineType)>,
-    /// Shared by the entities that have them: most drawings know three or four.
-    names: Vec<Arc<str>>,
-    continuous: Arc<str>,
+    /// Most drawings know three or four.
+    names: Vec<SmolStr>,
+    continuous: SmolStr,
 }
 
 impl Default for LineTypes<'_> {
@@ -37,7 +37,7 @@ impl Default for LineTypes<'_> {
             by_spelling: Spellings::default(),
             last: None,
             names: Vec::new(),
-            continuous: CONTINUOUS.into(),
+            continuous: CONTINUOUS,
         }
     }
 }
@@ -59,12 +59,12 @@ impl<'a> LineTypes<'a> {
     }
 
     /// The name of this number: upper case, without xref prefix.
-    pub(crate) fn name(&self, number: u32) -> &Arc<str> {
+    pub(crate) fn name(&self, number: u32) -> &SmolStr {
         &self.names[number as usize]
     }
 
     /// What is taken where nothing is said.
-    pub(crate) fn continuous(&self) -> &Arc<str> {
+    pub(crate) fn continuous(&self) -> &SmolStr {
         &self.continuous
     }
 
@@ -74,7 +74,7 @@ impl<'a> LineTypes<'a> {
             "" | "BYLAYER" => LineType::ByLayer,
             "BYBLOCK" => LineType::ByBlock,
             _ => {
-                self.names.push(name.into());
+                self.names.push(name);
                 LineType::Named(u32::try_from(self.names.len() - 1).unwrap_or(u32::MAX))
             }
         };
@@ -84,6 +84,6 @@ impl<'a> LineTypes<'a> {
 }
 
 /// A line type's name as it is compared: trimmed, without xref prefix, upper case.
-pub(crate) fn line_type_name(name: &str) -> Box<str> {
-    folded(without_xref(name)).into()
+pub(crate) fn line_type_name(name: &str) -> SmolStr {
+    folded(without_xref(name))
 }

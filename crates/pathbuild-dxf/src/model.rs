@@ -1,8 +1,7 @@
 //! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
 
-use std::sync::Arc;
-
 use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
+use smol_str::SmolStr;
 
 use crate::Origin;
 use crate::blocks::{BlockId, Blocks};
@@ -40,7 +39,7 @@ struct Around {
 /// What entities inherit from the insertion they come with.
 struct Insertion {
     layer: LayerId,
-    line_type: Arc<str>,
+    line_type: SmolStr,
     /// Of the outermost one.
     origin: Origin,
 }

@@ -1,17 +1,19 @@
 //! The plain text of an MTEXT. (spec/10-drawing.md, "Parameter texts")
 
+use smol_str::{SmolStr, SmolStrBuilder};
+
 use crate::encoding::control;
 
 /// Removes the formatting from joined and decoded chunks. Line breaks become `\n`.
 ///
 /// A command that never ends stays as it stands: it is no command, and to drop the rest of a parameter text would be worse.
-pub(crate) fn plain_text(raw: &str) -> String {
+pub(crate) fn plain_text(raw: &str) -> SmolStr {
     if !raw.bytes().any(is_special) {
-        return raw.to_owned();
+        return raw.into();
     }
-    let mut plain = String::with_capacity(raw.len());
+    let mut plain = SmolStrBuilder::new();
     let mut rest = raw;
-    while let Some(special) = rest.find(['\\', '{', '}', '^']) {
+    while let Some(special) = rest.bytes().position(is_special) {
         plain.push_str(&rest[..special]);
         rest = &rest[special..];
         let length = match rest.as_bytes()[0] {
@@ -22,7 +24,7 @@ pub(crate) fn plain_text(raw: &str) -> String {
         rest = &rest[length..];
     }
     plain.push_str(rest);
-    plain
+    plain.finish()
 }
 
 /// Whether a byte may begin something that is not to be taken as it stands.
@@ -31,7 +33,7 @@ fn is_special(byte: u8) -> bool {
 }
 
 /// A command, which `text` begins with: adds what it stands for, and returns its length.
-fn command(text: &str, plain: &mut String) -> usize {
+fn command(text: &str, plain: &mut SmolStrBuilder) -> usize {
     let Some(letter) = text[1..].chars().next() else {
         plain.push('\\');
         return 1;
@@ -56,14 +58,14 @@ fn command(text: &str, plain: &mut String) -> usize {
 }
 
 /// A stacked text up to its `;`: adds it, and returns the length.
-fn stacked(text: &str, plain: &mut String) -> usize {
+fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {
         match character {
             ';' => return index + 1,
             '#' => plain.push('/'),
             '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
-            '\\' => plain.extend(characters.next().map(|(_, literal)| literal)),
+            '\\' => if let Some((_, literal)) = characters.next() { plain.push(literal) },
             other => plain.push(other),
         }
     }
@@ -71,7 +73,7 @@ fn stacked(text: &str, plain: &mut String) -> usize {
 }
 
 /// A caret, which `text` begins with: adds what it stands for, and returns its length.
-fn caret(text: &str, plain: &mut String) -> usize {
+fn caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
     if text.starts_with("^M^J") {
         plain.push('\n');
         return 4;

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
+use smol_str::{SmolStr, StrExt};
+
 /// A name without blanks around it that is compared without regard to case.
 #[derive(Clone, Debug)]
 pub(crate) struct Name<'a> {
@@ -15,7 +17,7 @@ impl<'a> Name<'a> {
     pub(crate) fn new(text: Cow<'a, str>) -> Self {
         let text = match text {
             Cow::Borrowed(text) if text.is_ascii() => Cow::Borrowed(trimmed(text)),
-            text => Cow::Owned(folded(text.trim())),
+            text => Cow::Owned(folded(text.trim()).into()),
         };
         Self { text }
     }
@@ -65,8 +67,8 @@ fn trimmed(text: &str) -> &str {
 }
 
 /// What names are compared by.
-pub(crate) fn folded(name: &str) -> String {
-    if name.is_ascii() { name.to_ascii_uppercase() } else { name.to_uppercase() }
+pub(crate) fn folded(name: &str) -> SmolStr {
+    if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
 }
 
 /// The order of ASCII names without regard to case. (Names that are already folded may be anything.)

@@ -8,6 +8,9 @@ use crate::layer_table::{LayerRecord, LayerTable};
 use crate::pairs::{Pairs, Stop};
 use crate::sections::LAYER;
 
+/// How many layers a drawing usually has at most.
+const USUAL: usize = 16;
+
 /// Reads the records of layers.
 pub(crate) fn read_layers<'a>(pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<LayerTable<'a>, Fatal> {
     read_records(pairs, decoder).map(LayerTable::new).map_err(|stop| stopped(stop, "TABLES"))
@@ -17,7 +20,7 @@ fn read_records<'a>(
     mut pairs: Pairs<'a>,
     decoder: &mut Decoder<'_>,
 ) -> Result<Vec<LayerRecord<'a>>, Stop<'a>> {
-    let mut records = Vec::new();
+    let mut records = Vec::with_capacity(USUAL);
     let mut fields = Fields::new(0);
     while let Some(mut head) = pairs.find("0", &LAYER) {
         let mut groups = Groups::new(pairs);

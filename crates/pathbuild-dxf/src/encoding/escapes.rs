@@ -4,13 +4,15 @@
 use std::borrow::Cow;
 
 use encoding_rs::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS};
+use memchr::memchr_iter;
 
 /// What an escape stands for that stands for nothing.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
 /// Decodes all escapes. Also tells whether all of them were characters; others become U+FFFD.
 pub(super) fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
-    if !text.contains("\\U+") && !text.contains("\\M+") {
+    let bytes = text.as_bytes();
+    if !memchr_iter(b'\\', bytes).any(|at| matches!(bytes[at..], [_, b'U' | b'M', b'+', ..])) {
         return (text, true);
     }
     let mut decoded = String::with_capacity(text.len());

@@ -9,6 +9,7 @@ mod escapes;
 
 use std::borrow::Cow;
 
+use encoding_rs::mem::decode_latin1;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use pathbuild_diagnostic::messages::reading::{UNDECODABLE, UNKNOWN_CODE_PAGE};
 use pathbuild_diagnostic::{Diagnostic, TextFault};
@@ -53,11 +54,20 @@ impl<'a> Decoder<'a> {
     }
 
     /// Decodes a string that begins on this line. What can not be decoded becomes U+FFFD, and one PB008 a file.
+    #[inline]
     pub(crate) fn decode<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
-        let (has_others, has_backslash) = others_and_backslashes(bytes);
-        let ascii = if has_others { None } else { std::str::from_utf8(bytes).ok() };
+        // ASCII is Latin-1 as well, which is borrowed then, and known sooner than UTF-8.
+        if is_plain(bytes) { decode_latin1(bytes) } else { self.decode_others(bytes, line) }
+    }
+
+    /// What was doubtful.
+    pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
+        self.doubt
+    }
+
+    fn decode_others<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
+        let ascii = std::str::from_utf8(bytes).ok().filter(|_| bytes.is_ascii());
         let (text, bytes_known) = match ascii {
-            Some(ascii) if !has_backslash => return Cow::Borrowed(ascii),
             Some(ascii) => (Cow::Borrowed(ascii), true),
             None => self.decode_beyond_ascii(bytes),
         };
@@ -66,11 +76,6 @@ impl<'a> Decoder<'a> {
             self.doubt.get_or_insert_with(|| doubt(self.charset, &self.name, &text, line));
         }
         text
-    }
-
-    /// What was doubtful.
-    pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
-        self.doubt
     }
 
     fn decode_beyond_ascii<'b>(&mut self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
@@ -88,11 +93,23 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// Whether there are bytes that are not ASCII, and backslashes.
-fn others_and_backslashes(bytes: &[u8]) -> (bool, bool) {
-    let look = |(others, backslashes), byte: &u8| (others | byte, backslashes | u8::from(*byte == b'\\'));
-    let (others, backslashes) = bytes.iter().fold((0, 0), look);
-    (others >= 0x80, backslashes != 0)
+/// Whether a string stands for itself: ASCII, without a backslash.
+#[inline]
+pub(crate) fn is_plain(bytes: &[u8]) -> bool {
+    match (bytes.first_chunk(), bytes.last_chunk()) {
+        (Some(first), Some(last)) if bytes.len() <= 16 => !(has_other(*first) || has_other(*last)),
+        _ => bytes.iter().all(|byte| byte.is_ascii() && *byte != b'\\'),
+    }
+}
+
+/// Whether there is a backslash among these characters, or one that is not ASCII.
+#[inline]
+fn has_other(characters: [u8; 8]) -> bool {
+    const ONES: u64 = u64::from_le_bytes([1; 8]);
+    let word = u64::from_le_bytes(characters);
+    let zero_where_backslash = word ^ (ONES * u64::from(b'\\'));
+    // Of ASCII characters only a zero has its top bit set when one is taken from it, or from all.
+    (word | zero_where_backslash.wrapping_sub(ONES)) & (ONES * 0x80) != 0
 }
 
 fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {

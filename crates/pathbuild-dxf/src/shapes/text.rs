@@ -1,5 +1,7 @@
 //! TEXT and MTEXT. (spec/10-drawing.md, "Parameter texts" and "The text circle")
 
+use std::borrow::Cow;
+
 use crate::angle;
 use crate::encoding::{Decoder, without_carets};
 use crate::fields::{BadGroup, Fields};
@@ -44,14 +46,13 @@ pub(crate) fn mtext<'a>(
     decoder: &mut Decoder<'_>,
     longest: usize,
 ) -> Result<Geometry, Trouble<'a>> {
-    let raw = joined_chunks(fields, decoder, longest)?;
+    let plain = plain_text(&joined_chunks(fields, decoder, longest)?);
     let attachment = fields.whole(71)?.unwrap_or(1);
     let (horizontal, vertical) = attachment_align(attachment);
     let is_mirrored = is_mirrored(fields)?;
     let rotation = rotation(fields, is_mirrored)?;
     Ok(Geometry::MText(MText {
-        plain: plain_text(&raw).into(),
-        raw,
+        plain,
         anchor: fields.point(10)?,
         height: fields.length(40)?,
         rotation,
@@ -143,16 +144,16 @@ fn joined_chunks<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
     longest: usize,
-) -> Result<Box<str>, Trouble<'a>> {
+) -> Result<Cow<'a, str>, Trouble<'a>> {
     let is_chunk = |pair: &&Pair<'_>| matches!(pair.code, 1 | 3);
     let chunks = || fields.repeated.iter().filter(is_chunk).map(|pair| pair.value);
     let first = fields.repeated.iter().find(is_chunk).ok_or(BadGroup::Missing { code: 1 })?;
     if fields.is_full() || chunks().map(<[u8]>::len).sum::<usize>() > longest {
         return Err(Trouble::TextTooLong);
     }
-    let decoded = match chunks().count() {
-        1 => decoder.decode(first.value, first.line),
-        _ => return Ok(decoder.decode(&chunks().collect::<Vec<_>>().concat(), first.line).into()),
-    };
-    Ok(decoded.into())
+    if chunks().nth(1).is_none() {
+        return Ok(decoder.decode(first.value, first.line));
+    }
+    let joined = chunks().collect::<Vec<_>>().concat();
+    Ok(Cow::Owned(decoder.decode(&joined, first.line).into_owned()))
 }
