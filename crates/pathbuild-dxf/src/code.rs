@@ -77,11 +77,10 @@ impl Role {
     pub(crate) fn of_line(line: [u8; 8], code_end: CodeEnd) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
-        let entry = USUAL[index(word as u32)];
+        let index = index(word as u32);
         // Nearly all programs pad their codes to three characters, and end all lines in the same way.
-        let usual = u64::from(entry & THREE) | code_end.behind_three;
-        if (word ^ usual) & code_end.mask == 0 {
-            return Some((code_end.length, Self((entry >> 24) as u8)));
+        if (word ^ code_end.behind_three) & code_end.mask == u64::from(USUAL[index]) {
+            return Some((code_end.length, ROLES[index]));
         }
         Self::of_unusual_line(line, code_end.last)
     }
@@ -154,21 +153,25 @@ fn number(padded: u64) -> Option<i32> {
 /// One in each byte.
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 
-/// The bytes of three characters.
-const THREE: u32 = 0x00FF_FFFF;
+/// Each code from 0 to 999 as three characters. What is no code is found at no place.
+static USUAL: [u32; PLACES] = usual().0;
 
-/// Each code from 0 to 999 as three characters in the lower bytes, with its role in the highest. What is no code is found at no place.
-static USUAL: [u32; 1 << 12] = usual();
+/// The roles of these codes.
+static ROLES: [Role; PLACES] = usual().1;
 
-const fn usual() -> [u32; 1 << 12] {
-    let mut table = [0; 1 << 12];
+const PLACES: usize = 1 << 12;
+
+const fn usual() -> ([u32; PLACES], [Role; PLACES]) {
+    let mut texts = [0; PLACES];
+    let mut roles = [Role::OTHER; PLACES];
     let mut code = 0;
     while code < 1000 {
         let text = three_characters(code);
-        table[index(text)] = text | (Role::of(code).0 as u32) << 24;
+        texts[index(text)] = text;
+        roles[index(text)] = Role::of(code);
         code += 1;
     }
-    table
+    (texts, roles)
 }
 
 #[expect(clippy::cast_sign_loss, reason = "0 to 999")]

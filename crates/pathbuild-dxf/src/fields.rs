@@ -100,7 +100,11 @@ impl<'a> Fields<'a> {
         self.begin_entity();
         self.repeated.clear();
         loop {
-            let group = groups.pass_until(|role| !role.is_plain(), |group| self.keep(group, repeats))?;
+            let group = if repeats == 0 {
+                groups.pass_until(|role| !role.is_plain(), |group| self.keep(group))
+            } else {
+                groups.pass_until(|role| !role.is_plain(), |group| self.keep_repeated(group, repeats))
+            }?;
             if let Some(end) = self.special(&group, groups, &mut want)? {
                 return Ok(end);
             }
@@ -109,12 +113,18 @@ impl<'a> Fields<'a> {
 
     /// Keeps the value of a group.
     #[inline]
-    fn keep(&mut self, group: &Group<'a>, repeats: u64) {
-        let slot = group.role.slot();
-        if let Some(value) = self.slots.get_mut(slot) {
+    fn keep(&mut self, group: &Group<'a>) {
+        if let Some(value) = self.slots.get_mut(group.role.slot()) {
             *value = Value { bytes: group.raw, line: group.line(), entity: self.entity };
         }
-        if repeats != 0 && slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
+    }
+
+    /// The same for an entity that repeats groups.
+    #[inline]
+    fn keep_repeated(&mut self, group: &Group<'a>, repeats: u64) {
+        self.keep(group);
+        let slot = group.role.slot();
+        if slot < 64 && repeats >> slot & 1 != 0 && !self.is_full() {
             self.repeated.push(group.pair());
         }
     }

@@ -1,7 +1,7 @@
 //! The pairs of entities, as fast as can be. What is unusual about one is left to [`Pairs`], which reads with care.
 
 use crate::code::{CodeEnd, Role};
-use crate::line_ends::LineEnds;
+use crate::line_ends::Block;
 use crate::pairs::{Pair, Pairs, Stop, without_cr};
 
 /// A pair by what is done with it.
@@ -20,13 +20,16 @@ pub(crate) struct Groups<'a> {
     /// Where they begin.
     begin: Pairs<'a>,
     code_end: CodeEnd,
+    /// From where the block begins to the end of the file.
+    bytes: &'a [u8],
     ahead: Ahead<'a>,
 }
 
-/// Where the next pair is.
+/// The next pairs.
 #[derive(Clone, Copy)]
 struct Ahead<'a> {
-    line_ends: LineEnds<'a>,
+    block: Block<'a>,
+    /// The line of the first.
     line: u64,
 }
 
@@ -46,12 +49,13 @@ impl<'a> Group<'a> {
 impl<'a> Groups<'a> {
     /// Those that begin here.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
-        Self { begin, code_end: CodeEnd::of(&begin), ahead: Ahead::new(&begin) }
+        let ahead = Ahead { block: Block::EMPTY, line: begin.line().into() };
+        Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
     }
 
     /// Where the next one begins.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
-        self.begin.at(self.begin.bytes().len() - self.ahead.line_ends.rest().len(), shown(self.ahead.line))
+        self.begin.at(self.begin.bytes().len() - self.rest().len(), shown(self.ahead.line))
     }
 
     /// The next one for which `is_end`; those before are handed to `pass`.
@@ -65,18 +69,21 @@ impl<'a> Groups<'a> {
         loop {
             // A copy, which nobody else knows, is kept in registers.
             let mut ahead = self.ahead;
-            let end = loop {
-                match ahead.next(code_end) {
-                    Some(group) if !is_end(group.role) => pass(&group),
-                    end => break end,
+            while let Some(group) = ahead.next(code_end) {
+                if is_end(group.role) {
+                    self.ahead = ahead;
+                    return Ok(group);
                 }
-            };
-            self.ahead = ahead;
-            let group = end.map_or_else(|| self.next_unusual(), Ok)?;
-            if is_end(group.role) {
-                return Ok(group);
+                pass(&group);
             }
-            pass(&group);
+            self.ahead = ahead;
+            if !self.look_ahead() {
+                let group = self.next_unusual()?;
+                if is_end(group.role) {
+                    return Ok(group);
+                }
+                pass(&group);
+            }
         }
     }
 
@@ -86,25 +93,40 @@ impl<'a> Groups<'a> {
         Ok(group.pair())
     }
 
+    /// The bytes from the next one on.
+    #[inline]
+    fn rest(&self) -> &'a [u8] {
+        self.bytes.get(self.ahead.block.consumed()..).unwrap_or_default()
+    }
+
+    /// Looks at the bytes ahead, unless that was done and has not helped.
+    #[inline]
+    fn look_ahead(&mut self) -> bool {
+        if self.ahead.block.consumed() == 0 && !self.ahead.block.is_empty() {
+            return false;
+        }
+        let bytes = self.rest();
+        let Some(block) = Block::of(bytes, self.code_end.last()) else { return false };
+        (self.bytes, self.ahead.block) = (bytes, block);
+        true
+    }
+
+    /// The next one, which is read with care: its code is written in an unusual way, it is long, or the file ends soon.
     #[cold]
     #[inline(never)]
     fn next_unusual(&mut self) -> Result<Group<'a>, Stop<'a>> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
-        self.ahead = Ahead::new(&pairs);
+        self.bytes = &pairs.bytes()[pairs.consumed()..];
+        self.ahead = Ahead { block: Block::EMPTY, line: pairs.line().into() };
         Ok(Group { role: Role::of(code), line: line.into(), raw: value })
     }
 }
 
 impl<'a> Ahead<'a> {
-    fn new(pairs: &Pairs<'a>) -> Self {
-        Self { line_ends: LineEnds::new(&pairs.bytes()[pairs.consumed()..]), line: pairs.line().into() }
-    }
-
-    /// The next pair, unless it is to be read with care: its code is written in an unusual way, its value is long, or the file ends.
     #[inline]
     fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
-        let (role, raw) = self.line_ends.next_pair(code_end)?;
+        let (role, raw) = self.block.next(code_end)?;
         let line = self.line;
         self.line += 2;
         Some(Group { role, line, raw })
