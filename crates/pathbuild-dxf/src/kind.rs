@@ -26,30 +26,34 @@ impl Kind {
     /// The kind of this name; `None` for all others. (`3DLINE` is the LINE of R10 that has a z.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
-        let name = name.trim_ascii();
-        Self::exact(name).or_else(|| match name {
-            _ if name.len() > LONGEST || !name.iter().any(u8::is_ascii_lowercase) => None,
-            _ => Self::exact(&name.to_ascii_uppercase()),
-        })
+        Self::exact(name).or_else(|| Self::unusual(name.trim_ascii()))
+    }
+
+    /// The same for a name that is not written like this.
+    #[cold]
+    fn unusual(name: &[u8]) -> Option<Self> {
+        if name.len() > LONGEST { None } else { Self::exact(&name.to_ascii_uppercase()) }
     }
 
     #[inline]
     fn exact(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"LINE" | b"3DLINE" => Self::Line,
-            b"ARC" => Self::Arc,
-            b"CIRCLE" => Self::Circle,
-            b"TEXT" => Self::Text,
-            b"MTEXT" => Self::MText,
-            b"LWPOLYLINE" => Self::LwPolyline,
-            b"POLYLINE" => Self::Polyline,
-            b"VERTEX" => Self::Vertex,
-            b"SEQEND" => Self::SequenceEnd,
-            b"ELLIPSE" => Self::Ellipse,
-            b"SPLINE" => Self::Spline,
-            b"INSERT" => Self::Insert,
-            _ => return None,
-        })
+        // Compared with arrays, which takes no calls.
+        match name.len() {
+            3 if name == b"ARC" => Some(Self::Arc),
+            4 if name == b"LINE" => Some(Self::Line),
+            4 if name == b"TEXT" => Some(Self::Text),
+            5 if name == b"MTEXT" => Some(Self::MText),
+            6 if name == b"CIRCLE" => Some(Self::Circle),
+            6 if name == b"INSERT" => Some(Self::Insert),
+            6 if name == b"VERTEX" => Some(Self::Vertex),
+            6 if name == b"SEQEND" => Some(Self::SequenceEnd),
+            6 if name == b"SPLINE" => Some(Self::Spline),
+            6 if name == b"3DLINE" => Some(Self::Line),
+            7 if name == b"ELLIPSE" => Some(Self::Ellipse),
+            8 if name == b"POLYLINE" => Some(Self::Polyline),
+            10 if name == b"LWPOLYLINE" => Some(Self::LwPolyline),
+            _ => None,
+        }
     }
 
     /// Whether it is part of a POLYLINE.
@@ -70,11 +74,10 @@ impl Kind {
             bits
         }
         const CHUNKS: u64 = bits(&[1, 3]);
-        const DIRECTIONS: u64 = bits(&[11, 50]);
         const VERTICES: u64 = bits(&[10, 20, 42]);
         const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
         match self {
-            Self::MText => CHUNKS | DIRECTIONS,
+            Self::MText => CHUNKS,
             Self::LwPolyline => VERTICES,
             Self::Spline => CONTROL,
             _ => 0,

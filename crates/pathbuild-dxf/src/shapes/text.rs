@@ -6,7 +6,6 @@ use crate::angle;
 use crate::encoding::{Decoder, without_carets};
 use crate::fields::{BadGroup, Fields};
 use crate::mtext::plain_text;
-use crate::pairs::Pair;
 use crate::placement::opposite;
 use crate::trouble::Trouble;
 use crate::{Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
@@ -126,16 +125,17 @@ fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
 /// The rotation that an MTEXT has when seen from above: 50 or 11/21, the later of which holds. A mirrored one is read from the other
 /// end, so that its lines run the same way.
 fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
-    let last = fields.repeated.iter().rev().find(|pair| matches!(pair.code, 11 | 50));
-    let angle = match last.map(|pair| pair.code) {
-        Some(50) => fields.required(50)?,
-        Some(_) => direction(fields.required(11)?, fields.required(21)?).unwrap_or(0.0),
-        None => 0.0,
+    let by_angle = fields.get(50).map(|value| value.line);
+    let by_point = fields.get(11).map(|value| value.line).filter(|line| Some(*line) > by_angle);
+    let angle = match (by_point, by_angle) {
+        (Some(_), _) => direction(fields.required(11)?, fields.required(21)?).unwrap_or(0.0),
+        (None, Some(_)) => fields.required(50)?,
+        (None, None) => 0.0,
     };
-    Ok(match (is_mirrored, last.map(|pair| pair.code)) {
+    Ok(match (is_mirrored, by_point) {
         (false, _) => angle,
-        (true, Some(11)) => (angle + 180.0) % 360.0,
-        (true, _) => -angle,
+        (true, Some(_)) => (angle + 180.0) % 360.0,
+        (true, None) => -angle,
     })
 }
 
@@ -145,9 +145,8 @@ fn joined_chunks<'a>(
     decoder: &mut Decoder<'_>,
     longest: usize,
 ) -> Result<Cow<'a, str>, Trouble<'a>> {
-    let is_chunk = |pair: &&Pair<'_>| matches!(pair.code, 1 | 3);
-    let chunks = || fields.repeated.iter().filter(is_chunk).map(|pair| pair.value);
-    let first = fields.repeated.iter().find(is_chunk).ok_or(BadGroup::Missing { code: 1 })?;
+    let chunks = || fields.repeated.iter().map(|pair| pair.value);
+    let first = fields.repeated.first().ok_or(BadGroup::Missing { code: 1 })?;
     if fields.is_full() || chunks().map(<[u8]>::len).sum::<usize>() > longest {
         return Err(Trouble::TextTooLong);
     }
