@@ -33,12 +33,7 @@ pub(crate) struct LineTypes<'a> {
 
 impl Default for LineTypes<'_> {
     fn default() -> Self {
-        Self {
-            by_spelling: Spellings::default(),
-            last: None,
-            names: Vec::new(),
-            continuous: CONTINUOUS,
-        }
+        Self { by_spelling: Spellings::default(), last: None, names: Vec::new(), continuous: CONTINUOUS }
     }
 }
 

