@@ -67,7 +67,7 @@ fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
             '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
             '\\' => {
                 if let Some((_, literal)) = characters.next() {
-                    plain.push(literal)
+                    plain.push(literal);
                 }
             }
             other => plain.push(other),

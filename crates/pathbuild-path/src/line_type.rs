@@ -1,7 +1,6 @@
 //! Line types: what happens along a line, arc or circle. (spec/10-drawing.md, "Line types")
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -63,7 +62,7 @@ impl LineTypeAliases {
 /// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
 pub(crate) struct LineTypes<'d, 'l> {
     aliases: &'l LineTypeAliases,
-    known: Vec<(&'d Arc<str>, Option<LineType>)>,
+    known: Vec<(&'d str, Option<LineType>)>,
 }
 
 impl<'d, 'l> LineTypes<'d, 'l> {
@@ -75,8 +74,8 @@ impl<'d, 'l> LineTypes<'d, 'l> {
     }
 
     /// What a name stands for.
-    pub(crate) fn get(&mut self, name: &'d Arc<str>) -> Option<LineType> {
-        if let Some((_, line_type)) = self.known.iter().find(|(known, _)| Arc::ptr_eq(known, name)) {
+    pub(crate) fn get(&mut self, name: &'d str) -> Option<LineType> {
+        if let Some((_, line_type)) = self.known.iter().find(|(known, _)| *known == name) {
             return *line_type;
         }
         let line_type = LineType::of(name, self.aliases);

@@ -22,7 +22,6 @@ fn text() -> Text {
 /// Two lines of at most ten characters of 2 mm: w = 12, H = 4.
 fn mtext() -> MText {
     MText {
-        raw: r"0123456789\P012".into(),
         plain: "0123456789\n012".into(),
         anchor: ANCHOR,
         height: 2.0,
