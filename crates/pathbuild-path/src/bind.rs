@@ -95,7 +95,7 @@ impl<'a> Binder<'a> {
             end_origin: end.origin.clone(),
             left_out: self.raw.left_out.clone(),
         };
-        path.add_surface(self.parameters_origin(start), path.thickness, self.values.fault(Letter::T));
+        path.add_surface(self.parameters_origin(start), path.thickness, self.raw.parameters);
         self.add_probes(&mut path);
         Self::add_subpath_surfaces(&mut path);
         (tool.is_some() && thickness.is_some()).then_some(path)
@@ -168,7 +168,7 @@ impl<'a> Binder<'a> {
             let values = self.element_values(At::Marker(marker), self.raw.drawn.text(marker.text), false);
             let own_thickness = values.number(Letter::T);
             if let Some(thickness) = own_thickness.number() {
-                path.add_surface(marker.origin.clone(), thickness, values.fault(Letter::T));
+                path.add_surface(marker.origin.clone(), thickness, marker.text);
             }
             let thickness = own_thickness.or(self.values.number(Letter::T)).number().unwrap_or_default();
             path.probes.push(Probe {

@@ -7,6 +7,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
+use crate::letter::Letter;
 use crate::path::{CutParameters, Helix, Hole, Path, SegmentKind};
 use crate::walk::{Passage, Step, curve};
 
@@ -152,9 +153,14 @@ impl ChainSegment {
     }
 
     fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
-        self.cut(path).own_chain_letters.iter().map(|(letter, fault)| {
-            let problem = Diagnostic::new(&messages::WITHOUT_EFFECT_IN_CHAIN).with("letter", *letter);
-            self.origin(path).at(problem.with_text(fault.clone()))
+        let own = path.drawn.text(self.cut(path).chain_letters).into_iter();
+        let faults = own.flat_map(|text| {
+            [Letter::I, Letter::C, Letter::W].into_iter().filter_map(move |it| Some((it, text.fault_of(it)?)))
+        });
+        faults.map(|(letter, fault)| {
+            let problem =
+                Diagnostic::new(&messages::WITHOUT_EFFECT_IN_CHAIN).with("letter", letter.as_char());
+            self.origin(path).at(problem.with_text(fault))
         })
     }
 }

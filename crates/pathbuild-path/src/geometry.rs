@@ -205,6 +205,9 @@ pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
 
 /// The unit vector at an angle in degrees, exact at quarter turns.
 pub fn direction(degrees: f64) -> Vector2<f64> {
+    if degrees == 0.0 {
+        return Vector2::new(1.0, 0.0);
+    }
     let turn = degrees - 360.0 * (degrees / 360.0).floor();
     match turn {
         0.0 => Vector2::new(1.0, 0.0),

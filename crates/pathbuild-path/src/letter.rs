@@ -174,7 +174,7 @@ impl Letters {
 }
 
 /// Those that count in the first segment of a chain.
-const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::C, Letter::W]);
+pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::C, Letter::W]);
 
 impl ElementClass {
     /// What a letter does in a text of this element. (The table of spec/30-parameters.md; "p" is not known in the element's own text.)

@@ -163,7 +163,7 @@ fn with_points(layer: &str) -> Cow<'_, str> {
 
 /// A layer's name without a trailing `~` and letters.
 fn without_tilde(layer: &str) -> &str {
-    match layer.rfind('~') {
+    match layer.bytes().rposition(|byte| byte == b'~') {
         Some(at) if layer[at + 1..].chars().all(char::is_alphabetic) => &layer[..at],
         _ => layer,
     }

@@ -4,15 +4,14 @@
 /// is too large to be finite.
 pub fn parse_number(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let (mut value, mut count, mut decimals) = (0_u64, 0, None);
+    let (mut value, mut count, mut point) = (0_u64, 0, None);
     for byte in digits.bytes() {
         match byte {
             b'0'..=b'9' => {
                 value = value.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
                 count += 1;
-                decimals = decimals.map(|decimals: usize| decimals + 1);
             }
-            b'.' | b',' if decimals.is_none() => decimals = Some(0),
+            b'.' | b',' if point.is_none() => point = Some(count),
             _ => return None,
         }
     }
@@ -21,7 +20,8 @@ pub fn parse_number(text: &str) -> Option<f64> {
     }
     if count <= MOST_DIGITS {
         // Both are exact, so their quotient is the number that is nearest to what is written.
-        let number = value as f64 / POWERS_OF_TEN[decimals.unwrap_or(0)];
+        let decimals = point.map_or(0, |before| count - before);
+        let number = value as f64 / POWERS_OF_TEN[decimals];
         return Some(if text.starts_with('-') { -number } else { number });
     }
     let number: f64 = text.replace(',', ".").parse().ok()?;

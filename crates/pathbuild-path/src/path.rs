@@ -8,6 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault, Word, words
 use crate::approx::above;
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
+use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::Drawn;
 
@@ -44,14 +45,26 @@ pub struct Path {
     pub cuts: Vec<CutParameters>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
-    /// The upper faces that S must be above, for those of its elements that have their own T.
-    pub(crate) surfaces: Vec<(Origin, f64, Option<TextFault>)>,
+    /// The upper faces that S must be above, its own and those of its elements that have their own T. None where S is its own, which is
+    /// checked with its other values.
+    pub(crate) surfaces: Vec<Surface>,
     /// The start marker.
     pub start_origin: Origin,
     /// The end marker.
     pub end_origin: Origin,
     /// Curves that are no part of it.
     pub left_out: Vec<(EntityKind, Point)>,
+}
+
+/// An upper face of the material.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Surface {
+    /// What says so.
+    pub(crate) origin: Origin,
+    /// T in mm.
+    pub(crate) thickness: f64,
+    /// The text that may say so: its number in [`Drawn::texts`].
+    pub(crate) text: Option<u32>,
 }
 
 /// A turn marker.
@@ -116,8 +129,8 @@ pub struct CutParameters {
     pub bars: Option<Bars>,
     /// I, C and W, which count where it is the first of its chain.
     pub chain: ChainParameters,
-    /// Those of I, C and W that its own text gives.
-    pub own_chain_letters: Vec<(char, TextFault)>,
+    /// Its own text, where that gives I, C or W: its number in [`Drawn::texts`].
+    pub chain_letters: Option<u32>,
     /// Q.
     pub comment: Option<Box<str>>,
 }
@@ -193,8 +206,8 @@ pub struct Subpath {
     pub height: f64,
     /// Values of its variables, in the order written.
     pub values: Vec<SubpathValue>,
-    /// T, O and M underlined, where the segment's own text gives them.
-    pub faults: Vec<(char, TextFault)>,
+    /// Its own text: its number in [`Drawn::texts`]. See [`Path::fault`].
+    pub text: Option<u32>,
 }
 
 /// What a subpath's text says of the name.
@@ -253,6 +266,11 @@ impl Path {
         self.drawn.origin(self.element(segment))
     }
 
+    /// A subpath's own text with a letter underlined, where it gives that.
+    pub fn fault(&self, subpath: &Subpath, letter: Letter) -> Option<TextFault> {
+        self.drawn.text(subpath.text)?.fault_of(letter)
+    }
+
     /// Where a segment of it starts and where it ends, as drawn.
     pub fn ends(&self, segment: &Segment) -> [Xy; 2] {
         match &self.element(segment).shape {
@@ -276,26 +294,22 @@ impl Path {
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
     /// its other values.
     pub fn check_sweep_height(&self, height: f64) -> Vec<Diagnostic> {
-        if self.sweep_height.is_some() {
-            return Vec::new();
-        }
-        let too_high = self.surfaces.iter().filter(|(_, thickness, _)| !above(height, *thickness));
-        let report = |(origin, thickness, text): &(Origin, f64, Option<TextFault>)| {
-            let problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
+        let too_high = self.surfaces.iter().filter(|surface| !above(height, surface.thickness));
+        let report = |surface: &Surface| {
+            let mut problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
                 .with("value", height)
-                .with("limit", *thickness)
+                .with("limit", surface.thickness)
                 .in_path(self.name.as_str());
-            let problem = match text {
-                Some(text) => problem.with_text(text.clone()),
-                None => problem,
-            };
-            origin.at(problem)
+            problem.text = self.drawn.text(surface.text).and_then(|text| text.fault_of(Letter::T));
+            surface.origin.at(problem)
         };
         too_high.map(report).collect()
     }
 
-    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<TextFault>) {
-        self.surfaces.push((origin, thickness, text));
+    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<u32>) {
+        if self.sweep_height.is_none() {
+            self.surfaces.push(Surface { origin, thickness, text });
+        }
     }
 }
 

@@ -18,11 +18,11 @@ pub struct ParameterTexts {
     texts: Vec<Extent>,
 }
 
-/// Where a text ends, and what is known of it as a whole.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Where a text and its pieces are, and what is known of it as a whole.
+#[derive(Clone, Debug, PartialEq)]
 struct Extent {
-    end: usize,
-    pieces_end: usize,
+    string: Range<usize>,
+    pieces: Range<usize>,
     letters: Letters,
     is_plain: bool,
 }
@@ -45,7 +45,8 @@ pub struct Piece {
     pub letter: Option<Letter>,
     /// What its value is before variables are put in.
     pub(crate) written: Written,
-    span: Range<usize>,
+    /// Its bytes in the text.
+    span: Range<u32>,
 }
 
 /// What a value is.
@@ -69,38 +70,49 @@ impl ParameterTexts {
         self.texts.reserve(texts);
     }
 
-    /// Adds a text, `%%` codes already replaced; its number.
+    /// Adds a text as it is drawn; its number.
+    pub(crate) fn push_drawn(&mut self, text: &str) -> u32 {
+        // Nearly all texts are what they look like.
+        if text.bytes().any(|byte| matches!(byte, b'%' | b'~')) {
+            return self.push(&joined(&without_percent_codes(text)));
+        }
+        self.push(text)
+    }
+
+    /// Adds a text whose lines are joined and codes replaced; its number.
     pub(crate) fn push(&mut self, text: &str) -> u32 {
-        let start = self.string.len();
-        self.string.push_str(&joined(text));
+        let (start, first) = (self.string.len(), self.pieces.len());
+        self.string.push_str(text);
         let string = &self.string[start..];
         let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
         while let Some(piece) = next_piece(string, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
-            end = piece.span.end;
+            end = piece.span.end as usize;
             self.pieces.push(piece);
         }
-        let (end, pieces_end) = (self.string.len(), self.pieces.len());
-        self.texts.push(Extent { end, pieces_end, letters, is_plain });
+        let (string, pieces) = (start..self.string.len(), first..self.pieces.len());
+        self.texts.push(Extent { string, pieces, letters, is_plain });
         u32::try_from(self.texts.len() - 1).unwrap_or(u32::MAX)
     }
 
     /// A text by its number.
     pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
-        let index = number as usize;
-        let Extent { end, pieces_end, letters, is_plain } = *self.texts.get(index)?;
-        let before = index.checked_sub(1).map(|before| self.texts[before]);
-        let (start, first) = before.map_or((0, 0), |before| (before.end, before.pieces_end));
-        let (string, pieces) = (&self.string[start..end], &self.pieces[first..pieces_end]);
-        Some(ParameterText { string, pieces, letters, is_plain })
+        let Extent { string, pieces, letters, is_plain } = self.texts.get(number as usize)?;
+        Some(ParameterText {
+            string: &self.string[string.clone()],
+            pieces: &self.pieces[pieces.clone()],
+            letters: *letters,
+            is_plain: *is_plain,
+        })
     }
 }
 
 impl From<&str> for ParameterTexts {
+    /// A single text, `%%` codes already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
-        texts.push(text);
+        texts.push(&joined(text));
         texts
     }
 }
@@ -123,14 +135,19 @@ impl<'t> ParameterText<'t> {
 
     /// A piece's value as written.
     pub fn value(self, piece: &Piece) -> &'t str {
-        let mut characters = self.string[piece.span.clone()].chars();
+        let mut characters = self.string[piece.span()].chars();
         characters.next();
         characters.as_str()
     }
 
     /// The whole text with a piece underlined.
     pub fn fault(self, piece: &Piece) -> TextFault {
-        TextFault::new(self.string, piece.span.clone())
+        TextFault::new(self.string, piece.span())
+    }
+
+    /// The whole text with the first piece of a letter underlined, where there is one.
+    pub(crate) fn fault_of(self, letter: Letter) -> Option<TextFault> {
+        self.piece(letter).map(|piece| self.fault(piece))
     }
 
     /// The whole text underlined.
@@ -138,10 +155,15 @@ impl<'t> ParameterText<'t> {
         TextFault::new(self.string, 0..self.string.len())
     }
 
+    /// Whether nothing is wrong with it, as is soon seen of most texts.
+    pub(crate) fn is_right(self, class: ElementClass) -> bool {
+        self.is_plain && class.effective_letters().contain(self.letters)
+    }
+
     /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
     /// text that is not read.
     pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
-        if class == ElementClass::Unread || self.is_plain && class.effective_letters().contain(self.letters) {
+        if class == ElementClass::Unread {
             return Vec::new();
         }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
@@ -159,7 +181,7 @@ impl<'t> ParameterText<'t> {
     }
 
     fn problem(self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
-        let first = self.string[piece.span.start..].chars().next()?;
+        let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(unknown_letter(first, class));
         };
@@ -186,18 +208,26 @@ impl<'t> ParameterText<'t> {
     }
 }
 
+impl Piece {
+    fn span(&self) -> Range<usize> {
+        self.span.start as usize..self.span.end as usize
+    }
+}
+
 impl Written {
     /// What a value is that a letter has, or that is put in for one.
     pub(crate) fn of(letter: Letter, value: &str) -> Self {
-        if value.contains('=') {
-            return Self::Reference;
+        let number = match letter {
+            _ if letter.is_text() => None,
+            Letter::N => parse_integer(value).map(|number| number as f64),
+            _ => parse_number(value),
+        };
+        match number {
+            Some(number) => Self::Number(number),
+            None if value.bytes().any(|byte| byte == b'=') => Self::Reference,
+            None if letter.is_text() => Self::Text,
+            None => Self::NoNumber,
         }
-        if letter.is_text() {
-            return Self::Text;
-        }
-        let number =
-            if letter == Letter::N { parse_integer(value).map(|n| n as f64) } else { parse_number(value) };
-        number.map_or(Self::NoNumber, Self::Number)
     }
 }
 
@@ -239,19 +269,20 @@ fn joined(text: &str) -> Cow<'_, str> {
 
 /// What separates pieces: not a non-breaking space.
 fn is_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
+    byte <= b' ' && matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
 /// The first piece of a text from a byte on.
 fn next_piece(text: &str, from: usize) -> Option<Piece> {
     let bytes = text.as_bytes();
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;
-    let end =
-        bytes[start..].iter().position(|byte| is_blank(*byte)).map_or(bytes.len(), |length| start + length);
+    let length = bytes[start..].iter().position(|byte| is_blank(*byte));
+    let end = length.map_or(bytes.len(), |length| start + length);
     // All letters are ASCII.
     let letter = Letter::new(char::from(bytes[start]));
     let written = letter.map_or(Written::Text, |letter| Written::of(letter, &text[start + 1..end]));
-    Some(Piece { letter, written, span: start..end })
+    let byte = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+    Some(Piece { letter, written, span: byte(start)..byte(end) })
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.

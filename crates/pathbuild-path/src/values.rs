@@ -152,7 +152,7 @@ impl<'t> Values<'t> {
 
     /// The text with the letter's piece underlined.
     pub(crate) fn fault(&self, letter: Letter) -> Option<TextFault> {
-        self.text.piece(letter).map(|piece| self.text.fault(piece))
+        self.text.fault_of(letter)
     }
 
     /// The text with a piece underlined.

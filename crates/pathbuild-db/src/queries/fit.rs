@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value};
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_path::{Bindings, Path, PathName, Segment, Subpath, SubpathName};
+use pathbuild_path::{Bindings, Letter, Path, PathName, Segment, Subpath, SubpathName};
 use regex::Regex;
 
 use super::brief::{Brief, Head};
@@ -84,20 +84,19 @@ impl Outer<'_> {
 
     /// What of T, O, M and the size differs between the segment and the path it embeds.
     pub(super) fn misfits(&self, segment: &Segment, subpath: &Subpath, inner: &Brief) -> Vec<Diagnostic> {
-        let fault =
-            |letter| subpath.faults.iter().find(|(known, _)| *known == letter).map(|(_, fault)| fault);
-        let differs = |letter: char, here: Value, there: Value| {
+        let fault = |letter| self.path.fault(subpath, letter);
+        let differs = |letter: Letter, here: Value, there: Value| {
             let problem = Diagnostic::new(&messages::PARAMETER_DIFFERS)
-                .with("letter", letter)
+                .with("letter", letter.as_char())
                 .with("segment", here.render(pathbuild_diagnostic::Lang::En))
                 .with("path", there.render(pathbuild_diagnostic::Lang::En))
                 .with("name", inner.name.as_str());
-            self.at(segment, problem, fault(letter))
+            self.at(segment, problem, fault(letter).as_ref())
         };
         let mut problems = Vec::new();
         match (&subpath.material, &inner.material) {
             (Some(here), Some(there)) if here != there => {
-                problems.push(differs('M', (&**here).into(), (&**there).into()));
+                problems.push(differs(Letter::M, (&**here).into(), (&**there).into()));
             }
             (Some(_), Some(_)) => {}
             (here, there) => {
@@ -105,7 +104,7 @@ impl Outer<'_> {
             }
         }
         for (letter, here, there) in
-            [('T', subpath.thickness, inner.thickness), ('O', subpath.tool, inner.tool)]
+            [(Letter::T, subpath.thickness, inner.thickness), (Letter::O, subpath.tool, inner.tool)]
         {
             if !near(here, there) {
                 problems.push(differs(letter, here.into(), there.into()));
@@ -115,7 +114,7 @@ impl Outer<'_> {
             let problem = Diagnostic::new(&messages::T_BELOW)
                 .with("path", self.path.thickness)
                 .with("segment", subpath.thickness);
-            problems.push(self.at(segment, problem, fault('T')));
+            problems.push(self.at(segment, problem, fault(Letter::T).as_ref()));
         }
         let (here, there) = ((subpath.end - subpath.start).norm(), inner.size);
         if (here - there).abs() > CHORD_TOLERANCE {

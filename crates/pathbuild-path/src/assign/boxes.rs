@@ -2,6 +2,7 @@
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
+use wide::f32x4;
 
 use super::Candidate;
 use crate::element::Shape;
@@ -11,16 +12,13 @@ use crate::text_circle::TextCircle;
 /// Where the candidates of a layer lie.
 pub(crate) enum Boxes {
     /// Few are all looked at: that is sooner done than to make a tree of them.
-    List(Vec<Box2>),
+    List(Vec<Sides>),
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
 }
 
-/// A rectangle along the axes, by its corners.
+/// The left and lower side of a box, and its right and upper one, negated, so that all four are compared at once. Rounded outwards.
 #[derive(Clone, Copy)]
-pub(crate) struct Box2 {
-    low: [f64; 2],
-    high: [f64; 2],
-}
+pub(crate) struct Sides(f32x4);
 
 /// How many candidates are few.
 const FEW: usize = 128;
@@ -36,25 +34,25 @@ impl Default for Boxes {
 
 impl Boxes {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
-        let boxes = candidates.iter().map(|candidate| Box2::around(&candidate.shape));
+        let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
         if candidates.len() <= FEW {
-            return Self::List(boxes.collect());
+            return Self::List(boxes.map(|box_| Sides::of(&box_)).collect());
         }
-        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.envelope().into(), index));
+        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
         Self::Tree(RTree::bulk_load(numbered.collect()))
     }
 
-    /// Takes each candidate whose box a circle touches, in any order.
+    /// Takes each candidate whose box a circle touches, in any order; in a list also some that it nearly touches.
     pub(super) fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
-        let searched = Box2::square(circle.centre, circle.radius);
+        let searched = square(circle.centre, circle.radius);
         match self {
             Self::List(boxes) => {
-                let touched = boxes.iter().enumerate().filter(|(_, box_)| box_.touches(&searched));
+                let limits = Sides::limits(&searched);
+                let touched = boxes.iter().enumerate().filter(|(_, sides)| sides.are_within(limits));
                 touched.for_each(|(index, _)| take(index));
             }
             Self::Tree(tree) => {
-                let found = tree.locate_in_envelope_intersecting(searched.envelope());
-                found.for_each(|found| take(found.data));
+                tree.locate_in_envelope_intersecting(searched).for_each(|found| take(found.data));
             }
         }
     }
@@ -73,37 +71,43 @@ impl Boxes {
     }
 }
 
-impl Box2 {
-    /// A box around a shape; of an arc around its whole circle.
-    fn around(shape: &Shape) -> Self {
-        match shape {
-            Shape::Circle { centre, radius } => Self::square(*centre, *radius),
-            Shape::Curve(Curve::Arc(arc)) => Self::square(arc.centre, arc.radius),
-            Shape::Curve(Curve::Line(line)) => Self {
-                low: [line.start.x.min(line.end.x), line.start.y.min(line.end.y)],
-                high: [line.start.x.max(line.end.x), line.start.y.max(line.end.y)],
-            },
+impl Sides {
+    fn of(box_: &AABB<[f64; 2]>) -> Self {
+        let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+        Self(f32x4::from([left, low, -right, -high].map(|side| rounded(side, -ROUNDING))))
+    }
+
+    /// Up to where the sides of boxes are that touch this one.
+    fn limits(box_: &AABB<[f64; 2]>) -> f32x4 {
+        let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+        f32x4::from([right, high, -left, -low].map(|side| rounded(side, ROUNDING)))
+    }
+
+    fn are_within(self, limits: f32x4) -> bool {
+        self.0.simd_le(limits).all()
+    }
+}
+
+/// More than a number changes, as part of itself, when it becomes an `f32`.
+const ROUNDING: f64 = 1e-7;
+
+#[expect(clippy::cast_possible_truncation, reason = "what is lost is made up for before")]
+fn rounded(side: f64, by: f64) -> f32 {
+    (side + by * side.abs()) as f32
+}
+
+/// A box around a shape; of an arc around its whole circle.
+fn around(shape: &Shape) -> AABB<[f64; 2]> {
+    match shape {
+        Shape::Circle { centre, radius } => square(*centre, *radius),
+        Shape::Curve(Curve::Arc(arc)) => square(arc.centre, arc.radius),
+        Shape::Curve(Curve::Line(line)) => {
+            AABB::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
         }
     }
+}
 
-    fn square(centre: Xy, half: f64) -> Self {
-        // Texts may have any height, also one below 0.
-        let half = (half + SLACK).abs();
-        Self { low: [centre.x - half, centre.y - half], high: [centre.x + half, centre.y + half] }
-    }
-
-    #[expect(
-        clippy::needless_bitwise_bool,
-        reason = "four comparisons at once, none of which has to be guessed"
-    )]
-    fn touches(&self, other: &Self) -> bool {
-        (self.low[0] <= other.high[0])
-            & (self.low[1] <= other.high[1])
-            & (other.low[0] <= self.high[0])
-            & (other.low[1] <= self.high[1])
-    }
-
-    fn envelope(&self) -> AABB<[f64; 2]> {
-        AABB::from_corners(self.low, self.high)
-    }
+fn square(centre: Xy, half: f64) -> AABB<[f64; 2]> {
+    let half = half + SLACK;
+    AABB::from_corners([centre.x - half, centre.y - half], [centre.x + half, centre.y + half])
 }

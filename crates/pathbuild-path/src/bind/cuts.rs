@@ -8,7 +8,7 @@ use super::{At, Binder};
 use crate::approx::at_least;
 use crate::element::{Cut, Element};
 use crate::geometry::Curve;
-use crate::letter::{ElementClass, Letter};
+use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
 use crate::text::ParameterText;
 
@@ -88,7 +88,6 @@ impl Binder<'_> {
         let bottom = self.needed(scope, if cut == Cut::Mark { Letter::D } else { Letter::B });
         let bars = if cut == Cut::Support { Some(self.bars(scope, curve.length())?) } else { None };
         let own = scope.values;
-        let own_letter = |letter: Letter| Some((letter.as_char(), own.fault(letter)?));
         Some(CutParameters {
             cut,
             feed: self.allowed(scope, Letter::F),
@@ -99,7 +98,7 @@ impl Binder<'_> {
                 peck: self.allowed(scope, Letter::C),
                 first_depth: self.allowed(scope, Letter::W),
             },
-            own_chain_letters: [Letter::I, Letter::C, Letter::W].into_iter().filter_map(own_letter).collect(),
+            chain_letters: scope.element.text.filter(|_| own.letters().has_any(CHAIN_LETTERS)),
             comment: own.text(Letter::Q).map(Into::into),
         })
     }

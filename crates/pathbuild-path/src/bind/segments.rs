@@ -32,15 +32,16 @@ impl Binder<'_> {
     /// An own T of a subpath must be below the path's S, too.
     pub(super) fn add_subpath_surfaces(path: &mut Path) {
         let subpaths = path.segments.iter().filter_map(|segment| match &segment.kind {
-            SegmentKind::Subpath(subpath) => Some((path.origin(segment), subpath)),
+            SegmentKind::Subpath(subpath) => Some((segment, subpath)),
             _ => None,
         });
-        let own = subpaths.filter_map(|(origin, subpath)| {
-            let (_, fault) = subpath.faults.iter().find(|(letter, _)| *letter == 'T')?;
-            Some((origin, subpath.thickness, fault.clone()))
+        let own = subpaths.filter_map(|(segment, subpath)| {
+            let origin = path.origin(segment);
+            let says = path.drawn.text(subpath.text).is_some_and(|text| text.letters.contains(Letter::T));
+            says.then_some((origin, subpath.thickness, subpath.text))
         });
-        for (origin, thickness, fault) in own.collect::<Vec<_>>() {
-            path.add_surface(origin, thickness, Some(fault));
+        for (origin, thickness, text) in own.collect::<Vec<_>>() {
+            path.add_surface(origin, thickness, text);
         }
     }
 
@@ -60,7 +61,7 @@ impl Binder<'_> {
         match (element.role, element.shape) {
             (Role::Cut(cut), Shape::Circle { centre, radius }) => self.circle(&scope, cut, centre, radius),
             (Role::Subpath, Shape::Curve(curve)) => {
-                let subpath = self.subpath(&values, curve, text)?;
+                let subpath = self.subpath(element, &values, curve)?;
                 Some((order(), SegmentKind::Subpath(Box::new(subpath))))
             }
             (_, Shape::Curve(_)) => {
@@ -132,15 +133,9 @@ impl Binder<'_> {
         }
     }
 
-    fn subpath(
-        &mut self,
-        values: &Values<'_>,
-        curve: Curve,
-        text: Option<ParameterText<'_>>,
-    ) -> Option<Subpath> {
+    fn subpath(&mut self, element: &Element, values: &Values<'_>, curve: Curve) -> Option<Subpath> {
         let inherited = |letter| values.number(letter).or(self.values.number(letter)).number();
         let own_text = |letter| values.text(letter).map(Box::from);
-        let faults = [Letter::T, Letter::O, Letter::M].into_iter();
         let value = |(value, piece): (&str, &Piece)| {
             let mut characters = value.chars();
             let variable = characters.next();
@@ -150,13 +145,13 @@ impl Binder<'_> {
         Some(Subpath {
             start: curve.start(),
             end: curve.end(),
-            name: self.subpath_name(values, text),
+            name: self.subpath_name(values, self.raw.drawn.text(element.text)),
             thickness: inherited(Letter::T)?,
             tool: inherited(Letter::O)?,
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
             height: values.number(Letter::H).number().unwrap_or(0.0),
             values: values.variables().map(value).collect(),
-            faults: faults.filter_map(|letter| Some((letter.as_char(), values.fault(letter)?))).collect(),
+            text: element.text,
         })
     }
 

@@ -22,9 +22,9 @@ pub(crate) enum Place {
 }
 
 impl Elements {
-    /// Makes room for a layer's.
+    /// Makes room for a layer's. Arcs, which are fewer, are appended to the lines.
     pub(super) fn reserve(&mut self, count: Count) {
-        self.lines.reserve(count.lines);
+        self.lines.reserve(count.lines + count.arcs);
         self.arcs.reserve(count.arcs);
     }
 
@@ -55,10 +55,9 @@ impl Elements {
 
     /// All of them in the order of segments.
     pub(super) fn in_order(mut self) -> Vec<Element> {
-        let mut elements = self.circles;
-        elements.reserve_exact(self.lines.len() + self.arcs.len());
-        elements.append(&mut self.lines);
+        let mut elements = self.lines;
         elements.append(&mut self.arcs);
+        elements.splice(0..0, self.circles);
         elements
     }
 }

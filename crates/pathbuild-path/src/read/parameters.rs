@@ -55,8 +55,12 @@ impl Checked {
                 continue;
             }
             seen = element.text;
-            let problems = drawn.text(element.text).map(|text| text.problems(element.class(tool)));
-            for problem in problems.into_iter().flatten() {
+            let Some(text) = drawn.text(element.text) else { continue };
+            let class = element.class(tool);
+            if text.is_right(class) {
+                continue;
+            }
+            for problem in text.problems(class) {
                 self.report(drawn.origin(element).at(problem));
             }
         }

@@ -5,10 +5,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind};
+use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{MText, Text};
 
-use super::collect::{Collected, Owner, candidate_word};
+use super::collect::{Collected, Owner, candidate_word, xy};
 use super::layers::Count;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
@@ -34,10 +34,39 @@ struct LayerTexts<'d> {
 #[derive(Clone, Copy)]
 struct FoundText<'d> {
     source: Source,
-    anchor: Xy,
-    circle: TextCircle,
+    text: AnyText<'d>,
+}
+
+#[derive(Clone, Copy)]
+enum AnyText<'d> {
+    Text(&'d Text),
+    MText(&'d MText),
+}
+
+impl<'d> FoundText<'d> {
     /// As the drawing has it.
-    string: &'d str,
+    fn string(&self) -> &'d str {
+        match self.text {
+            AnyText::Text(text) => &text.string,
+            AnyText::MText(text) => &text.plain,
+        }
+    }
+
+    fn circle(&self) -> TextCircle {
+        match self.text {
+            AnyText::Text(text) => TextCircle::of_text(text),
+            AnyText::MText(text) => TextCircle::of_mtext(text),
+        }
+    }
+
+    fn anchor(&self) -> Xy {
+        let (AnyText::Text(Text { anchor, .. }) | AnyText::MText(MText { anchor, .. })) = self.text;
+        xy(*anchor)
+    }
+
+    fn is_mtext(&self) -> bool {
+        matches!(self.text, AnyText::MText(_))
+    }
 }
 
 /// A text and what it belongs to.
@@ -74,15 +103,11 @@ impl<'d> Texts<'d> {
     }
 
     pub(crate) fn add_text(&mut self, text: &'d Text, source: Source) {
-        let circle = TextCircle::of_text(text);
-        let anchor = Xy::new(text.anchor.x, text.anchor.y);
-        self.layer(source.layer).texts.push(FoundText { source, anchor, circle, string: &text.string });
+        self.layer(source.layer).texts.push(FoundText { source, text: AnyText::Text(text) });
     }
 
     pub(crate) fn add_mtext(&mut self, text: &'d MText, source: Source) {
-        let circle = TextCircle::of_mtext(text);
-        let anchor = Xy::new(text.anchor.x, text.anchor.y);
-        self.layer(source.layer).texts.push(FoundText { source, anchor, circle, string: &text.plain });
+        self.layer(source.layer).texts.push(FoundText { source, text: AnyText::MText(text) });
     }
 
     pub(crate) fn add_candidate(&mut self, layer: u32, candidate: Candidate) {
@@ -98,11 +123,10 @@ impl<'d> Texts<'d> {
         let mut matched = Vec::new();
         for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
-            layer.each_match(|layer, text, owners| {
+            layer.each_match(|layer, text, circle, owners| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
-                let origin = layer.origin(text.source, text.anchor);
-                let string = without_percent_codes(text.string);
-                matched.push(Match { string, circle: text.circle, origin, owners });
+                let origin = layer.origin(text.source, text.anchor());
+                matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
             });
         }
         matched
@@ -111,7 +135,7 @@ impl<'d> Texts<'d> {
     /// Gives each text to its element; what finds none is PB107.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
         let texts = || self.layers.iter().flat_map(|layer| &layer.texts);
-        path.given.reserve(texts().count(), texts().map(|text| text.string.len()).sum());
+        path.given.reserve(texts().count(), texts().map(|text| text.string().len()).sum());
         for layer in &mut self.layers {
             layer.assign(path);
         }
@@ -139,7 +163,7 @@ impl<'d> LayerTexts<'d> {
     /// Gives each text to its element. What finds no element stays in `texts`.
     fn assign(&mut self, path: &mut Collected<'_>) {
         let mut open = Vec::new();
-        self.each_match(|layer, text, owners| {
+        self.each_match(|layer, text, _, owners| {
             if owners.is_empty() {
                 open.push(*text);
             } else {
@@ -150,21 +174,21 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Takes all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    fn each_match(&mut self, mut take: impl FnMut(&Self, &FoundText<'d>, Range<usize>)) {
+    fn each_match(&mut self, mut take: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>)) {
         let texts = std::mem::take(&mut self.texts);
         if texts.is_empty() {
             return;
         }
         self.boxes = Boxes::new(&self.candidates);
-        let is_mtext = |text: &&FoundText<'_>| text.source.entity == EntityKind::MText;
-        let in_order = texts.iter().filter(|text| !is_mtext(text)).chain(texts.iter().filter(is_mtext));
-        for text in in_order {
-            let owners =
-                find(&text.circle, &self.candidates, &self.boxes).map_or(0..0, |index| self.parts(index));
+        let (single_lines, others) = (texts.iter().filter(|text| !text.is_mtext()), texts.iter());
+        for text in single_lines.chain(others.filter(|text| text.is_mtext())) {
+            let circle = text.circle();
+            let found = find(&circle, &self.candidates, &self.boxes);
+            let owners = found.map_or(0..0, |index| self.parts(index));
             for owner in &mut self.candidates[owners.clone()] {
                 owner.is_taken = true;
             }
-            take(self, text, owners);
+            take(self, text, circle, owners);
         }
     }
 
@@ -181,7 +205,7 @@ impl<'d> LayerTexts<'d> {
     }
 
     fn give(&self, text: &FoundText<'_>, owners: Range<usize>, path: &mut Collected<'_>) {
-        let number = path.given.push(&without_percent_codes(text.string));
+        let number = path.given.push_drawn(text.string());
         for owner in &self.candidates[owners] {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),
@@ -203,13 +227,13 @@ impl<'d> LayerTexts<'d> {
     where
         'd: 'a,
     {
-        let string = without_percent_codes(text.string);
+        let (string, circle) = (without_percent_codes(text.string()), text.circle());
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
             .with("text", string.replace('\n', " "))
-            .with("centre", shown(text.circle.centre))
-            .with("diameter", 2.0 * text.circle.radius);
+            .with("centre", shown(circle.centre))
+            .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).get(0).map(ParameterText::whole);
-        if let Some(miss) = nearest_miss(&text.circle, &self.candidates, &self.boxes) {
+        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,
@@ -221,12 +245,12 @@ impl<'d> LayerTexts<'d> {
             );
         }
         let diagnostic = elsewhere.fold(diagnostic, |diagnostic, layer| layer.would_take(text, diagnostic));
-        self.origin(text.source, text.anchor).at(diagnostic)
+        self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
     /// Notes that a text would have found its element, had it been on this layer.
     fn would_take(&self, text: &FoundText<'_>, diagnostic: Diagnostic) -> Diagnostic {
-        let Some(index) = find(&text.circle, &self.candidates, &self.boxes) else { return diagnostic };
+        let Some(index) = find(&text.circle(), &self.candidates, &self.boxes) else { return diagnostic };
         let candidate = &self.candidates[index];
         diagnostic.note(
             &messages::ELEMENT_ON_OTHER_LAYER,

@@ -1,19 +1,24 @@
 //! Which segments have an end at a point.
 
-use nalgebra::Vector2;
+use std::ops::RangeInclusive;
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
-use crate::path::Path;
+use crate::path::{Path, Segment};
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
 pub(super) struct Ends {
-    /// Start and end of each segment, as drawn.
-    drawn: Vec<[Xy; 2]>,
-    /// The first end in the squares of a bucket, by the square's [`hash`]; their number is a power of two.
+    segments: Vec<SegmentEnds>,
+    /// The first end in the squares of a bucket, see [`bucket_of`]; their number is a power of two.
     buckets: Vec<u32>,
-    /// The next end in the same bucket, for each start and end in turn.
-    next: Vec<[u32; 2]>,
+}
+
+/// Start and end of a segment, twice.
+struct SegmentEnds {
+    /// As drawn.
+    drawn: [Xy; 2],
+    /// The next end in the same bucket. Ends are numbered by twice their segment's number, the second with one more.
+    next: [u32; 2],
 }
 
 /// Its column and row.
@@ -26,27 +31,27 @@ const NONE: u32 = u32::MAX;
 const SQUARES: f64 = 100.0;
 /// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
 const SHIFT: f64 = 0.003_7;
-/// Around a point is looked so far, in mm: a few times the distance within which points coincide.
-const REACH: f64 = 0.0001;
+/// Around a point is looked so far, in squares: a few times the distance within which points coincide.
+const REACH: f64 = 0.01;
 
 impl Ends {
     pub(super) fn new(path: &Path) -> Self {
-        let drawn: Vec<[Xy; 2]> = path.segments.iter().map(|segment| path.ends(segment)).collect();
-        let mut buckets = vec![NONE; (2 * drawn.len()).next_power_of_two()];
-        let mut next = Vec::with_capacity(drawn.len());
-        for (index, ends) in (0_u32..).zip(&drawn) {
-            let mut enter = |end: usize| {
-                let bucket = bucket_of(square(ends[end]), buckets.len());
-                std::mem::replace(&mut buckets[bucket], 2 * index + u32::from(end == 1))
+        let mut buckets = vec![NONE; (2 * path.segments.len()).next_power_of_two()];
+        let ends_of = |(number, segment): (u32, &Segment)| {
+            let drawn = path.ends(segment);
+            let mut enter = |end: u32| {
+                let bucket = bucket_of(square(drawn[end as usize]), buckets.len());
+                std::mem::replace(&mut buckets[bucket], 2 * number + end)
             };
-            next.push([enter(0), enter(1)]);
-        }
-        Self { drawn, buckets, next }
+            SegmentEnds { drawn, next: [enter(0), enter(1)] }
+        };
+        let segments = (0_u32..).zip(&path.segments).map(ends_of).collect();
+        Self { segments, buckets }
     }
 
     /// Where a segment starts and where it ends, as drawn.
     pub(super) fn of(&self, segment: usize) -> [Xy; 2] {
-        self.drawn[segment]
+        self.segments[segment].drawn
     }
 
     /// Takes those of the wanted segments that have an end at a point, in any order; one may be named several times.
@@ -56,12 +61,10 @@ impl Ends {
         is_wanted: impl Fn(usize) -> bool,
         mut take: impl FnMut(usize),
     ) {
-        let reach = Vector2::new(REACH, REACH);
-        let (Square(left, low), Square(right, high)) = (square(point - reach), square(point + reach));
-        for column in left..=right {
-            for row in low..=high {
+        for column in around(point.x) {
+            for row in around(point.y) {
                 self.each_in(Square(column, row), |segment, end| {
-                    if is_wanted(segment) && coincide(self.drawn[segment][end], point) {
+                    if is_wanted(segment) && coincide(self.segments[segment].drawn[end], point) {
                         take(segment);
                     }
                 });
@@ -75,13 +78,26 @@ impl Ends {
         while at != NONE {
             let (segment, end) = (at as usize / 2, at as usize % 2);
             take(segment, end);
-            at = self.next[segment][end];
+            at = self.segments[segment].next[end];
         }
     }
 }
 
 fn square(point: Xy) -> Square {
-    Square(floor((point.x + SHIFT) * SQUARES), floor((point.y + SHIFT) * SQUARES))
+    Square(floor(in_squares(point.x)), floor(in_squares(point.y)))
+}
+
+/// The columns, or rows, of what is close to a coordinate: one, or two where they meet.
+fn around(coordinate: f64) -> RangeInclusive<i64> {
+    let place = in_squares(coordinate);
+    let number = floor(place);
+    let part = place - number as f64;
+    let (is_first, is_last) = (part < REACH, part > 1.0 - REACH);
+    number.saturating_sub(is_first.into())..=number.saturating_add(is_last.into())
+}
+
+fn in_squares(coordinate: f64) -> f64 {
+    (coordinate + SHIFT) * SQUARES
 }
 
 /// The whole number below. All that is very far off falls into one square.

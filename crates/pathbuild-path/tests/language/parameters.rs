@@ -52,10 +52,7 @@ fn known(parameters: &str, statements: &str) -> String {
     let path: Path = compiled.path.unwrap();
     let segment = match path.segments[0].kind.clone() {
         SegmentKind::Cut(cut) => {
-            format!(
-                "{:?}",
-                CutParameters { own_chain_letters: Vec::new(), ..path.cuts[cut as usize].clone() }
-            )
+            format!("{:?}", CutParameters { chain_letters: None, ..path.cuts[cut as usize].clone() })
         }
         SegmentKind::Subpath(subpath) => {
             format!("{} {} {:?}", subpath.thickness, subpath.tool, subpath.material)

@@ -140,7 +140,7 @@ impl<'db> Judge<'db> {
         let proxies = self.component.proxies.get(name).into_iter().flatten();
         let right = proxies.filter(|proxy| self.problems(proxy).is_empty());
         let mut compared: Vec<Vec<Diagnostic>> =
-            right.map(|proxy| self.differences(name, proxy, subpath)).collect();
+            right.map(|proxy| self.differences(name, proxy, path, subpath)).collect();
         if compared.iter().any(Vec::is_empty) || compared.is_empty() {
             return;
         }
@@ -152,8 +152,15 @@ impl<'db> Judge<'db> {
         self.found.extend(placed);
     }
 
-    fn differences(&self, name: &PathName, proxy: &ProxyLine, subpath: &Subpath) -> Vec<Diagnostic> {
-        let differences = differences_from_proxy(subpath, proxy).into_iter();
+    /// What a subpath of a path of the Q-project says that a proxy line does not.
+    fn differences(
+        &self,
+        name: &PathName,
+        proxy: &ProxyLine,
+        path: &Path,
+        subpath: &Subpath,
+    ) -> Vec<Diagnostic> {
+        let differences = differences_from_proxy(path, subpath, proxy).into_iter();
         let differing = differences.map(|it| differing(&messages::Q_VALUE_DIFFERS, it, name));
         let mut problems: Vec<Diagnostic> = differing.collect();
         let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
@@ -203,19 +210,18 @@ fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
 }
 
 /// What a subpath of a Q-project says of T, O, M and variables that the proxy line does not.
-fn differences_from_proxy(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
-    let fault = |letter: char| {
-        subpath.faults.iter().find(|(known, _)| *known == letter).map(|(_, fault)| fault.clone())
-    };
+fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
+    let fault = |letter| path.fault(subpath, letter);
     let number = |letter: Letter, here: f64| {
         let (there, _) = proxy.value(letter)?;
-        let letter = letter.as_char();
-        (!is_number(there, here)).then(|| (letter.to_string(), here.into(), there.into(), fault(letter)))
+        let name = letter.as_char();
+        (!is_number(there, here)).then(|| (name.to_string(), here.into(), there.into(), fault(letter)))
     };
     let material = || {
         let (there, _) = proxy.value(Letter::M)?;
         let here = subpath.material.as_deref();
-        (here != Some(there)).then(|| ("M".to_owned(), here.unwrap_or("-").into(), there.into(), fault('M')))
+        (here != Some(there))
+            .then(|| ("M".to_owned(), here.unwrap_or("-").into(), there.into(), fault(Letter::M)))
     };
     let mut differences: Vec<Difference> =
         [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool), material()]
