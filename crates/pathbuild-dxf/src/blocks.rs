@@ -69,15 +69,15 @@ fn ended(records: &Records<'_>) -> Result<(), Fatal> {
 
 impl<'a> Blocks<'a> {
     /// Finds the blocks of the section that begins here.
-    pub(crate) fn index(pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Stop<'a>> {
+    pub(crate) fn index(pairs: Pairs<'a>, reader: &mut EntityReader<'a, '_>) -> Result<Self, Stop<'a>> {
+        let EntityReader { fields, decoder, .. } = reader;
         let mut groups = Groups::new(pairs);
         let mut blocks = Self::default();
-        let mut fields = Fields::new(0);
         let mut head = groups.next_zero()?;
         while !head.is("ENDSEC") {
             if head.is("BLOCK") {
                 (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
-                blocks.add(&fields, groups.pairs(), head, decoder);
+                blocks.add(fields, groups.pairs(), head, decoder);
                 head = blocks.pass(&mut groups, head)?;
             } else {
                 head = groups.next_zero()?;

@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
+use crate::code::Role;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
 use crate::groups::Groups;
@@ -20,7 +21,7 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) decoder: Decoder<'a>,
     pub(crate) layers: Layers<'a, 'o>,
     pub(crate) line_types: LineTypes<'a>,
-    fields: Fields<'a>,
+    pub(crate) fields: Fields<'a>,
 }
 
 /// What the entities are in.
@@ -44,6 +45,21 @@ impl<'a> Records<'a> {
         Ok(Self { groups, head })
     }
 
+    /// Passes over the records ahead that are of this kind and name this layer, as far as they follow each other: what is drawn on a
+    /// layer is mostly drawn in a row.
+    fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
+        while self.head.value == kind {
+            let begin = self.groups;
+            let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
+            if group.role != Role::LAYER || group.value() != layer {
+                self.groups = begin;
+                break;
+            }
+            self.head = self.groups.next_zero()?;
+        }
+        Ok(())
+    }
+
     /// Passes over the record, which is no item.
     fn skip(&mut self) -> Result<Option<Item<'a>>, Stop<'a>> {
         self.head = self.groups.next_zero()?;
@@ -51,20 +67,23 @@ impl<'a> Records<'a> {
     }
 }
 
+/// How many groups are kept of an entity that repeats some.
+pub(crate) fn most_repeated(options: &Options<'_>) -> usize {
+    options.max_entities.saturating_mul(GROUPS_AN_ENTITY).max(options.max_text)
+}
+
 /// How many groups of a polyline or spline make an entity: x, y, bulge; x, y, z, weight, knot.
 const GROUPS_AN_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
     /// Knows no entity yet.
-    pub(crate) fn new(options: &'o Options<'o>, decoder: Decoder<'a>, layers: Layers<'a, 'o>) -> Self {
-        let most_repeated = options.max_entities.saturating_mul(GROUPS_AN_ENTITY).max(options.max_text);
-        Self {
-            options,
-            decoder,
-            layers,
-            line_types: LineTypes::default(),
-            fields: Fields::new(most_repeated),
-        }
+    pub(crate) fn new(
+        options: &'o Options<'o>,
+        decoder: Decoder<'a>,
+        layers: Layers<'a, 'o>,
+        fields: Fields<'a>,
+    ) -> Self {
+        Self { options, decoder, layers, line_types: LineTypes::default(), fields }
     }
 
     /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
@@ -130,9 +149,13 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         kind: Kind,
         space: Space,
     ) -> Result<Option<Traits>, Stop<'a>> {
-        let line = records.head.line;
+        let Pair { line, value: name, .. } = records.head;
         let (want, layer) = self.fill(records, kind, space)?;
-        if want == Want::Skip || self.is_in_paper_space() {
+        if want == Want::Skip {
+            records.skip_alike(name, self.layers.last_spelling())?;
+            return Ok(None);
+        }
+        if self.is_in_paper_space() {
             return Ok(None);
         }
         let layer = layer.unwrap_or_else(|| self.layers.id(b"0", line, &mut self.decoder));

@@ -140,7 +140,7 @@ impl<'a> Fields<'a> {
         match group.role {
             Role::BEGIN => return Ok(Some((group.pair(), Want::Keep))),
             Role::LAYER => {
-                let value = Value { bytes: without_cr(group.raw), line: group.line(), entity: self.entity };
+                let value = Value { bytes: group.value(), line: group.line(), entity: self.entity };
                 if want(value) == Want::Skip {
                     return Ok(Some((groups.next_zero()?, Want::Skip)));
                 }

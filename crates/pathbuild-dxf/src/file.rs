@@ -7,8 +7,9 @@ use pathbuild_diagnostic::{Diagnostic, Word};
 use crate::binary::to_ascii;
 use crate::collect::{Collector, Limits};
 use crate::encoding::Decoder;
-use crate::entities::{EntityReader, Records};
+use crate::entities::{EntityReader, Records, most_repeated};
 use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
+use crate::fields::Fields;
 use crate::header::Header;
 use crate::layer_table::LayerTable;
 use crate::layers::Layers;
@@ -140,12 +141,13 @@ impl<'a> File<'a> {
     fn read_entities(self, options: &Options<'_>) -> Result<Drawing, Fatal> {
         let scale = millimetres(&self.header, options.units)?;
         let mut decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
+        let mut fields = Fields::new(most_repeated(options));
         let table = match self.tables {
-            Some(tables) => read_layers(tables, &mut decoder)?,
+            Some(tables) => read_layers(tables, &mut fields, &mut decoder)?,
             None => LayerTable::default(),
         };
         let layers = Layers::new(table, options.keep_layer);
-        let reader = EntityReader::new(options, decoder, layers);
+        let reader = EntityReader::new(options, decoder, layers, fields);
         let limits = Limits {
             entities: options.max_entities,
             text: options.max_text,

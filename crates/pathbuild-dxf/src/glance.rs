@@ -6,7 +6,7 @@ use crate::entities::is_end;
 use crate::fields::Value;
 use crate::groups::{Group, Groups};
 use crate::kind::Kind;
-use crate::pairs::{Pair, Stop, without_cr};
+use crate::pairs::{Pair, Stop};
 
 /// Passes over the records of a block, of which this is the first, and adds the layers that its entities name, each once in a row.
 /// Gives back the record that ends it, and whether these are all the layers that anything in it can be on, and all there is to be
@@ -55,5 +55,5 @@ fn layer_named<'a>(groups: &mut Groups<'a>, line: u32) -> Result<(Pair<'a>, Opti
 }
 
 fn value<'a>(group: &Group<'a>) -> Value<'a> {
-    Value::new(without_cr(group.raw), group.line())
+    Value::new(group.value(), group.line())
 }

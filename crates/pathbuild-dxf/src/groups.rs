@@ -16,6 +16,7 @@ pub(crate) struct Group<'a> {
 }
 
 /// Pairs that are gone through from one to the next.
+#[derive(Clone, Copy)]
 pub(crate) struct Groups<'a> {
     /// Where they begin.
     begin: Pairs<'a>,
@@ -40,9 +41,15 @@ impl<'a> Group<'a> {
         shown(self.line)
     }
 
+    /// The value.
+    #[inline]
+    pub(crate) fn value(&self) -> &'a [u8] {
+        without_cr(self.raw)
+    }
+
     /// As a pair; one that only has a role has no code.
     pub(crate) fn pair(&self) -> Pair<'a> {
-        Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: without_cr(self.raw) }
+        Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: self.value() }
     }
 }
 

@@ -32,7 +32,11 @@ impl Kind {
     /// The same for a name that is not written like this.
     #[cold]
     fn unusual(name: &[u8]) -> Option<Self> {
-        if name.len() > LONGEST { None } else { Self::exact(&name.to_ascii_uppercase()) }
+        let mut room = [0; LONGEST];
+        let upper_case = room.get_mut(..name.len())?;
+        upper_case.copy_from_slice(name);
+        upper_case.make_ascii_uppercase();
+        Self::exact(upper_case)
     }
 
     #[inline]

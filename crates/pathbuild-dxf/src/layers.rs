@@ -69,6 +69,11 @@ impl<'a, 'o> Layers<'a, 'o> {
         id
     }
 
+    /// The spelling that was asked for last.
+    pub(crate) fn last_spelling(&self) -> &'a [u8] {
+        self.last.map_or(b"", |(spelling, _)| spelling)
+    }
+
     /// What is known of it.
     #[inline]
     pub(crate) fn get(&self, id: LayerId) -> &UsedLayer {

@@ -95,7 +95,7 @@ impl<'a, 'o> Model<'a, 'o> {
         around: &Around,
     ) -> Result<(), Fatal> {
         if let Some(section) = self.section.take() {
-            let blocks = Blocks::index(section, &mut self.reader.decoder);
+            let blocks = Blocks::index(section, &mut self.reader);
             self.blocks = blocks.map_err(|stop| stopped(stop, "BLOCKS"))?;
         }
         let Some(block) = self.blocks.find(&insert.block) else {

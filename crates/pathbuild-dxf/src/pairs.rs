@@ -118,8 +118,7 @@ impl<'a> Pairs<'a> {
     fn code(&mut self) -> Result<i32, Stop<'a>> {
         let at = self.at;
         let line = self.next_line();
-        let digits = std::str::from_utf8(line.trim_ascii()).ok();
-        digits.and_then(|digits| digits.parse().ok()).ok_or_else(|| self.no_code(at, line))
+        number(line.trim_ascii()).ok_or_else(|| self.no_code(at, line))
     }
 
     /// The next line without its end.
@@ -147,6 +146,15 @@ const LONGEST_PADDING: usize = 1 << 16;
 
 /// Most bytes of a line that are shown when it is wrong.
 const MOST_SHOWN: usize = 60;
+
+/// The number that these characters are.
+fn number(text: &[u8]) -> Option<i32> {
+    match text {
+        [a @ b'0'..=b'9'] => Some(i32::from(a - b'0')),
+        [a @ b'0'..=b'9', b @ b'0'..=b'9'] => Some(i32::from(a - b'0') * 10 + i32::from(b - b'0')),
+        _ => std::str::from_utf8(text).ok()?.parse().ok(),
+    }
+}
 
 /// LF, unless the first line ends with a CR and no LF follows it.
 fn line_end(bytes: &[u8]) -> u8 {

@@ -12,21 +12,25 @@ use crate::sections::LAYER;
 const USUAL: usize = 16;
 
 /// Reads the records of layers.
-pub(crate) fn read_layers<'a>(pairs: Pairs<'a>, decoder: &mut Decoder<'_>) -> Result<LayerTable<'a>, Fatal> {
-    read_records(pairs, decoder).map(LayerTable::new).map_err(|stop| stopped(stop, "TABLES"))
+pub(crate) fn read_layers<'a>(
+    pairs: Pairs<'a>,
+    fields: &mut Fields<'a>,
+    decoder: &mut Decoder<'_>,
+) -> Result<LayerTable<'a>, Fatal> {
+    read_records(pairs, fields, decoder).map(LayerTable::new).map_err(|stop| stopped(stop, "TABLES"))
 }
 
 fn read_records<'a>(
     mut pairs: Pairs<'a>,
+    fields: &mut Fields<'a>,
     decoder: &mut Decoder<'_>,
 ) -> Result<Vec<LayerRecord<'a>>, Stop<'a>> {
     let mut records = Vec::with_capacity(USUAL);
-    let mut fields = Fields::new(0);
     while let Some(mut head) = pairs.find("0", &LAYER) {
         let mut groups = Groups::new(pairs);
         while head.is("LAYER") {
             (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
-            records.extend(LayerRecord::read(&fields, decoder));
+            records.extend(LayerRecord::read(fields, decoder));
         }
         pairs = groups.pairs();
     }

@@ -84,7 +84,8 @@ impl<'a> Decoder<'a> {
             Charset::Dos(upper_half) => dos(upper_half, bytes),
             Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
             Charset::Either(file) => {
-                let is_utf8 = std::str::from_utf8(file).is_ok();
+                // Where a string is not, the file is not.
+                let is_utf8 = [bytes, file].into_iter().all(|it| std::str::from_utf8(it).is_ok());
                 let encoding = if is_utf8 { UTF_8 } else { WINDOWS_1252 };
                 self.charset = Charset::Standard(encoding);
                 standard(encoding, bytes)
