@@ -11,6 +11,24 @@ pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
     if value == b"0.0" {
         return Some(0.0);
     }
+    match value.len() {
+        4..=WIDTH => short_decimal(value),
+        _ => other_decimal(value),
+    }
+}
+
+/// One of four to eight characters. In which of them there is a sign, if there is one, is nothing to branch on.
+#[inline]
+fn short_decimal(value: &[u8]) -> Option<f64> {
+    let is_negative = u64::from(value.first() == Some(&b'-'));
+    let sign = (is_negative * u64::from(b'-' ^ b'0')) << (64 - 8 * value.len());
+    let (digits, decimals) = without_point(right_aligned(value) ^ sign);
+    let number = eight_digits(digits)? as f64 / POWERS[decimals.unwrap_or(0)];
+    Some(f64::from_bits(number.to_bits() | is_negative << 63))
+}
+
+/// One of any other length.
+fn other_decimal(value: &[u8]) -> Option<f64> {
     let (is_negative, text) = match value {
         [b'-', text @ ..] => (true, text),
         text => (false, text),

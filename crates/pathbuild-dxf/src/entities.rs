@@ -10,6 +10,7 @@ use crate::item::{Item, Shape, Traits};
 use crate::kind::Kind;
 use crate::layers::{LayerId, Layers};
 use crate::line_types::LineTypes;
+use crate::names::is_same;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::trouble::Trouble;
@@ -48,10 +49,10 @@ impl<'a> Records<'a> {
     /// Passes over the records ahead that are of this kind and name this layer, as far as they follow each other: what is drawn on a
     /// layer is mostly drawn in a row.
     fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
-        while self.head.value == kind {
+        while is_same(self.head.value, kind) {
             let begin = self.groups;
             let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
-            if group.role != Role::LAYER || group.value() != layer {
+            if group.role != Role::LAYER || !is_same(group.value(), layer) {
                 self.groups = begin;
                 break;
             }

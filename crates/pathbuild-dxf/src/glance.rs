@@ -6,6 +6,7 @@ use crate::entities::is_end;
 use crate::fields::Value;
 use crate::groups::{Group, Groups};
 use crate::kind::Kind;
+use crate::names::is_same;
 use crate::pairs::{Pair, Stop};
 
 /// Passes over the records of a block, of which this is the first, and adds the layers that its entities name, each once in a row.
@@ -25,7 +26,7 @@ pub(crate) fn layers_named<'a>(
             Some(kind) if are_all && !kind.is_part() => {
                 let (next, layer) = layer_named(groups, head.line)?;
                 let is_another =
-                    |layer: &Value<'_>| layers[begin..].last().is_none_or(|last| last.bytes != layer.bytes);
+                    |layer: &Value<'_>| layers[begin..].last().is_none_or(|last| !is_same(last.bytes, layer.bytes));
                 are_all = layer.is_some();
                 layers.extend(layer.filter(is_another));
                 Some(next)

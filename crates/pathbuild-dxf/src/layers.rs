@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 use crate::encoding::Decoder;
 use crate::layer_table::{LayerRecord, LayerTable};
 use crate::line_types::CONTINUOUS;
-use crate::names::{folded, without_xref};
+use crate::names::{folded, is_same, without_xref};
 use crate::spellings::Spellings;
 
 /// The number of a spelling of a layer's name.
@@ -59,7 +59,7 @@ impl<'a, 'o> Layers<'a, 'o> {
     #[inline]
     pub(crate) fn id(&mut self, spelling: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> LayerId {
         if let Some((last, id)) = self.last
-            && last == spelling
+            && is_same(last, spelling)
         {
             return id;
         }

@@ -4,7 +4,7 @@ use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::fields::Value;
-use crate::names::{folded, without_xref};
+use crate::names::{folded, is_same, without_xref};
 use crate::spellings::Spellings;
 
 /// What is taken where nothing is said.
@@ -43,7 +43,7 @@ impl<'a> LineTypes<'a> {
     pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
         let Some(value) = value else { return LineType::ByLayer };
         if let Some((last, line_type)) = self.last
-            && last == value.bytes
+            && is_same(last, value.bytes)
         {
             return line_type;
         }

@@ -71,6 +71,21 @@ pub(crate) fn folded(name: &str) -> SmolStr {
     if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
 }
 
+/// Whether two spellings, most of which are short, are the same. Takes no calls.
+#[inline]
+pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
+    match (a.len() == b.len(), a.len()) {
+        (true, 8..=16) => has_same_ends::<8>(a, b),
+        (true, 4..=8) => has_same_ends::<4>(a, b),
+        _ => a == b,
+    }
+}
+
+#[inline]
+fn has_same_ends<const N: usize>(a: &[u8], b: &[u8]) -> bool {
+    a.first_chunk::<N>() == b.first_chunk() && a.last_chunk::<N>() == b.last_chunk()
+}
+
 /// The order of ASCII names without regard to case. (Names that are already folded may be anything.)
 pub(crate) fn compare_ascii(a: &str, b: &str) -> Ordering {
     a.bytes().map(|byte| byte.to_ascii_uppercase()).cmp(b.bytes().map(|byte| byte.to_ascii_uppercase()))

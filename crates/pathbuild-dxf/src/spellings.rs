@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use crate::names::is_same;
+
 /// What is known of some spellings. Drawings have few, so the first ones are compared one after the other.
 #[derive(Debug)]
 pub(crate) struct Spellings<'a, T> {
@@ -22,7 +24,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
     /// What is known of this one.
     #[inline]
     pub(crate) fn get(&self, spelling: &[u8]) -> Option<T> {
-        let first = self.first.iter().find(|(known, _)| *known == spelling);
+        let first = self.first.iter().find(|(known, _)| is_same(known, spelling));
         match first {
             Some((_, value)) => Some(*value),
             None if self.others.is_empty() => None,
