@@ -25,8 +25,9 @@ pub(crate) fn layers_named<'a>(
             Some(Kind::Insert | Kind::Text | Kind::MText) => None,
             Some(kind) if are_all && !kind.is_part() => {
                 let (next, layer) = layer_named(groups, head.line)?;
-                let is_another =
-                    |layer: &Value<'_>| layers[begin..].last().is_none_or(|last| !is_same(last.bytes, layer.bytes));
+                let is_another = |layer: &Value<'_>| {
+                    layers[begin..].last().is_none_or(|last| !is_same(last.bytes, layer.bytes))
+                };
                 are_all = layer.is_some();
                 layers.extend(layer.filter(is_another));
                 Some(next)

@@ -76,7 +76,7 @@ pub(crate) fn folded(name: &str) -> SmolStr {
 pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
     match (a.len() == b.len(), a.len()) {
         (true, 8..=16) => has_same_ends::<8>(a, b),
-        (true, 4..=8) => has_same_ends::<4>(a, b),
+        (true, 4..=7) => has_same_ends::<4>(a, b),
         _ => a == b,
     }
 }

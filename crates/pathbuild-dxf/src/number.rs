@@ -21,8 +21,12 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
 
 /// Reads a whole number; one written as a real (`5.0`) is fine.
 pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
-    // Nearly all are padded.
-    let number = real(value.trim_ascii())?;
+    // Nearly all are padded, and have one digit.
+    let value = value.trim_ascii();
+    if let [digit @ b'0'..=b'9'] = value {
+        return Ok(i64::from(digit - b'0'));
+    }
+    let number = real(value)?;
     // Up to 2^53 every whole f64 is exactly that number.
     let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT as f64;
     #[expect(clippy::cast_possible_truncation, reason = "whole and within range")]

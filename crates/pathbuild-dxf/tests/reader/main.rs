@@ -6,6 +6,7 @@ mod blocks;
 mod curves;
 mod encoding;
 mod entities;
+mod in_a_row;
 mod layers;
 mod limits;
 mod lines;
