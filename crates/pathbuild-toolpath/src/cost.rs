@@ -1,6 +1,8 @@
 //! How many moves a path comes to, before they are made: limits are known before the fold starts.
 
-use pathbuild_path::{Chain, Helix, Item, Path};
+use std::ptr;
+
+use pathbuild_path::{Chain, CutParameters, Helix, Item, Path};
 
 /// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
 pub fn own_moves(path: &Path, items: &[Item]) -> u64 {
@@ -17,10 +19,15 @@ fn moves(path: &Path, item: &Item) -> u64 {
 
 fn chain_moves(path: &Path, chain: &Chain) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
+    // Those that follow each other mostly share their parameters.
+    let mut last: Option<(&CutParameters, u64)> = None;
     let segments = chain.segments.iter().map(|member| {
         let cut = member.cut(path);
-        let sections = cut.bars.map_or(1.0, |bars| 4.0 * bars.count(member.curve(path).length()) + 1.0);
-        passes(first - cut.bottom, chain.infeed).saturating_mul(whole(sections).saturating_add(1))
+        let known = last.filter(|(known, _)| ptr::eq(*known, cut));
+        let (_, passes) =
+            *last.insert(known.unwrap_or_else(|| (cut, passes(first - cut.bottom, chain.infeed))));
+        let sections = cut.bars.map_or(1, |bars| whole(4.0 * bars.count(member.curve(path).length()) + 1.0));
+        passes.saturating_mul(sections.saturating_add(1))
     });
     let once = segments.fold(0, u64::saturating_add);
     if chain.first_depth.is_some() { once.saturating_mul(2) } else { once }

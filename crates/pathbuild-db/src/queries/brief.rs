@@ -64,7 +64,7 @@ pub struct Brief {
 /// What is known of a path of a file before its variables have values.
 pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db Head> {
     match surveyed(db, file) {
-        Some(survey) => survey.path(name.folded(db)).map(|path| &path.head),
+        Some(survey) => survey.path(&name.name(db)).map(|path| &path.head),
         None => query::head(db, file, name).as_ref(),
     }
 }
@@ -72,7 +72,7 @@ pub fn head<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Optio
 /// Binds a path, walks along it, and keeps what others need to know.
 pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db Summary {
     let survey = surveyed(db, instance.file(db));
-    let path = survey.and_then(|survey| survey.path(instance.name(db).folded(db)));
+    let path = survey.and_then(|survey| survey.path(&instance.name(db).name(db)));
     let known = path.and_then(|path| path.summary_with(instance.bindings(db)));
     known.unwrap_or_else(|| query::summary(db, instance))
 }

@@ -46,7 +46,7 @@ pub fn clear(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<Clear> {
 }
 
 fn clear_path(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<Clear> {
-    let (summary, path) = surveyed(db, file)?.path(name.as_str())?.with_examples()?;
+    let (summary, path) = surveyed(db, file)?.path(name)?.with_examples()?;
     let mut moves = clear_brief(summary)?.moves;
     let mut clear = Clear::default();
     if let Some(path) = path {
@@ -83,7 +83,7 @@ fn embedded<'db>(
     }
     let found = search.find(name);
     let [file] = *found.files.as_slice() else { return None };
-    let path = surveyed(db, file)?.path(name.as_str())?;
+    let path = surveyed(db, file)?.path(name)?;
     if !outer.binding_problems(segment, subpath, &path.head).is_empty() {
         return None;
     }

@@ -51,7 +51,7 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
 /// The path, where nothing is an error: for whoever asks what it embeds.
 pub(super) fn bound_path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db Path> {
     let survey = surveyed(db, instance.file(db));
-    let known = survey.and_then(|survey| survey.path(instance.name(db).folded(db)));
+    let known = survey.and_then(|survey| survey.path(&instance.name(db).name(db)));
     let kept = known.and_then(|known| known.path_with(instance.bindings(db)));
     kept.or_else(|| path(db, instance).path.as_ref())
 }

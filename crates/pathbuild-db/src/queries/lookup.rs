@@ -69,7 +69,7 @@ pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
 pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Cow<'db, Found> {
     if db.is_surveying() {
         // What is asked once need not be kept.
-        Cow::Owned(Search::new(db, from).find(&PathName::new(name.folded(db))))
+        Cow::Owned(Search::new(db, from).find(&name.name(db)))
     } else {
         Cow::Borrowed(query::find_path(db, from, name))
     }
@@ -77,7 +77,7 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
 
 /// As they are asked where drawings are not surveyed.
 mod query {
-    use pathbuild_path::{PathKey, PathName};
+    use pathbuild_path::PathKey;
 
     use super::{Found, Search, name_table};
     use crate::database::Db;
@@ -88,7 +88,7 @@ mod query {
     #[salsa::tracked]
     pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
         let files = |directory| files_for(db, directory, name).clone();
-        Search::new(db, from).find_among(&PathName::new(name.folded(db)), files)
+        Search::new(db, from).find_among(&name.name(db), files)
     }
 
     /// The files of a directory that may hold a path by their names: unchanged by files that cannot.

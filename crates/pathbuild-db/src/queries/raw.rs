@@ -23,6 +23,11 @@ impl<'db> NameKey<'db> {
     pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
         Self::new(db, name.folded().into_boxed_str())
     }
+
+    /// The name.
+    pub(super) fn name(self, db: &dyn Db) -> PathName {
+        PathName::new(self.folded(db))
+    }
 }
 
 /// What was read from a file.
@@ -111,7 +116,7 @@ mod query {
 /// A path of a file: unchanged by edits of its siblings.
 #[salsa::tracked(lru = 0)]
 fn path_entry<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<RawPath>> {
-    let name = PathName::new(name.folded(db));
+    let name = name.name(db);
     raw_file(db, file).entry(&name).map(|entry| Arc::clone(&entry.raw))
 }
 
@@ -123,14 +128,14 @@ pub(super) fn defines(db: &dyn Db, file: SourceFile, name: &PathName) -> bool {
 /// A raw path of a file.
 pub fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<&'db RawPath> {
     let survey = surveyed(db, file);
-    let kept = survey.and_then(|survey| survey.path(name.folded(db))).and_then(SurveyedPath::raw);
+    let kept = survey.and_then(|survey| survey.path(&name.name(db))).and_then(SurveyedPath::raw);
     kept.or_else(|| path_entry(db, file, name).as_deref())
 }
 
 /// Fills in where the element of a diagnostic of that path is in the file.
 pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagnostic: &mut Diagnostic) {
     let survey = surveyed(db, file);
-    let kept = survey.and_then(|survey| survey.path(path.as_str())).and_then(SurveyedPath::map);
+    let kept = survey.and_then(|survey| survey.path(path)).and_then(SurveyedPath::map);
     // Not through an interned name: this is asked from outside queries.
     if let Some(map) = kept.or_else(|| raw_file(db, file).entry(path).map(|entry| &entry.map)) {
         map.locate(diagnostic);

@@ -65,9 +65,8 @@ impl Survey {
     }
 
     /// One of its paths.
-    pub(super) fn path(&self, name: &str) -> Option<&SurveyedPath> {
-        let name = PathName::new(name);
-        let place = self.paths.binary_search_by(|path| path.head.name.cmp(&name)).ok()?;
+    pub(super) fn path(&self, name: &PathName) -> Option<&SurveyedPath> {
+        let place = self.paths.binary_search_by(|path| path.head.name.cmp(name)).ok()?;
         Some(&self.paths[place])
     }
 }

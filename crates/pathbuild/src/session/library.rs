@@ -23,6 +23,9 @@ pub(super) struct Walked {
     pub(super) problem: Option<Box<Diagnostic>>,
 }
 
+/// So many directories are sooner listed one after the other than threads are started for them.
+const FEW: usize = 4;
+
 /// How directories are walked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
@@ -55,7 +58,7 @@ impl Walk {
         let mut count = 1;
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
             let list = |directory: &Utf8PathBuf| Directory::list(directory, self.limit);
-            let is_parallel = self.is_parallel && open.len() > 1;
+            let is_parallel = self.is_parallel && open.len() > FEW;
             let listed: Vec<_> = if is_parallel {
                 open.par_iter().map(list).collect()
             } else {
