@@ -2,7 +2,7 @@
 
 use pathbuild_toolpath::{Move, Step};
 
-use crate::support::{moves, moves_and_comments, path, program};
+use crate::support::{estimate, moves, moves_and_comments, path, program};
 
 const LINE: &str = "mill 0,0 40,0\nend 40,0";
 
@@ -181,4 +181,14 @@ fn returns_have_edges_of_their_own() {
         moves(&path("T5 O3 I1 B3", dead_end)),
         ["L 5", "D 4", "M 20,0 4", "M 0,0 4", "D 3", "M 20,0 3", "M 0,0 3", "L 10"]
     );
+}
+
+/// Each line with its own depth: 5 mm are six passes of two moves, 2 mm three.
+#[test]
+fn moves_are_estimated_line_by_line() {
+    let with_depth = |depth: &str| {
+        let lines = format!("mill 0,0 20,0\nmill 20,0 40,0 \"{depth}\"\nmill 40,0 60,0\nend 60,0");
+        estimate(&path("T5 O2 I1 B0", &lines))
+    };
+    assert_eq!([with_depth("B0"), with_depth("B3")], [36, 30]);
 }

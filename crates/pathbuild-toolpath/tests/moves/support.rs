@@ -6,7 +6,9 @@ use pathbuild_path::{
     Bindings, Item, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, bind, raw_file,
     walk,
 };
-use pathbuild_toolpath::{Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, SupportBars, fold};
+use pathbuild_toolpath::{
+    Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, SupportBars, fold, own_moves,
+};
 
 /// The paths of a drawing, which may embed each other.
 struct Drawn(Vec<(Path, Vec<Item>)>);
@@ -40,6 +42,18 @@ pub(crate) fn program(drawing: &str) -> Program {
 
 #[track_caller]
 pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
+    fold(&drawn(drawing), 0, "1234.1P.dxf", options, 0)
+}
+
+/// How many moves the first path of a drawing is taken for.
+#[track_caller]
+pub(crate) fn estimate(drawing: &str) -> u64 {
+    let Drawn(paths) = drawn(drawing);
+    own_moves(&paths[0].0, &paths[0].1)
+}
+
+#[track_caller]
+fn drawn(drawing: &str) -> Drawn {
     let sheet = Sheet::parse(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let language = Language {
         path_pattern: PathPattern::default(),
@@ -62,8 +76,7 @@ pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
         assert!(!walked.items.is_empty(), "{:?} in\n{drawing}", walked.diagnostics);
         (path, walked.items)
     };
-    let parts = Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect());
-    fold(&parts, 0, "1234.1P.dxf", options, 0)
+    Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
 }
 
 /// A drawing of one path with the text of its start at (0, 0).
