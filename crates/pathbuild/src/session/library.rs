@@ -162,7 +162,8 @@ impl Directory {
             }
         }
         found.listing.names.sort_unstable();
-        found.drawings.sort_unstable_by(|a, b| by_place(a, b));
+        // By place: they differ in their last part only.
+        found.drawings.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         Ok(Some(found))
     }
 }
