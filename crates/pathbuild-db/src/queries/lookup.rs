@@ -6,7 +6,7 @@ use std::cell::LazyCell;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{PathKey, PathName, RangeTable, Ranges};
 
-use super::raw::{NameKey, defines};
+use super::raw::{NameKey, defines, path_names};
 use crate::database::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
@@ -104,13 +104,16 @@ mod query {
 pub(super) struct Search<'db> {
     db: &'db dyn Db,
     from: SourceFile,
+    /// The paths of the drawing itself.
+    own: &'db [PathName],
     directories: Vec<Directory>,
 }
 
 impl<'db> Search<'db> {
     pub(super) fn new(db: &'db dyn Db, from: SourceFile) -> Self {
         let directories = search_directories(db, from);
-        Self { db, from, directories: directories.iter().map(|path| db.directory(path)).collect() }
+        let directories = directories.iter().map(|path| db.directory(path)).collect();
+        Self { db, from, own: path_names(db, from), directories }
     }
 
     /// Where a path is; nothing of it is kept.
@@ -126,7 +129,7 @@ impl<'db> Search<'db> {
     /// The same, when it is known which files of a directory may hold it by their names.
     fn find_among(&self, name: &PathName, files: impl Fn(Directory) -> Vec<SourceFile>) -> Found {
         let Self { db, from, .. } = *self;
-        if defines(db, from, name) {
+        if self.own.contains(name) {
             return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
         }
         let mut searched: Vec<SourceFile> = Vec::new();
@@ -169,12 +172,12 @@ pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<Source
     let pattern = &Settings::get(db).language(db).path_pattern;
     let Some(key) = PathKey::new(name.as_str(), pattern) else { return Vec::new() };
     let files = name_table(db, directory).files(db, directory, &key).into_iter();
-    files.filter(|file| super::raw::path_names(db, *file).contains(name)).collect()
+    files.filter(|file| path_names(db, *file).contains(name)).collect()
 }
 
 /// The names of paths in files that were searched, for proposing near ones.
 pub(super) fn names_in(db: &dyn Db, files: &[SourceFile]) -> Vec<PathName> {
-    files.iter().flat_map(|file| super::raw::path_names(db, *file)).cloned().collect()
+    files.iter().flat_map(|file| path_names(db, *file)).cloned().collect()
 }
 
 const EXTENSION: &str = ".dxf";

@@ -126,10 +126,10 @@ fn result(
     mut diagnostics: Vec<Diagnostic>,
     mut reached: Vec<SourceFile>,
 ) -> DrawingResult {
-    if reached.len() > 1 {
-        reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
-        reached.dedup();
-    }
+    // Of most there is nothing to say, so that there is nothing to put in order.
+    reached.retain(|file| !check_file(db, *file).is_empty());
+    reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
+    reached.dedup();
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
     DrawingResult { names: names.iter().map(|name| name.as_str().into()).collect(), diagnostics }
 }
