@@ -136,9 +136,9 @@ impl<'a> Binder<'a> {
     fn element_values(&mut self, at: At<'_>, text: Option<ParameterText<'a>>, has_bars: bool) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
         let mut values = Values::of(text, &self.interpolation);
-        let found = std::mem::take(&mut values.problems);
-        let limits = limits::check(&values, &self.values, has_bars);
-        for problem in found.into_iter().chain(limits) {
+        let mut problems = std::mem::take(&mut values.problems);
+        problems.append(&mut limits::check(&values, &self.values, has_bars));
+        for problem in problems {
             self.report(at, problem);
         }
         values

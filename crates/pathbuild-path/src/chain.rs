@@ -114,7 +114,8 @@ impl Grouped<'_> {
     /// Ends the chain, if there is one.
     fn finish_chain(&mut self) {
         let [first, others @ ..] = &*self.chain else { return };
-        for member in others.iter().filter(|member| !member.is_return) {
+        let has_letters = |member: &ChainSegment| member.cut(self.path).chain_letters.is_some();
+        for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {
             self.diagnostics.extend(member.letters_without_effect(self.path));
         }
         let parameters = first.cut(self.path).chain;

@@ -18,46 +18,46 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 /// What is wrong with the values that `own` gives, with those of the path where it gives none. `has_bars`: on a path, and on every
 /// element with support bars.
 pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, has_bars: bool) -> Vec<Diagnostic> {
-    let limits = Limits { own, path };
-    let mut problems = Vec::new();
+    let mut limits = Limits { own, path, problems: Vec::new() };
     // Most texts have none of these letters.
     if own.letters().has_any(const { Letters::of(&POSITIVE) }) {
-        problems.extend(POSITIVE.iter().filter_map(|letter| limits.positive(*letter)));
+        POSITIVE.into_iter().for_each(|letter| limits.check_positive(letter));
     }
-    problems.extend(limits.above(Letter::S, Letter::T, &messages::NOT_ABOVE));
-    problems.extend(limits.above(Letter::T, Letter::B, &messages::NOT_BELOW));
-    problems.extend(limits.above(Letter::T, Letter::D, &messages::NOT_BELOW));
+    limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
+    limits.check_above(Letter::T, Letter::B, &messages::NOT_BELOW);
+    limits.check_above(Letter::T, Letter::D, &messages::NOT_BELOW);
     if has_bars {
-        problems.extend(limits.above(Letter::D, Letter::B, &messages::NOT_ABOVE));
-        problems.extend(POSITIVE_BARS.iter().filter_map(|letter| limits.positive(*letter)));
+        limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
+        POSITIVE_BARS.into_iter().for_each(|letter| limits.check_positive(letter));
     }
-    problems
+    limits.problems
 }
 
 struct Limits<'a> {
     own: &'a Values<'a>,
     path: &'a Values<'a>,
+    problems: Vec<Diagnostic>,
 }
 
 impl Limits<'_> {
-    fn positive(&self, letter: Letter) -> Option<Diagnostic> {
-        let value = self.own.number(letter).number()?;
-        if above(value, 0.0) {
-            return None;
+    fn check_positive(&mut self, letter: Letter) {
+        let Given::Number(value) = self.own.number(letter) else { return };
+        if !above(value, 0.0) {
+            let problem = Diagnostic::new(&messages::NOT_POSITIVE);
+            let problem = problem.with("letter", letter.as_char()).with("value", value);
+            self.problems.push(self.own.underline(letter, problem));
         }
-        let problem = Diagnostic::new(&messages::NOT_POSITIVE);
-        Some(self.own.underline(letter, problem.with("letter", letter.as_char()).with("value", value)))
     }
 
     /// That `upper` is above `lower`, where the own text gives at least one of them: else it is the path's fault, reported there.
-    fn above(&self, upper: Letter, lower: Letter, message: &'static Message) -> Option<Diagnostic> {
+    fn check_above(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
         if !self.own.has(upper) && !self.own.has(lower) {
-            return None;
+            return;
         }
         let value = |letter| -> Given { self.own.number(letter).or(self.path.number(letter)) };
-        let (high, low) = (value(upper).number()?, value(lower).number()?);
+        let (Given::Number(high), Given::Number(low)) = (value(upper), value(lower)) else { return };
         if above(high, low) {
-            return None;
+            return;
         }
         // The message is about the letter that the person can mend here.
         let says_upper = *message == messages::NOT_ABOVE;
@@ -69,6 +69,6 @@ impl Limits<'_> {
             .with("limit_letter", limit.as_char())
             .with("limit", limit_value);
         let underlined = if self.own.has(subject) { subject } else { limit };
-        Some(self.own.underline(underlined, problem))
+        self.problems.push(self.own.underline(underlined, problem));
     }
 }

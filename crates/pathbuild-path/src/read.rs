@@ -5,6 +5,7 @@ mod collect;
 mod elements;
 mod layers;
 mod listing;
+mod meaning;
 mod parameters;
 mod proxies;
 mod texts;

@@ -57,7 +57,9 @@ impl Elements {
     pub(super) fn in_order(mut self) -> Vec<Element> {
         let mut elements = self.lines;
         elements.append(&mut self.arcs);
-        elements.splice(0..0, self.circles);
+        if !self.circles.is_empty() {
+            elements.splice(0..0, self.circles);
+        }
         elements
     }
 }

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::{ElementId, TextFault};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
-use super::collect::{Owner, plane_arc, xy};
+use super::collect::Owner;
 use super::layers::Count;
+use super::meaning::{plane_arc, xy};
 use super::texts::Texts;
 use crate::assign::Candidate;
 use crate::element::{Origin, Shape, Source};

@@ -8,8 +8,9 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{MText, Text};
 
-use super::collect::{Collected, Owner, candidate_word, xy};
+use super::collect::{Collected, Owner, candidate_word};
 use super::layers::Count;
+use super::meaning::xy;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;

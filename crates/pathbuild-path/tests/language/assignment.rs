@@ -108,6 +108,15 @@ fn a_line_must_be_nearer_than_the_texts_radius() {
 }
 
 #[test]
+fn a_text_finds_its_element_also_where_coordinates_are_large() {
+    let line = "mill 1000000.3,0 1000000.3,40";
+    assert!(finds(line, &mtext("1000001.699999,20", "F100")));
+    assert!(!finds(line, &mtext("1000001.700001,20", "F100")));
+    assert!(finds(line, &mtext("999998.900001,20", "F100")));
+    assert!(!finds(line, &mtext("999998.899999,20", "F100")));
+}
+
+#[test]
 fn an_arc_may_be_as_far_as_the_texts_radius() {
     let arc = "mill arc centre 0,0 r 1 from 0 to 180";
     assert!(finds(arc, &mtext("0,2.4", "F100")));

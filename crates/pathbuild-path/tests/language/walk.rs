@@ -49,6 +49,17 @@ fn ends_that_nearly_meet_do() {
     assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00003,0.00002 40,0\nend 40,0"), ["PB401"]);
 }
 
+/// Ends are looked for in squares: no two of these squares may keep them apart.
+#[test]
+fn ends_that_nearly_meet_do_wherever_they_are() {
+    for step in 0..510 {
+        let (x, y) = (20.0 + 0.00002 * f64::from(step), -5.0 - 0.00002 * f64::from(step));
+        let (near_x, near_y) = (x + 0.00002, y - 0.00002);
+        let lines = format!("mill 0,0 {x:.5},{y:.5}\nmill {near_x:.5},{near_y:.5} 40,0\nend 40,0");
+        assert_eq!(codes_of(&lines), [""; 0], "{lines}");
+    }
+}
+
 #[test]
 fn nothing_continues_names_the_nearest_open_end() {
     let (codes, notes) = found("mill 0,0 20,0\nmill 20.5,0 40,0\nmill 60,0 50,0\nend 40,0");

@@ -1,0 +1,164 @@
+//! What each entity of a path means. (spec/10-drawing.md, "Line types", "Special circles")
+
+use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_dxf::{Arc as DxfArc, Entity, Geometry, Point3};
+
+use super::collect::{Collected, Owner};
+use crate::approx::near;
+use crate::assign::Candidate;
+use crate::element::{
+    CircleMeaning, Element, Marker, Origin, Role, Shape, Source, circle_meaning, curve_role,
+};
+use crate::geometry::{Arc, Curve, Line, Xy};
+use crate::line_type::{LineType, LineTypes};
+use crate::raw::Position;
+
+/// An entity on one of a path's layers.
+#[derive(Clone, Copy)]
+struct Found<'d> {
+    source: Source,
+    entity: &'d Entity,
+    line_type: Option<LineType>,
+}
+
+impl<'d> Collected<'d> {
+    /// Takes the next entity in file order.
+    pub(super) fn add(
+        &mut self,
+        entity: &'d Entity,
+        layer: u32,
+        position: Position,
+        line_types: &mut LineTypes<'d, '_>,
+    ) {
+        let source = Source { id: self.next_id(position), entity: entity.kind, layer };
+        let found = |line_type| Found { source, entity, line_type };
+        match &entity.geometry {
+            Geometry::Text(text) => self.texts.add_text(text, source),
+            Geometry::MText(text) => self.texts.add_mtext(text, source),
+            Geometry::Circle(circle) => {
+                self.check_plane(source, &[circle.centre], xy(circle.centre));
+                let found = found(line_types.get(&entity.line_type));
+                self.add_circle(&found, xy(circle.centre), circle.radius);
+            }
+            Geometry::Line(line) => {
+                let curve = Curve::Line(Line { start: xy(line.start), end: xy(line.end) });
+                self.check_plane(source, &[line.start, line.end], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
+            }
+            Geometry::Arc(arc) => {
+                let curve = Curve::Arc(plane_arc(arc));
+                self.check_plane(source, &[arc.centre], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
+            }
+        }
+    }
+
+    fn origin(&self, source: Source, point: Xy) -> Origin {
+        self.texts.origin(source, point)
+    }
+
+    fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
+        self.has_elements = true;
+        if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
+            let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
+            self.report(self.origin(source, begin).at(problem));
+        }
+    }
+
+    fn add_curve(&mut self, found: &Found<'_>, curve: Curve) {
+        let shape = Shape::Curve(curve);
+        match found.line_type.and_then(curve_role) {
+            Some(role) => self.add_element(found, shape, role),
+            None => self.add_unknown(found, shape),
+        }
+    }
+
+    fn add_circle(&mut self, found: &Found<'_>, centre: Xy, radius: f64) {
+        let shape = Shape::Circle { centre, radius };
+        let Some(line_type) = found.line_type else { return self.add_unknown(found, shape) };
+        match circle_meaning(line_type, radius) {
+            CircleMeaning::Cut(cut) => self.add_element(found, shape, Role::Cut(cut)),
+            CircleMeaning::Start => self.add_start(found, shape),
+            CircleMeaning::End => self.add_end(found, centre),
+            CircleMeaning::Turn => self.turns.push(self.marker(found, centre)),
+            CircleMeaning::IgnoredProbe => self.candidate(found, shape, Owner::Faulty),
+            CircleMeaning::Probe => {
+                self.candidate(found, shape, Owner::Probe(self.probes.len()));
+                self.probes.push(self.marker(found, centre));
+            }
+            CircleMeaning::UnknownLineType => self.add_unknown(found, shape),
+            CircleMeaning::UnknownDiameter => {
+                let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
+                    .with("line_type", &*found.entity.line_type)
+                    .with("diameter", 2.0 * radius);
+                self.report(self.origin(found.source, centre).at(diagnostic));
+                self.candidate(found, shape, Owner::Faulty);
+            }
+        }
+    }
+
+    fn marker(&self, found: &Found<'_>, at: Xy) -> Marker {
+        Marker { origin: self.origin(found.source, at), at, text: None }
+    }
+
+    fn add_start(&mut self, found: &Found<'_>, shape: Shape) {
+        let marker = self.marker(found, shape.point());
+        if let Some(first) = &self.start {
+            let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
+                .with("name", self.name.as_str())
+                .with("first", first.origin.point);
+            self.candidate(found, shape, Owner::Faulty);
+            return self.report(marker.origin.at(diagnostic));
+        }
+        self.candidate(found, shape, Owner::Start);
+        self.start = Some(marker);
+    }
+
+    fn add_end(&mut self, found: &Found<'_>, at: Xy) {
+        let marker = self.marker(found, at);
+        if let Some(first) = &self.end {
+            let diagnostic = Diagnostic::new(&messages::TWO_ENDS)
+                .with("name", self.name.as_str())
+                .with("first", first.origin.point);
+            return self.report(marker.origin.at(diagnostic));
+        }
+        self.end = Some(marker);
+    }
+
+    /// A line type that means nothing here. The element still takes its text, which would else be reported as belonging to nothing.
+    fn add_unknown(&mut self, found: &Found<'_>, shape: Shape) {
+        let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
+        let message = match found.line_type {
+            Some(_) => &messages::LINE_TYPE_ON_ENTITY,
+            None => &messages::UNKNOWN_LINE_TYPE,
+        };
+        let diagnostic = Diagnostic::new(message)
+            .with("line_type", &*found.entity.line_type)
+            .with("element", shape.word())
+            .with("known", known);
+        self.report(self.origin(found.source, shape.point()).at(diagnostic));
+        self.candidate(found, shape, Owner::Faulty);
+    }
+
+    fn add_element(&mut self, found: &Found<'_>, shape: Shape, role: Role) {
+        if role != Role::SilentSweep {
+            self.candidate(found, shape, Owner::Element(self.elements.next(&shape)));
+        }
+        self.elements.push(Element { source: found.source, shape, role, text: None });
+    }
+
+    fn candidate(&mut self, found: &Found<'_>, shape: Shape, owner: Owner) {
+        let Found { source, entity, .. } = *found;
+        let candidate = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
+        self.texts.add_candidate(source.layer, candidate);
+    }
+}
+
+pub(super) fn xy(point: Point3) -> Xy {
+    Xy::new(point.x, point.y)
+}
+
+pub(super) fn plane_arc(arc: &DxfArc) -> Arc {
+    Arc::from_angles(xy(arc.centre), arc.radius, arc.start_angle, arc.end_angle, arc.clockwise)
+}
