@@ -21,14 +21,18 @@ pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, has_bars: bool) -> Vec<
     let mut limits = Limits { own, path, problems: Vec::new() };
     // Most texts have none of these letters.
     if own.letters().has_any(const { Letters::of(&POSITIVE) }) {
-        POSITIVE.into_iter().for_each(|letter| limits.check_positive(letter));
+        for letter in POSITIVE {
+            limits.check_positive(letter);
+        }
     }
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     limits.check_above(Letter::T, Letter::B, &messages::NOT_BELOW);
     limits.check_above(Letter::T, Letter::D, &messages::NOT_BELOW);
     if has_bars {
         limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
-        POSITIVE_BARS.into_iter().for_each(|letter| limits.check_positive(letter));
+        for letter in POSITIVE_BARS {
+            limits.check_positive(letter);
+        }
     }
     limits.problems
 }

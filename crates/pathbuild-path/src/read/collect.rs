@@ -82,7 +82,7 @@ pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
     paths
 }
 
-impl<'d> Collected<'d> {
+impl Collected<'_> {
     /// A path with these layers, with room for what is on them.
     fn new(drawing: &Drawing, layers: &[(PathName, usize)], counts: &[Count]) -> Self {
         let mut path = Self {
