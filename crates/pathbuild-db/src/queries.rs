@@ -4,6 +4,8 @@
 //! program, check_target -> closure -> embeds -> summary -> path, chains -> raw_path -> raw_file
 //!                                        \-> find_path -> files_for -> name_table
 //! ```
+//!
+//! A check that goes through a library asks for less: `clear` -> `survey`, and what is above only of paths that are not clear.
 
 mod ahead;
 mod brief;
