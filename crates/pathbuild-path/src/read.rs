@@ -3,6 +3,7 @@
 mod checked;
 mod collect;
 mod elements;
+mod found_text;
 mod layers;
 mod listing;
 mod meaning;

@@ -9,8 +9,8 @@ use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{MText, Text};
 
 use super::collect::{Collected, Owner, candidate_word};
+use super::found_text::{AnyText, FoundText};
 use super::layers::Count;
-use super::meaning::xy;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
@@ -29,45 +29,6 @@ struct LayerTexts<'d> {
     /// Where they lie, once that is asked for.
     boxes: Boxes,
     texts: Vec<FoundText<'d>>,
-}
-
-/// A text of the drawing.
-#[derive(Clone, Copy)]
-struct FoundText<'d> {
-    source: Source,
-    text: AnyText<'d>,
-}
-
-#[derive(Clone, Copy)]
-enum AnyText<'d> {
-    Text(&'d Text),
-    MText(&'d MText),
-}
-
-impl<'d> FoundText<'d> {
-    /// As the drawing has it.
-    fn string(&self) -> &'d str {
-        match self.text {
-            AnyText::Text(text) => &text.string,
-            AnyText::MText(text) => &text.plain,
-        }
-    }
-
-    fn circle(&self) -> TextCircle {
-        match self.text {
-            AnyText::Text(text) => TextCircle::of_text(text),
-            AnyText::MText(text) => TextCircle::of_mtext(text),
-        }
-    }
-
-    fn anchor(&self) -> Xy {
-        let (AnyText::Text(Text { anchor, .. }) | AnyText::MText(MText { anchor, .. })) = self.text;
-        xy(*anchor)
-    }
-
-    fn is_mtext(&self) -> bool {
-        matches!(self.text, AnyText::MText(_))
-    }
 }
 
 /// A text and what it belongs to.
