@@ -12,12 +12,12 @@ pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
         return Some(0.0);
     }
     match value.len() {
-        4..=WIDTH => short_decimal(value),
+        3..=WIDTH => short_decimal(value),
         _ => other_decimal(value),
     }
 }
 
-/// One of four to eight characters. In which of them there is a sign, if there is one, is nothing to branch on.
+/// One of three to eight characters, of which one is a digit in any case. In which of them there is a sign, if there is one, is nothing to branch on.
 #[inline]
 fn short_decimal(value: &[u8]) -> Option<f64> {
     let is_negative = u64::from(value.first() == Some(&b'-'));

@@ -49,10 +49,13 @@ pub(crate) struct UsedLayer {
     pub(crate) hidden: bool,
 }
 
+/// How many layers the entities of a drawing of paths usually are on.
+const USUAL: usize = 8;
+
 impl<'a, 'o> Layers<'a, 'o> {
     /// No layer is used yet.
     pub(crate) fn new(table: LayerTable<'a>, keep: &'o dyn Fn(&str) -> bool) -> Self {
-        Self { table, keep, by_spelling: Spellings::default(), found: Vec::new(), last: None }
+        Self { table, keep, by_spelling: Spellings::default(), found: Vec::with_capacity(USUAL), last: None }
     }
 
     /// The layer of an entity that names it so.

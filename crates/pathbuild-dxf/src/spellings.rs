@@ -35,6 +35,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
     /// This is known of one that was not known.
     pub(crate) fn insert(&mut self, spelling: &'a [u8], value: T) {
         if self.first.len() < FIRST {
+            self.first.reserve_exact(FIRST - self.first.len());
             self.first.push((spelling, value));
         } else {
             self.others.insert(spelling, value);

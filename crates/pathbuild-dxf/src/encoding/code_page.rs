@@ -23,6 +23,9 @@ pub(super) enum CodePage {
 
 /// Understands the name in the header.
 pub(super) fn code_page(name: &[u8]) -> CodePage {
+    if name == b"ANSI_1252" {
+        return CodePage::Usual;
+    }
     let name = String::from_utf8_lossy(name).trim().to_ascii_uppercase();
     match name.as_str() {
         "" | "ASCII" | "US_ASCII" | "UNDEFINED" => CodePage::Usual,

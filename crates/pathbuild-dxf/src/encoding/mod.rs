@@ -24,7 +24,7 @@ pub(crate) use escapes::{control, without_carets};
 pub(crate) struct Decoder<'a> {
     charset: Charset<'a>,
     /// As it is called in PB008.
-    name: String,
+    name: Cow<'a, str>,
     doubt: Option<Diagnostic>,
 }
 
@@ -44,11 +44,11 @@ impl<'a> Decoder<'a> {
         let declared = header.code_page().unwrap_or_default();
         let is_utf8 = header.is_unicode() || has_bom;
         let (charset, name) = match code_page(declared) {
-            _ if is_utf8 => (Charset::Standard(UTF_8), "UTF-8".into()),
-            CodePage::Usual => (Charset::Either(file), "ANSI_1252".into()),
-            CodePage::Standard(encoding) => (Charset::Standard(encoding), shown(declared)),
-            CodePage::Dos(upper_half) => (Charset::Dos(upper_half), shown(declared)),
-            CodePage::Unknown => (Charset::Unknown, shown(declared)),
+            _ if is_utf8 => (Charset::Standard(UTF_8), Cow::Borrowed("UTF-8")),
+            CodePage::Usual => (Charset::Either(file), Cow::Borrowed("ANSI_1252")),
+            CodePage::Standard(encoding) => (Charset::Standard(encoding), shown(declared).into()),
+            CodePage::Dos(upper_half) => (Charset::Dos(upper_half), shown(declared).into()),
+            CodePage::Unknown => (Charset::Unknown, shown(declared).into()),
         };
         Self { charset, name, doubt: None }
     }
