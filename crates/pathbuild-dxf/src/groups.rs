@@ -1,7 +1,7 @@
 //! The pairs of entities, as fast as can be. What is unusual about one is left to [`Pairs`], which reads with care.
 
 use crate::code::{CodeEnd, Role};
-use crate::line_ends::Block;
+use crate::line_ends::Stretch;
 use crate::pairs::{Pair, Pairs, Stop, without_cr};
 
 /// A pair by what is done with it.
@@ -21,7 +21,7 @@ pub(crate) struct Groups<'a> {
     /// Where they begin.
     begin: Pairs<'a>,
     code_end: CodeEnd,
-    /// From where the block begins to the end of the file.
+    /// From where the stretch begins to the end of the file.
     bytes: &'a [u8],
     ahead: Ahead<'a>,
 }
@@ -29,7 +29,7 @@ pub(crate) struct Groups<'a> {
 /// The next pairs.
 #[derive(Clone, Copy)]
 struct Ahead<'a> {
-    block: Block<'a>,
+    stretch: Stretch<'a>,
     /// The line of the first.
     line: u64,
 }
@@ -56,7 +56,7 @@ impl<'a> Group<'a> {
 impl<'a> Groups<'a> {
     /// Those that begin here.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
-        let ahead = Ahead { block: Block::EMPTY, line: begin.line().into() };
+        let ahead = Ahead { stretch: Stretch::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
     }
 
@@ -103,18 +103,18 @@ impl<'a> Groups<'a> {
     /// The bytes from the next one on.
     #[inline]
     fn rest(&self) -> &'a [u8] {
-        self.bytes.get(self.ahead.block.consumed()..).unwrap_or_default()
+        self.bytes.get(self.ahead.stretch.consumed()..).unwrap_or_default()
     }
 
     /// Looks at the bytes ahead, unless that was done and has not helped.
     #[inline]
     fn look_ahead(&mut self) -> bool {
-        if self.ahead.block.consumed() == 0 && !self.ahead.block.is_empty() {
+        if self.ahead.stretch.consumed() == 0 && !self.ahead.stretch.is_empty() {
             return false;
         }
         let bytes = self.rest();
-        let Some(block) = Block::of(bytes, self.code_end.last()) else { return false };
-        (self.bytes, self.ahead.block) = (bytes, block);
+        let Some(stretch) = Stretch::of(bytes, self.code_end.last()) else { return false };
+        (self.bytes, self.ahead.stretch) = (bytes, stretch);
         true
     }
 
@@ -125,7 +125,7 @@ impl<'a> Groups<'a> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
         self.bytes = &pairs.bytes()[pairs.consumed()..];
-        self.ahead = Ahead { block: Block::EMPTY, line: pairs.line().into() };
+        self.ahead = Ahead { stretch: Stretch::EMPTY, line: pairs.line().into() };
         Ok(Group { role: Role::of(code), line: line.into(), raw: value })
     }
 }
@@ -133,7 +133,7 @@ impl<'a> Groups<'a> {
 impl<'a> Ahead<'a> {
     #[inline]
     fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
-        let (role, raw) = self.block.next(code_end)?;
+        let (role, raw) = self.stretch.next(code_end)?;
         let line = self.line;
         self.line += 2;
         Some(Group { role, line, raw })

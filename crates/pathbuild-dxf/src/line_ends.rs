@@ -7,9 +7,9 @@ use wide::u8x16;
 
 use crate::code::{CodeEnd, Role};
 
-/// The pairs of some bytes.
+/// The pairs of a stretch of bytes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block<'a> {
+pub(crate) struct Stretch<'a> {
     /// The bytes whose line ends are known, and some more.
     bytes: &'a [u8; KNOWN + CODE],
     /// Where the next pair begins.
@@ -24,7 +24,7 @@ const KNOWN: usize = 64;
 /// How many bytes the line of a code has at most.
 const CODE: usize = 8;
 
-impl<'a> Block<'a> {
+impl<'a> Stretch<'a> {
     /// One without pairs.
     pub(crate) const EMPTY: Self = Self { bytes: &[0; KNOWN + CODE], at: 0, ends: 0 };
 
