@@ -7,8 +7,10 @@ use camino::Utf8Path;
 use rustc_hash::FxHashMap;
 use salsa::Setter;
 
-use crate::inputs::{Directory, SourceFile};
+use crate::arrivals::{Arrivals, Lister};
+use crate::inputs::{Directory, Insight, SourceFile};
 use crate::queries;
+use crate::settings::Settings;
 use crate::system::System;
 
 /// What queries may ask besides each other.
@@ -25,6 +27,12 @@ pub trait Db: salsa::Database {
 
     /// Whether drawings are surveyed: [`Database::survey_drawings`].
     fn is_surveying(&self) -> bool;
+
+    /// Whether paths are kept: [`Database::keep_paths`].
+    fn keeps_paths(&self) -> bool;
+
+    /// Directories that are being listed.
+    fn arrivals(&self) -> &Arrivals;
 }
 
 /// All queries' results. Clones share them; each thread needs its own.
@@ -34,6 +42,8 @@ pub struct Database {
     system: Arc<dyn System>,
     inputs: Arc<Mutex<Inputs>>,
     is_surveying: bool,
+    keeps_paths: bool,
+    arrivals: Arc<Arrivals>,
     /// Last: it must be dropped after everything that its threads could still use.
     storage: salsa::Storage<Self>,
 }
@@ -62,7 +72,14 @@ impl Database {
     }
 
     fn over(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
-        Self { system, inputs: Arc::default(), is_surveying: false, storage }
+        Self {
+            system,
+            inputs: Arc::default(),
+            arrivals: Arc::default(),
+            is_surveying: false,
+            keeps_paths: false,
+            storage,
+        }
     }
 
     /// The directories in which paths were looked for, in order.
@@ -88,6 +105,25 @@ impl Database {
         directory.set_revision(self).to(next);
     }
 
+    /// From now on where paths are in a directory is guessed by the names of paths alone, while another thread lists it.
+    pub fn begin_guessing(&mut self, path: &Utf8Path) -> Lister {
+        let directory = self.set_insight(path, Insight::Unlisted);
+        self.arrivals.begin(directory, Settings::get(self).lookup(self).file_pattern.clone());
+        Lister {
+            system: Arc::clone(&self.system),
+            arrivals: Arc::clone(&self.arrivals),
+            directory,
+            path: path.to_owned(),
+        }
+    }
+
+    /// How much is known of the names in a directory. What was found by knowing less is asked again.
+    pub fn set_insight(&mut self, path: &Utf8Path, insight: Insight) -> Directory {
+        let directory = self.directory(path);
+        directory.set_insight(self).to(insight);
+        directory
+    }
+
     /// From now on large values that can be made again are dropped when [`Self::drop_large`] says so: what was read from drawings, and what
     /// was made of single paths. What others ask of them stays. For runs that go through a library once; where drawings change, a value that
     /// is made again could be that of a file as nobody has told it is.
@@ -98,6 +134,11 @@ impl Database {
     /// Drops the large values, where memory is bounded.
     pub fn drop_large(&mut self) {
         salsa::Database::trigger_lru_eviction(self);
+    }
+
+    /// From now on paths are kept as they were bound and walked along to judge them: for runs that make programs of them. Before the first query.
+    pub fn keep_paths(&mut self) {
+        self.keeps_paths = true;
     }
 
     /// From now on all that is asked of a drawing is found when it is first read, and its content is dropped then: for runs that go through a
@@ -136,13 +177,21 @@ impl Db for Database {
         if let Some(directory) = inputs.directories.get(path.as_str()) {
             return *directory;
         }
-        let directory = Directory::new(self, path.to_owned(), 0);
+        let directory = Directory::new(self, path.to_owned(), 0, Insight::Listed);
         inputs.directories.insert(path.as_str().into(), directory);
         directory
     }
 
     fn is_surveying(&self) -> bool {
         self.is_surveying
+    }
+
+    fn keeps_paths(&self) -> bool {
+        self.keeps_paths
+    }
+
+    fn arrivals(&self) -> &Arrivals {
+        &self.arrivals
     }
 }
 

@@ -9,6 +9,7 @@
 
 #![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
 
+mod arrivals;
 mod database;
 mod guard;
 mod inputs;
@@ -16,15 +17,16 @@ mod queries;
 mod settings;
 pub mod system;
 
+pub use arrivals::{Arrivals, Lister};
 pub use database::{Database, Db};
 pub use guard::Underway;
-pub use inputs::{Directory, Role, SourceFile, Target};
+pub use inputs::{Directory, Insight, Role, SourceFile, Target};
 pub use queries::{
     Brief, Clear, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey,
     Outcome, PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Trace, assigned_texts, chains,
     check_file, check_target, clear, closure, combinations, content_hash, drawing_names, embeds, find_path,
-    head, holders, locate, mentioned, name_table, path, path_names, path_place, program, q_project,
-    q_project_findings, raw_file, raw_path, search_directories, summary, trace, try_mentioned,
+    has_subpaths, head, holders, likely_file, locate, name_table, path, path_names, path_place, program,
+    q_project, q_project_findings, raw_file, raw_path, search_directories, summary, trace,
 };
 pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
 pub use system::System;

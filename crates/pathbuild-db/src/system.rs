@@ -47,6 +47,15 @@ pub trait System: Debug + Send + Sync {
     /// As [`read`](Self::read).
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
 
+    /// The same, as they come.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), also after some of them.
+    fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
+        take(self.list(directory)?);
+        Ok(())
+    }
+
     /// What is under a name.
     fn kind(&self, path: &Utf8Path) -> Kind;
 

@@ -56,14 +56,13 @@ impl DefaultPattern {
 
     /// The match of the file pattern that a text begins with, if there can be no other behind it and no range.
     pub(crate) fn lone_numbers(self, text: &str) -> Option<NumberPart> {
-        let (first, rest) = text.as_bytes().split_at_checked(4)?;
+        let (first, rest) = text.as_bytes().split_first_chunk::<4>()?;
         if self != Self::File || !first.iter().all(u8::is_ascii_digit) {
             return None;
         }
-        let second = rest.strip_prefix(b".").unwrap_or_default();
-        let (second, rest) = match digits(second, 0, second.len()) {
-            0 => (&[][..], rest),
-            end => second.split_at(end),
+        let (second, rest) = match rest {
+            [b'.', second @ ..] => second.split_at(digits(second, 0, second.len())),
+            _ => (&[][..], rest),
         };
         (!rest.iter().any(u8::is_ascii_digit)).then(|| NumberPart::new(first, second))?
     }

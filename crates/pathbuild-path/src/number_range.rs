@@ -28,12 +28,9 @@ pub(crate) struct NumberRange {
     digits: [u8; 4],
 }
 
-/// A path's name among such ranges: its first two groups.
+/// A path's name among such ranges: its first two groups, one behind the other in one number, which is compared at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct NumberKey {
-    first: u32,
-    second: u32,
-}
+pub(crate) struct NumberKey(u64);
 
 /// What is after all second groups of a first one.
 const LAST: u32 = u32::MAX;
@@ -67,12 +64,13 @@ impl NumberPart {
 
     fn key(self, missing: u32) -> NumberKey {
         let second = self.second.map_or(missing, |second| second.value);
-        NumberKey { first: self.first.value, second }
+        NumberKey::new(self.first.value, second)
     }
 
     fn from_key(key: NumberKey, digits: [u8; 2]) -> Option<Self> {
         let number = |value, digits| (digits > 0).then_some(Number { value, digits });
-        Some(Self { first: number(key.first, digits[0])?, second: number(key.second, digits[1]) })
+        let (first, second) = key.groups();
+        Some(Self { first: number(first, digits[0])?, second: number(second, digits[1]) })
     }
 
     fn digits(self) -> [u8; 2] {
@@ -87,7 +85,8 @@ impl NumberRange {
     }
 
     pub(crate) fn holds(self, path: NumberKey) -> bool {
-        self.first <= path && path <= self.last
+        // Without a branch between: nearly all are looked at in vain, and which of both is why nobody can guess.
+        (self.first <= path) & (path <= self.last)
     }
 
     pub(crate) fn first(self) -> NumberKey {
@@ -106,10 +105,26 @@ impl NumberRange {
     }
 }
 
+impl NumberKey {
+    fn new(first: u32, second: u32) -> Self {
+        Self(u64::from(first) << 32 | u64::from(second))
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "each is one half")]
+    fn groups(self) -> (u32, u32) {
+        ((self.0 >> 32) as u32, self.0 as u32)
+    }
+}
+
 impl Number {
     fn parse(digits: &[u8]) -> Option<Self> {
+        const SURELY_FIT: usize = 9;
         let add = |value: u32, digit: &u8| value.checked_mul(10)?.checked_add(u32::from(digit - b'0'));
-        let value = digits.iter().try_fold(0, add).filter(|value| *value < LAST - 1)?;
+        let value = if digits.len() <= SURELY_FIT {
+            digits.iter().fold(0, |value, digit| 10 * value + u32::from(digit - b'0'))
+        } else {
+            digits.iter().try_fold(0, add).filter(|value| *value < LAST - 1)?
+        };
         Some(Self { value, digits: u8::try_from(digits.len()).ok()? })
     }
 
@@ -131,5 +146,5 @@ pub(crate) fn number_key(groups: &Groups) -> Option<NumberKey> {
     };
     // Larger numbers than that no range has that this key is compared with.
     let second = u32::try_from(*second).unwrap_or(LAST).min(LAST - 1);
-    Some(NumberKey { first: u32::try_from(*first).ok()?, second })
+    Some(NumberKey::new(u32::try_from(*first).ok()?, second))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 
 use crate::definition::Definition;
-use crate::element::{Element, Marker, Origin};
+use crate::element::{Element, Marker, Origin, Role};
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern};
@@ -87,6 +87,11 @@ impl RawPath {
     /// Whether the drawing alone is in order.
     pub fn is_sound(&self) -> bool {
         !self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// Whether it refers to other paths.
+    pub fn has_subpaths(&self) -> bool {
+        self.drawn.elements.iter().any(|element| element.role == Role::Subpath)
     }
 
     /// The first of its layers.

@@ -2,11 +2,11 @@
 //! an edit that changes none of it ends here.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, SegmentKind};
+use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, SegmentKind, Walked};
 use pathbuild_toolpath::own_moves;
 
 use super::hints::with_other_layers;
-use super::instance::{BoundPath, Instance, bind_raw, walk};
+use super::instance::{BoundPath, Instance, bind_raw, chains, path, walk};
 use super::raw::NameKey;
 use super::survey::surveyed;
 use crate::database::Db;
@@ -79,7 +79,7 @@ pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db Summary {
 
 /// As they are asked where drawings are not surveyed.
 mod query {
-    use super::{Head, Summary, new_summary};
+    use super::{Head, Summary, new_summary, summary_of_kept};
     use crate::database::Db;
     use crate::inputs::SourceFile;
     use crate::queries::instance::Instance;
@@ -92,6 +92,9 @@ mod query {
 
     #[salsa::tracked]
     pub(super) fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
+        if db.keeps_paths() {
+            return summary_of_kept(db, instance);
+        }
         let raw = instance.raw(db);
         raw.map(|raw| new_summary(db, instance.file(db), raw, instance.bindings(db)).0).unwrap_or_default()
     }
@@ -124,12 +127,19 @@ pub(super) fn new_summary(
     bindings: &Bindings,
 ) -> (Summary, Option<Path>) {
     let BoundPath { path, diagnostics } = bind_raw(db, raw, bindings);
-    let brief = path.as_ref().map(|path| brief(db, file, path));
+    let brief = path.as_ref().map(|path| brief(db, file, path, &walk(db, path)));
     (Summary { problems: diagnostics, brief }, path)
 }
 
-fn brief(db: &dyn Db, file: SourceFile, path: &Path) -> Brief {
-    let walked = walk(db, path);
+/// The same of a path that is kept as it was bound and walked along, since a program will be made of it.
+fn summary_of_kept<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Summary {
+    let bound = path(db, instance);
+    let brief = |path| brief(db, instance.file(db), path, chains(db, instance));
+    let brief = bound.path.as_ref().map(brief);
+    Summary { problems: bound.diagnostics.clone(), brief }
+}
+
+fn brief(db: &dyn Db, file: SourceFile, path: &Path, walked: &Walked) -> Brief {
     let with_hints = |found| with_other_layers(db, file, &path.name, found);
     Brief {
         name: path.name.clone(),
@@ -143,6 +153,6 @@ fn brief(db: &dyn Db, file: SourceFile, path: &Path) -> Brief {
         has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
         sweep_problems: path.check_sweep_height(path.embedded_sweep_height()),
         moves: own_moves(path, &walked.items),
-        walk_problems: walked.diagnostics.into_iter().map(with_hints).collect(),
+        walk_problems: walked.diagnostics.iter().cloned().map(with_hints).collect(),
     }
 }

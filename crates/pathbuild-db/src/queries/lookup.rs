@@ -4,20 +4,14 @@ use std::borrow::Cow;
 use std::cell::LazyCell;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_path::{PathKey, PathName, RangeTable, Ranges};
+use pathbuild_path::{PathKey, PathName};
 
+use super::names::{EXTENSION, joined, name_table};
 use super::raw::{NameKey, defines, path_names};
 use crate::database::Db;
-use crate::inputs::{Directory, SourceFile};
+use crate::inputs::{Directory, Insight, SourceFile};
 use crate::settings::Settings;
-use crate::system::Names;
-
-/// The drawings of a directory by the path names in theirs.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct NameTable {
-    names: Names,
-    ranges: RangeTable,
-}
+use crate::system::Kind;
 
 /// Where a path is, or where it was looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,41 +22,6 @@ pub struct Found {
     pub searched: Vec<SourceFile>,
     /// The directories that were looked through.
     pub directories: Vec<Directory>,
-}
-
-impl NameTable {
-    /// Whether look-ups use an order; else each looks at every name.
-    pub fn is_sorted(&self) -> bool {
-        self.ranges.is_sorted()
-    }
-
-    /// The files that may hold a path, in order of name.
-    fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
-        let files = self.ranges.files(key).into_iter();
-        let mut names: Vec<&str> = files.filter_map(|file| self.names.get(file as usize)).collect();
-        names.sort_unstable();
-        names.into_iter().map(|name| db.file(&joined(directory.path(db), name))).collect()
-    }
-}
-
-/// The name ranges in a directory's file names. A directory that cannot be listed has none.
-#[salsa::tracked]
-pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
-    directory.revision(db);
-    let pattern = &Settings::get(db).lookup(db).file_pattern;
-    let mut names = db.system().list(directory.path(db)).unwrap_or_default().files;
-    names.retain(is_drawing);
-    let mut ranges = Ranges::with_capacity(names.len());
-    for (number, name) in (0_u32..).zip(names.iter()) {
-        let stem = &name[..name.len() - EXTENSION.len()];
-        pattern.each_range(stem, |range| ranges.push(range, number));
-    }
-    NameTable { names, ranges: ranges.into() }
-}
-
-/// The names of the drawings in a directory, as its name ranges were read from them.
-pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
-    &name_table(db, directory).names
 }
 
 /// Where a path is that a drawing refers to: in itself, else in any file of its directory and the search directories.
@@ -77,13 +36,10 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
 
 /// As they are asked where drawings are not surveyed.
 mod query {
-    use pathbuild_path::PathKey;
-
-    use super::{Found, Search, name_table};
+    use super::{Found, Search, files_of};
     use crate::database::Db;
     use crate::inputs::{Directory, SourceFile};
     use crate::queries::raw::NameKey;
-    use crate::settings::Settings;
 
     #[salsa::tracked]
     pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
@@ -94,9 +50,7 @@ mod query {
     /// The files of a directory that may hold a path by their names: unchanged by files that cannot.
     #[salsa::tracked]
     fn files_for<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Vec<SourceFile> {
-        let pattern = &Settings::get(db).language(db).path_pattern;
-        let Some(key) = PathKey::new(name.folded(db), pattern) else { return Vec::new() };
-        name_table(db, directory).files(db, directory, &key)
+        files_of(db, directory, name.folded(db))
     }
 }
 
@@ -133,9 +87,15 @@ impl<'db> Search<'db> {
             return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
         }
         let mut searched: Vec<SourceFile> = Vec::new();
-        for file in self.directories.iter().flat_map(|directory| files(*directory)) {
-            if !searched.contains(&file) {
-                searched.push(file);
+        for directory in &self.directories {
+            // A guess need not be told of all.
+            if !searched.is_empty() && directory.insight(db) != Insight::Listed {
+                break;
+            }
+            for file in files(*directory) {
+                if !searched.contains(&file) {
+                    searched.push(file);
+                }
             }
         }
         let mut files: Vec<SourceFile> =
@@ -169,26 +129,38 @@ pub fn search_directories(db: &dyn Db, from: SourceFile) -> Vec<Utf8PathBuf> {
 /// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would
 /// reclaim there.)
 pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
-    let pattern = &Settings::get(db).language(db).path_pattern;
-    let Some(key) = PathKey::new(name.as_str(), pattern) else { return Vec::new() };
-    let files = name_table(db, directory).files(db, directory, &key).into_iter();
+    let files = files_of(db, directory, name.as_str()).into_iter();
     files.filter(|file| path_names(db, *file).contains(name)).collect()
+}
+
+/// The drawing of a directory that most likely holds a path: the one of its name, if there is one.
+pub fn likely_file(db: &dyn Db, directory: &Utf8Path, name: &str) -> Option<SourceFile> {
+    let path = joined(directory, &format!("{name}{EXTENSION}"));
+    (db.system().kind(&path) == Kind::File).then(|| db.file(&path))
+}
+
+/// Where a path is, as far as one knows before the directory is listed.
+fn guessed(db: &dyn Db, directory: Directory, name: &str, key: &PathKey) -> Vec<SourceFile> {
+    if let Some(file) = likely_file(db, directory.path(db), name) {
+        return vec![file];
+    }
+    if directory.insight(db) == Insight::Unlisted {
+        return Vec::new();
+    }
+    let names = db.arrivals().find(directory, key).into_iter();
+    names.map(|name| db.file(&joined(directory.path(db), &name))).collect()
+}
+
+fn files_of(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
+    let pattern = &Settings::get(db).language(db).path_pattern;
+    let Some(key) = PathKey::new(name, pattern) else { return Vec::new() };
+    if directory.insight(db) == Insight::Listed {
+        return name_table(db, directory).files(db, directory, &key);
+    }
+    guessed(db, directory, name, &key)
 }
 
 /// The names of paths in files that were searched, for proposing near ones.
 pub(super) fn names_in(db: &dyn Db, files: &[SourceFile]) -> Vec<PathName> {
     files.iter().flat_map(|file| path_names(db, *file)).cloned().collect()
-}
-
-const EXTENSION: &str = ".dxf";
-
-/// `.dxf` counts in any case.
-fn is_drawing(name: &str) -> bool {
-    let bytes = name.as_bytes();
-    bytes.len() > EXTENSION.len()
-        && bytes[bytes.len() - EXTENSION.len()..].eq_ignore_ascii_case(EXTENSION.as_bytes())
-}
-
-fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
-    if directory.as_str().is_empty() { Utf8PathBuf::from(name) } else { directory.join(name) }
 }

@@ -142,6 +142,11 @@ pub(super) fn position_of(db: &dyn Db, file: SourceFile, path: &PathName, diagno
     }
 }
 
+/// Whether anything in a drawing refers to other paths. (Not kept: it is asked once, before anything else.)
+pub fn has_subpaths(db: &dyn Db, file: SourceFile) -> bool {
+    raw_file(db, file).paths.iter().any(|entry| entry.raw.has_subpaths())
+}
+
 /// Where a path is drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {

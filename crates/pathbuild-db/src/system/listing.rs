@@ -21,6 +21,13 @@ pub struct Listing {
 }
 
 impl Names {
+    /// Those behind these.
+    pub(crate) fn extend(&mut self, names: &Self) {
+        let begin = self.text.len();
+        self.text.push_str(&names.text);
+        self.ends.extend(names.ends.iter().map(|end| begin + end));
+    }
+
     /// One more name.
     pub fn push(&mut self, name: &str) {
         self.text.push_str(name);
@@ -42,13 +49,6 @@ impl Names {
         let end = *self.ends.get(number)?;
         let begin = number.checked_sub(1).map_or(0, |before| self.ends[before]);
         Some(&self.text[begin..end])
-    }
-
-    /// Leaves out those that are not wanted.
-    pub fn retain(&mut self, is_wanted: impl Fn(&str) -> bool) {
-        if !self.iter().all(&is_wanted) {
-            *self = self.iter().filter(|name| is_wanted(name)).collect();
-        }
     }
 
     /// All of them.

@@ -51,8 +51,17 @@ impl System for OsSystem {
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
+        let mut listing = Listing::default();
+        self.list_by_parts(directory, &mut |part| {
+            listing.files.extend(&part.files);
+            listing.directories.extend(&part.directories);
+        })?;
+        Ok(listing)
+    }
+
+    fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
         let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-        Ok(directory::list(directory)?)
+        Ok(directory::list_by_parts(directory, take)?)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

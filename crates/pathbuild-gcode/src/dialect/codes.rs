@@ -4,7 +4,7 @@
 #[derive(Debug)]
 pub struct Words {
     /// Letters, in capitals.
-    pub letters: &'static [u8],
+    pub letters: Letters,
     /// G codes that it takes, in rising order.
     pub g: &'static [u16],
     /// G codes that it knows and passes over.
@@ -28,6 +28,26 @@ pub enum Acceptance {
     Ignored,
     /// Does not know it.
     Unknown,
+}
+
+/// Letters of words: a bit for each ASCII character.
+#[derive(Clone, Copy, Debug)]
+pub struct Letters(u128);
+
+impl Letters {
+    pub(crate) const fn new(letters: &[u8]) -> Self {
+        let (mut bits, mut index) = (0, 0);
+        while index < letters.len() {
+            bits |= 1 << letters[index];
+            index += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether it is one of them.
+    pub fn contains(self, letter: u8) -> bool {
+        letter.is_ascii() && self.0 >> letter & 1 == 1
+    }
 }
 
 impl Words {
@@ -56,7 +76,7 @@ fn look_up(code: u16, taken: &[u16], ignored: &[u16]) -> Acceptance {
 }
 
 pub(super) static RS274: Words = Words {
-    letters: b"ABCDFGHIJKLMNPQRSTXYZ",
+    letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[
         0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 300, 382, 400, 410, 420, 430, 490, 530, 540,
         550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 800, 810, 820, 830, 840, 850, 860, 870, 880,
@@ -70,7 +90,7 @@ pub(super) static RS274: Words = Words {
 };
 
 pub(super) static LINUXCNC: Words = Words {
-    letters: b"ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$",
+    letters: Letters::new(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ@^$"),
     g: &[
         0, 10, 20, 30, 40, 50, 51, 52, 53, 70, 80, 100, 170, 171, 180, 181, 190, 191, 200, 210, 280, 281,
         300, 301, 330, 331, 382, 383, 384, 385, 400, 410, 411, 420, 421, 430, 431, 432, 490, 520, 530, 540,
@@ -89,7 +109,7 @@ pub(super) static LINUXCNC: Words = Words {
 };
 
 pub(super) static GRBL: Words = Words {
-    letters: b"FGIJKLMNPRSTXYZ",
+    letters: Letters::new(b"FGIJKLMNPRSTXYZ"),
     g: &[
         0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 431,
         490, 530, 540, 550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940,
@@ -102,7 +122,7 @@ pub(super) static GRBL: Words = Words {
 };
 
 pub(super) static XPERTMILL: Words = Words {
-    letters: b"FGIJMRSTXYZ",
+    letters: Letters::new(b"FGIJMRSTXYZ"),
     g: &[0, 10, 20, 30, 700, 710],
     g_ignored: &[],
     m: &[60, 300],
@@ -113,7 +133,7 @@ pub(super) static XPERTMILL: Words = Words {
 
 /// What GRBL or RS274/NGC takes: the native program is written for senders of both.
 pub(super) static NATIVE: Words = Words {
-    letters: b"ABCDFGHIJKLMNPQRSTXYZ",
+    letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[
         0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 410,
         420, 430, 431, 490, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 730, 800, 810,

@@ -9,7 +9,7 @@ mod spelling;
 use std::fmt;
 use std::str::FromStr;
 
-pub use codes::{Acceptance, Words};
+pub use codes::{Acceptance, Letters, Words};
 pub use rules::{ArcRules, FeedMode, RadiusTolerance, Rules, StartMotion};
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 

@@ -93,6 +93,50 @@ impl Plane {
     }
 }
 
+/// An arc between two places, taken apart once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    arc: Arc,
+    from: [f64; 3],
+    to: [f64; 3],
+    sweep: f64,
+    radius: f64,
+}
+
+impl Course {
+    /// That of an arc between places that are known.
+    pub(crate) fn new(arc: Arc, from: &Position, to: &Position) -> Self {
+        Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius: arc.radius(from) }
+    }
+
+    /// Its length in space, in mm.
+    pub(crate) fn length(&self) -> f64 {
+        let third = self.arc.plane.third();
+        libm::hypot(self.radius * self.sweep, self.to[third] - self.from[third])
+    }
+
+    /// The places a quarter, half and three quarters of the way along: what [`Arc::point`] gives, turned on from one to the next.
+    pub(crate) fn quarters(&self) -> [[f64; 3]; 3] {
+        let turn = self.sweep / 4.0;
+        let (sin, cos) = libm::sincos(if self.arc.clockwise { -turn } else { turn });
+        let end = Position { at: self.to, known: Axes::ALL };
+        let growth = if self.radius > 0.0 { self.arc.radius(&end) / self.radius - 1.0 } else { 0.0 };
+        let [first, second] = self.arc.plane.axes();
+        let third = self.arc.plane.third();
+        let mut spoke = self.arc.spoke(&self.from);
+        [0.25, 0.5, 0.75].map(|share| {
+            let [a, b] = spoke;
+            spoke = [a * cos - b * sin, a * sin + b * cos];
+            let stretch = 1.0 + share * growth;
+            let mut at = [0.0; 3];
+            at[first] = self.arc.centre[0] + spoke[0] * stretch;
+            at[second] = self.arc.centre[1] + spoke[1] * stretch;
+            at[third] = self.from[third] + share * (self.to[third] - self.from[third]);
+            at
+        })
+    }
+}
+
 impl Arc {
     /// The radius at a place, in mm.
     pub fn radius(&self, end: &Position) -> f64 {

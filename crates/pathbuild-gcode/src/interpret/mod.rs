@@ -28,6 +28,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 
 pub use codes::{Plane, WorkSystem};
+pub(crate) use geometry::Course;
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
 pub(crate) use program::each_move_of;

@@ -60,7 +60,7 @@ impl Interpreter<'_> {
     }
 
     fn letter(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
-        if !self.rules.words.letters.contains(&letter) {
+        if !self.rules.words.letters.contains(letter) {
             return self.report_unknown(
                 block,
                 &say::LETTER_NOT_KNOWN,

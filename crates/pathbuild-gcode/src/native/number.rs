@@ -19,17 +19,39 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     if number < 0.0 && thousandths > 0 {
         text.push('-');
     }
-    let mut digits = [b'0'; 20];
-    let (mut start, mut rest) = (digits.len(), thousandths);
-    while rest > 0 || start > digits.len() - 4 {
-        start -= 1;
-        digits[start] += (rest % 10) as u8;
-        rest /= 10;
+    let (whole, fraction) = (thousandths / 1000, place(thousandths % 1000));
+    if whole < 1000 {
+        let digits = 1 + usize::from(whole > 9) + usize::from(whole > 99);
+        let end = place(whole) + 4;
+        text.push_str(&THOUSANDTHS[end - digits..end]);
+    } else {
+        _ = write!(text, "{whole}");
     }
-    let point = digits.len() - 3;
-    text.extend(digits[start..point].iter().map(|digit| char::from(*digit)));
-    text.push('.');
-    text.extend(digits[point..].iter().map(|digit| char::from(*digit)));
+    text.push_str(&THOUSANDTHS[fraction..fraction + 4]);
+}
+
+/// `.000.001.002` and so on to `.999`: what is behind a point, and what may be before it, need not be made of digits.
+static THOUSANDTHS: &str = match str::from_utf8(&all_thousandths()) {
+    Ok(text) => text,
+    Err(_) => "",
+};
+
+const fn all_thousandths() -> [u8; 4000] {
+    let mut text = [b'.'; 4000];
+    let mut number = 0;
+    while number < 1000 {
+        text[4 * number + 1] = b'0' + (number / 100) as u8;
+        text[4 * number + 2] = b'0' + (number / 10 % 10) as u8;
+        text[4 * number + 3] = b'0' + (number % 10) as u8;
+        number += 1;
+    }
+    text
+}
+
+/// Where a number below a thousand begins there, with its point.
+#[expect(clippy::cast_possible_truncation, reason = "below 4000")]
+fn place(number: u64) -> usize {
+    4 * number as usize
 }
 
 /// How many thousandths a number is away from zero, ties to even; `None` from 2^53 on, and where it is no number.

@@ -88,7 +88,7 @@ impl Line<'_> {
                 b';' | b'!' | b'/' => self.comment_to_end(byte)?,
                 b'#' => self.setting()?,
                 b'0'..=b'9' | b'+' | b'-' | b'.' => self.bare_number()?,
-                b'@' | b'^' | b'$' if self.rules.words.letters.contains(&byte) => self.word(byte)?,
+                b'@' | b'^' | b'$' if self.rules.words.letters.contains(byte) => self.word(byte)?,
                 _ => self.unknown_character()?,
             }
         }

@@ -7,8 +7,8 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Word};
 
-use super::walk::{Stretch, Walker};
-use crate::interpret::{Axes, Move, Pace, Path, Position};
+use super::walk::{Stretch, Walker, are_alike};
+use crate::interpret::{Axes, Course, Move, Pace, Path, Position};
 
 /// How far apart two programs may be and still be the same, in mm and mm/min.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,9 @@ impl Tolerance {
         Self { place: half, feed: half, chord: 0.0, ends: Ends::All }
     }
 }
+
+/// How many times farther apart two arcs may be between their ends: see [`Tolerance::place`].
+const ARC_SLACK: f64 = 6.0;
 
 /// The first place where two programs differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,6 +99,16 @@ pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance)
     if let (Path::Line, Path::Line) = (found.path, expected.path) {
         return is_near(&found.to.at, &expected.to.at, tolerance.place)
             && check_pace(found, expected, tolerance).is_ok();
+    }
+    if let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path)
+        && found.from.known.and(expected.from.known) == Axes::ALL
+    {
+        let ours = Course::new(ours, &found.from, &found.to);
+        let theirs = Course::new(theirs, &expected.from, &expected.to);
+        return is_near(&found.to.at, &expected.to.at, tolerance.place)
+            && are_alike(ours.length(), theirs.length(), tolerance.place)
+            && check_pace(found, expected, tolerance).is_ok()
+            && is_same_course(&ours, &theirs, tolerance);
     }
     let (ours, theirs) = (Stretch::whole(*found), Stretch::whole(*expected));
     ours.end_together(&theirs, tolerance.place)
@@ -241,7 +254,7 @@ fn step(
 fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f64, Kind> {
     let end = shorter.end();
     let share = longer.nearest(&end, shorter.length).ok_or(Kind::Place)?;
-    let slack = if longer.is_arc() { 6.0 } else { 2.0 } * tolerance.place + tolerance.chord;
+    let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
     if !is_near(&longer.point(share), &end, slack) {
         return Err(Kind::Place);
     }
@@ -276,12 +289,18 @@ fn check_shape(
         return Ok(());
     }
     let chord = if one.is_arc() && other.is_arc() { 0.0 } else { tolerance.chord };
-    let slack = 6.0 * tolerance.place + chord;
+    let slack = ARC_SLACK * tolerance.place + chord;
     let agrees = |share: f64| {
         let at = |stretch: &Stretch, end: f64| stretch.point(stretch.begin + share * (end - stretch.begin));
         is_near(&at(one, one_end), &at(other, other_end), slack)
     };
     if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(Kind::Shape) }
+}
+
+/// The same of two whole arcs.
+fn is_same_course(one: &Course, other: &Course, tolerance: &Tolerance) -> bool {
+    let slack = ARC_SLACK * tolerance.place;
+    one.quarters().iter().zip(&other.quarters()).all(|(ours, theirs)| is_near(ours, theirs, slack))
 }
 
 /// Whether two places agree in each coordinate.

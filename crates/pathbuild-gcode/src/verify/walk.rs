@@ -102,8 +102,8 @@ impl Stretch {
     /// Whether both end at one place, not one a whole turn later than the other.
     pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
         let from_unknown = self.it.from.known != Axes::ALL || other.it.from.known != Axes::ALL;
-        let (shorter, longer) = (self.length.min(other.length), self.length.max(other.length));
-        is_near(&self.end(), &other.end(), slack) && (from_unknown || longer <= 1.25 * shorter + 10.0 * slack)
+        is_near(&self.end(), &other.end(), slack)
+            && (from_unknown || are_alike(self.length, other.length, slack))
     }
 
     /// The share of the move at which it comes nearest to a place about `along` mm ahead; `None` if it has no length.
@@ -136,4 +136,9 @@ impl Stretch {
         let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
         if arc.clockwise { -counterclockwise } else { counterclockwise }
     }
+}
+
+/// Whether two lengths are of one way, which may be rounded, and not of that and a whole turn more.
+pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
+    one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }

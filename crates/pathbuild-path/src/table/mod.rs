@@ -32,17 +32,24 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Room for about so many.
-    pub fn with_capacity(ranges: usize) -> Self {
-        Self { numbers: Vec::with_capacity(ranges), others: Vec::new() }
-    }
-
     /// One more range.
     pub fn push(&mut self, range: NameRange, file: u32) {
         match range.numbers() {
             Some(numbers) => self.numbers.push((numbers, file)),
             None => self.others.push((range, file)),
         }
+    }
+
+    /// The numbers of the files that may hold a path, from this one on.
+    pub fn files(&self, path: &PathKey, first: u32) -> Vec<u32> {
+        let numbers = self.numbers.iter().filter(|(_, file)| *file >= first);
+        let others = self.others.iter().filter(|(range, file)| *file >= first && range.holds(path));
+        let is_held = |range: NumberRange| match path.number() {
+            Some(path) => range.holds(path),
+            None => NameRange::from(range).holds(path),
+        };
+        let numbers = numbers.filter(|(range, _)| is_held(*range)).map(|(_, file)| *file);
+        numbers.chain(others.map(|(_, file)| *file)).collect()
     }
 }
 

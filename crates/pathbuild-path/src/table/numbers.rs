@@ -39,7 +39,8 @@ impl NumberTable {
     /// The files whose ranges hold a path, in no particular order.
     pub(super) fn files(&self, path: NumberKey) -> Vec<u32> {
         if self.looks.fetch_add(1, Ordering::Relaxed) < LOOKS {
-            return self.entries().filter(|(range, _)| range.holds(path)).map(|(_, file)| file).collect();
+            let held = self.entries.iter().filter(|(range, _)| range.holds(path));
+            return held.map(|(_, file)| *file).collect();
         }
         self.sorted.get_or_init(|| Sorted::new(self.entries.clone())).files(path)
     }

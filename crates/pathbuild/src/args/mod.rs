@@ -3,6 +3,7 @@
 
 mod check;
 mod common;
+mod deferred;
 mod emit;
 mod format;
 mod gcode;
@@ -16,6 +17,7 @@ use clap::{Parser, Subcommand};
 
 pub use check::CheckArgs;
 pub use common::CommonArgs;
+pub use deferred::Deferred;
 pub use emit::{AdjustArgs, EmitArgs};
 pub use format::{Format, ReportFile};
 pub use gcode::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
@@ -47,53 +49,53 @@ pub struct Cli {
 #[command(disable_help_subcommand = true)]
 pub enum Command {
     /// Check every path of the given drawings, paths or directories; without arguments the library. Writes nothing
-    Check(CheckArgs),
+    Check(Deferred<CheckArgs>),
     /// Write the files of one or more paths; without arguments those of `[emit] targets`
-    Emit(EmitArgs),
+    Emit(Deferred<EmitArgs>),
     /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
-    Adjust(AdjustArgs),
+    Adjust(Deferred<AdjustArgs>),
     /// Keep checking as drawings change
-    Watch(WatchArgs),
+    Watch(Deferred<WatchArgs>),
     /// Show which element each parameter text belongs to
-    Texts(TextsArgs),
+    Texts(Deferred<TextsArgs>),
     /// Show a path as a self-contained HTML page or SVG
     #[command(hide = true)]
-    Preview(PreviewArgs),
+    Preview(Deferred<PreviewArgs>),
     /// Show what a change of drawings does to the moves
     #[command(hide = true)]
-    Diff(DiffArgs),
+    Diff(Deferred<DiffArgs>),
     /// Read a G-code program and print what it is
-    Import(ImportArgs),
+    Import(Deferred<ImportArgs>),
     /// Check a G-code program
-    Verify(VerifyArgs),
+    Verify(Deferred<VerifyArgs>),
     /// Write a G-code program for another machine
-    Post(PostArgs),
+    Post(Deferred<PostArgs>),
     /// Show what embeds what, with bindings
-    Graph(GraphArgs),
+    Graph(Deferred<GraphArgs>),
     /// Show what a path embeds
-    Deps(GraphArgs),
+    Deps(Deferred<GraphArgs>),
     /// Show what embeds a path
-    Rdeps(GraphArgs),
+    Rdeps(Deferred<GraphArgs>),
     /// Show where a path is defined
-    Where(GraphArgs),
+    Where(Deferred<GraphArgs>),
     /// Show why drawings would be compiled again: what has changed since the last `check` of the library
-    Why(GraphArgs),
+    Why(Deferred<GraphArgs>),
     /// Write a Q-project: a drawing that embeds every path of another
-    QProject(QProjectArgs),
+    QProject(Deferred<QProjectArgs>),
     /// Manage the results kept between runs
-    Cache(CacheArgs),
+    Cache(Deferred<CacheArgs>),
     /// Print the page on a diagnostic code; without a code, list them
-    Explain(ExplainArgs),
+    Explain(Deferred<ExplainArgs>),
     /// Write a commented pathbuild.toml into the working directory
     Init,
     /// Show the configuration
-    Config(ConfigArgs),
+    Config(Deferred<ConfigArgs>),
     /// Print a completion script for a shell
-    Completions(CompletionsArgs),
+    Completions(Deferred<CompletionsArgs>),
     /// Print the manual page
     Man,
     /// Take the command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
-    Compat(CompatArgs),
+    Compat(Deferred<CompatArgs>),
 }
 
 impl Command {
@@ -116,7 +118,10 @@ impl Command {
             Self::Import(args) => Inputs::places(&args.files),
             Self::Verify(args) => Inputs::places(&args.files),
             Self::Post(args) => Inputs::places(&args.file),
-            Self::Config(ConfigArgs { command: ConfigCommand::Show { inputs, .. } }) => inputs.clone(),
+            Self::Config(args) => match &args.command {
+                ConfigCommand::Show { inputs, .. } => inputs.clone(),
+                ConfigCommand::Schema => Inputs::default(),
+            },
             _ => Inputs::default(),
         }
     }

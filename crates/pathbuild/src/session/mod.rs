@@ -1,6 +1,5 @@
 //! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
 
-mod ahead;
 mod combinations;
 mod elsewhere;
 mod graph;
@@ -9,6 +8,7 @@ mod library;
 mod outputs;
 mod provenance;
 mod q_projects;
+mod rehearsal;
 mod resolve;
 mod settings;
 pub mod timings;
@@ -51,7 +51,7 @@ pub struct Session<'a> {
     progress: Option<Progress>,
     /// Worker threads.
     pool: OnceLock<Option<ThreadPool>>,
-    /// The targets that were asked for, in a session that asks again: each is an input of the database, which stays for ever.
+    /// The targets that were asked for, in a session that asks for the same again: each is an input of the database, which stays for ever.
     targets: Option<RefCell<Targets>>,
     /// Where the time went.
     timings: Timings,
@@ -65,9 +65,11 @@ impl<'a> Session<'a> {
         Self::over(context, false, Arc::new(OsSystem))
     }
 
-    /// A session that can say out of which drawings a program was made.
+    /// A session that makes programs, and can say out of which drawings.
     pub fn with_hashes(context: &'a Context) -> Self {
-        Self::over(context, true, Arc::new(OsSystem))
+        let mut session = Self::over(context, true, Arc::new(OsSystem));
+        session.db.keep_paths();
+        session
     }
 
     /// A session whose results may be kept for later runs: what they were made from is noted.

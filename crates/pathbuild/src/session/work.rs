@@ -12,7 +12,6 @@ use pathbuild_path::PathName;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::ahead::read_mentioned;
 use super::timings::{CHECKING, READING};
 use super::watchdog::Watchdog;
 use super::{Session, WantedPath};
@@ -127,13 +126,8 @@ impl Session<'_> {
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         let is_traced = self.is_traced;
-        // Who asks again and again has listed and read before.
-        let is_alone = targets.len() == 1 && self.targets.is_none() && self.context.jobs != Some(1);
         let work = |db: &Database, target: &Target| {
             let begun = Instant::now();
-            if is_alone {
-                read_mentioned(db, *target);
-            }
             (check(db, *target, is_traced), begun.elapsed())
         };
         let results = self.timings.measure(&CHECKING, || self.guarded(targets, work));

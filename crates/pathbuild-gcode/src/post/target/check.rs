@@ -130,7 +130,7 @@ impl Checker<'_> {
             b'G' => tenths(value).is_some_and(|code| words.g(code) != Acceptance::Unknown),
             b'M' => tenths(value).is_some_and(|code| words.m(code) == Acceptance::Taken),
             b'N' => self.target.line_numbers,
-            letter => words.letters.contains(&letter),
+            letter => words.letters.contains(letter),
         }
     }
 }

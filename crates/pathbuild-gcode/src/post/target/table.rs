@@ -1,12 +1,12 @@
 //! The targets that are no dialects of the reader. Their words are those of the makers' manuals for mills.
 
 use super::{Comments, Target};
-use crate::dialect::{Dialect, Words};
+use crate::dialect::{Dialect, Letters, Words};
 
 const ROUND: Comments = Comments { round: true, nested: false, semicolon: false, slashes: false };
 
 const NO_WORDS: Words = Words {
-    letters: b"",
+    letters: Letters::new(b""),
     g: &[],
     g_ignored: &[],
     m: &[],
@@ -31,7 +31,7 @@ pub(super) static TARGETS: &[Target] = &[
     Target {
         name: "mach3",
         words: &Words {
-            letters: b"ABCDFGHIJKLMNOPQRSTXYZ",
+            letters: Letters::new(b"ABCDFGHIJKLMNOPQRSTXYZ"),
             g: &[
                 0, 10, 20, 30, 40, 100, 120, 130, 150, 160, 170, 180, 190, 200, 210, 280, 281, 300, 310, 400,
                 410, 420, 430, 490, 500, 510, 520, 530, 540, 550, 560, 570, 580, 590, 610, 640, 680, 690,
@@ -46,7 +46,7 @@ pub(super) static TARGETS: &[Target] = &[
     Target {
         name: "fanuc",
         words: &Words {
-            letters: b"ABCDFGHIJKLMNOPQRSTXYZ",
+            letters: Letters::new(b"ABCDFGHIJKLMNOPQRSTXYZ"),
             g: &[
                 0, 10, 20, 30, 40, 90, 100, 110, 150, 160, 170, 180, 190, 200, 210, 270, 280, 290, 300, 310,
                 400, 410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 541, 550, 560, 570, 580, 590, 610,
@@ -61,7 +61,7 @@ pub(super) static TARGETS: &[Target] = &[
     Target {
         name: "haas",
         words: &Words {
-            letters: b"ABCDEFGHIJKLMNOPQRSTUVWXYZ",
+            letters: Letters::new(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"),
             g: &[
                 0, 10, 20, 30, 40, 90, 100, 120, 130, 170, 180, 190, 200, 210, 280, 290, 310, 350, 360, 370,
                 400, 410, 420, 430, 440, 490, 500, 510, 520, 530, 540, 550, 560, 570, 580, 590, 600, 610,
@@ -79,7 +79,7 @@ pub(super) static TARGETS: &[Target] = &[
     Target {
         name: "marlin",
         words: &Words {
-            letters: b"ABCEFGIJKLMNPQRSTXYZ",
+            letters: Letters::new(b"ABCEFGIJKLMNPQRSTXYZ"),
             g: &[
                 0, 10, 20, 30, 40, 50, 60, 170, 180, 190, 200, 210, 270, 280, 382, 383, 384, 385, 530, 540,
                 550, 560, 570, 580, 590, 591, 592, 593, 600, 610, 800, 900, 910, 920,

@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use pathbuild_db::SourceFile;
+use pathbuild_diagnostic::Diagnostic;
 
 pub(super) use drawings::check_drawings;
 
@@ -49,6 +50,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     if args.timings {
         session.timings().switch_on();
     }
+    session.rehearse(&args.inputs, |session| rehearse(session, args));
     let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
     let checked = check(&mut session, wanted, args.all_bindings);
     let status = finish(context, args, &session, checked, begun);
@@ -100,6 +102,16 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
     checked.diagnostics.extend(session.q_projects(&whole));
     checked
+}
+
+/// Asks what a check of a single drawing or path will ask; nothing where there is an error.
+fn rehearse(session: &Session<'_>, args: &CheckArgs) -> Option<()> {
+    let wanted = session.wanted(&args.inputs);
+    let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+    let mut found = check_drawings(session, &whole, args.all_bindings);
+    found.extend(check_paths(session, &single_paths(wanted.paths, &whole), args.all_bindings));
+    let diagnostics = found.iter().flat_map(|(result, _)| &result.diagnostics);
+    (!diagnostics.chain(&wanted.problems).any(Diagnostic::is_error)).then_some(())
 }
 
 /// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.

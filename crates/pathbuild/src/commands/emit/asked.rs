@@ -144,7 +144,7 @@ impl Asking<'_> {
         let db = self.session.db();
         let is_known = |target: &Target| target.file(db) == file && **target.name(db) == *name.as_str();
         if !self.targets.iter().any(is_known) {
-            self.targets.push(Target::new(db, file, name.as_str().into(), Role::Emitted));
+            self.targets.push(self.session.target_in(file, name, Role::Emitted));
         }
     }
 

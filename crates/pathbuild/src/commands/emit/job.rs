@@ -14,6 +14,7 @@ use crate::posting::Poster;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
+#[derive(PartialEq, Eq)]
 pub(super) struct Job {
     /// The paths, in the order in which they are milled. There is one at least.
     pub(super) targets: Vec<Target>,

@@ -1,5 +1,6 @@
 //! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
 
+mod ahead;
 mod asked;
 mod behind;
 mod compare;
@@ -21,6 +22,7 @@ use crate::exit::ExitStatus;
 use crate::posting::{Poster, Wishes, run_post_build};
 use crate::session::{CheckedTarget, Session};
 
+use ahead::Ahead;
 use asked::Asked;
 use behind::deliver_all;
 use deliver::{Delivered, Means, State, Task};
@@ -68,6 +70,11 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
     if memory.is_some() {
         session.note_traces();
     }
+    let means = Means { writing: options::writing(context), poster };
+    let ahead = session.rehearse(&args.inputs, |session| {
+        let maker = Maker { context, session, poster };
+        args.join.is_none().then(|| Ahead::make(&maker, args, &means)).flatten()
+    });
     let mut diagnostics = Vec::new();
     let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
     let Some(asked) = ask(context, &session, &args.inputs, &mut diagnostics) else {
@@ -90,8 +97,11 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
     if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
         return context.usage("`-o -` takes one program: this path has Z-probes and becomes several files");
     }
-    let means = Means { writing: options::writing(context), poster };
-    let delivered = deliver_all(&session, &jobs, task, &means);
+    let made = ahead.and_then(|ahead| ahead.finish(&session, &jobs, task, &means));
+    let delivered = match made {
+        Some(delivered) => vec![delivered],
+        None => deliver_all(&session, &jobs, task, &means),
+    };
     let is_current = show_all(context, &delivered, &mut diagnostics);
     if let Some(file) = &args.deps {
         let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();

@@ -1,0 +1,108 @@
+//! What file names say about paths: the drawings of a directory by the name ranges in theirs. (spec/20-paths-and-files.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_path::{FilePattern, PathKey, RangeTable, Ranges};
+
+use crate::database::Db;
+use crate::inputs::{Directory, SourceFile};
+use crate::settings::Settings;
+use crate::system::Names;
+
+/// The drawings of a directory by the path names in theirs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NameTable {
+    names: Names,
+    ranges: RangeTable,
+}
+
+/// A [`NameTable`] on the way there.
+#[derive(Debug, Default)]
+pub(crate) struct GatheredNames {
+    names: Names,
+    ranges: Ranges,
+}
+
+impl GatheredNames {
+    /// Adds the drawings among some names.
+    pub(crate) fn add(&mut self, names: &Names, pattern: &FilePattern) {
+        for name in names.iter().filter(|name| is_drawing(name)) {
+            let number = number(self.len());
+            let stem = &name[..name.len() - EXTENSION.len()];
+            pattern.each_range(stem, |range| self.ranges.push(range, number));
+            self.names.push(name);
+        }
+    }
+
+    /// How many drawings there are.
+    pub(crate) fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The names that may hold a path, in order, without the first so many.
+    pub(crate) fn find(&self, key: &PathKey, seen: usize) -> Vec<String> {
+        let files = self.ranges.files(key, number(seen)).into_iter();
+        let mut names: Vec<String> =
+            files.filter_map(|file| self.names.get(file as usize)).map(str::to_owned).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+impl From<GatheredNames> for NameTable {
+    fn from(GatheredNames { names, ranges }: GatheredNames) -> Self {
+        Self { names, ranges: ranges.into() }
+    }
+}
+
+fn number(name: usize) -> u32 {
+    u32::try_from(name).expect("a directory has fewer than 2^32 names")
+}
+
+impl NameTable {
+    /// Whether look-ups use an order; else each looks at every name.
+    pub fn is_sorted(&self) -> bool {
+        self.ranges.is_sorted()
+    }
+
+    /// The files that may hold a path, in order of name.
+    pub(super) fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
+        let files = self.ranges.files(key).into_iter();
+        let mut names: Vec<&str> = files.filter_map(|file| self.names.get(file as usize)).collect();
+        names.sort_unstable();
+        names.into_iter().map(|name| db.file(&joined(directory.path(db), name))).collect()
+    }
+}
+
+/// The name ranges in a directory's file names. A directory that cannot be listed has none.
+#[salsa::tracked]
+pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
+    directory.revision(db);
+    db.arrivals().take(directory).unwrap_or_else(|| {
+        let pattern = &Settings::get(db).lookup(db).file_pattern;
+        let listed = db.system().list(directory.path(db)).unwrap_or_default();
+        let mut names = GatheredNames::default();
+        names.add(&listed.files, pattern);
+        names.into()
+    })
+}
+
+/// The names of the drawings in a directory, as its name ranges were read from them.
+pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
+    &name_table(db, directory).names
+}
+
+/// What drawings' names end in.
+pub(super) const EXTENSION: &str = ".dxf";
+
+/// `.dxf` counts in any case.
+fn is_drawing(name: &str) -> bool {
+    let bytes = name.as_bytes();
+    bytes.len() > EXTENSION.len()
+        && bytes[bytes.len() - EXTENSION.len()..].eq_ignore_ascii_case(EXTENSION.as_bytes())
+}
+
+/// A file in a directory, whose path is normalised.
+pub(super) fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
+    if directory.as_str().is_empty() { Utf8PathBuf::from(name) } else { directory.join(name) }
+}

@@ -1,0 +1,65 @@
+//! The files of a single path, made in advance while the names of drawings are being listed, and used if it turns out that they were made from
+//! the right ones.
+
+use std::sync::Arc;
+
+use pathbuild_db::{Database, Db, program};
+use pathbuild_toolpath::Program;
+
+use super::asked::Asked;
+use super::deliver::{Delivered, Means, Output, Task, finish, make};
+use super::job::{Job, Maker};
+use crate::args::EmitArgs;
+use crate::session::Session;
+
+/// What a job becomes, as far as one knows.
+pub(super) struct Ahead {
+    job: Job,
+    /// That of each of its paths.
+    programs: Vec<Option<Arc<Program>>>,
+    delivered: Delivered,
+    outputs: Vec<Output>,
+}
+
+impl Ahead {
+    /// Makes what `emit` of a single path writes; `None` where that is not one job.
+    pub(super) fn make(maker: &Maker<'_>, args: &EmitArgs, means: &Means<'_>) -> Option<Self> {
+        let session = maker.session;
+        let asked = Asked::new(maker.context, session, &args.inputs, &mut Vec::new())?;
+        let checked = session.check(&asked.targets);
+        let mut jobs = maker.jobs(&checked, &mut Vec::new());
+        let job = jobs.pop().filter(|_| jobs.is_empty())?;
+        let make = |db: &Database, job: &&Job| (programs(db, job), make(db, job, means));
+        let made = session.guarded(&[&job], make).pop()?;
+        // What went wrong goes wrong again when it counts.
+        let (programs, (delivered, outputs)) = made.ok()?;
+        Some(Self { job, programs, delivered, outputs })
+    }
+
+    /// Does what is to be done with the files, if these are the jobs that they were made for, and their programs the same.
+    pub(super) fn finish(
+        self,
+        session: &Session<'_>,
+        jobs: &[Job],
+        task: Task,
+        means: &Means<'_>,
+    ) -> Option<Delivered> {
+        let [job] = jobs else { return None };
+        if *job != self.job || !is_same(&self.programs, &programs(session.db(), job)) {
+            return None;
+        }
+        let mut delivered = self.delivered;
+        finish(session.db().system(), self.outputs, task, means.poster, &mut delivered);
+        Some(delivered)
+    }
+}
+
+fn programs(db: &Database, job: &Job) -> Vec<Option<Arc<Program>>> {
+    job.targets.iter().map(|target| program(db, *target).clone()).collect()
+}
+
+/// Whether nobody had to make them again.
+fn is_same(before: &[Option<Arc<Program>>], now: &[Option<Arc<Program>>]) -> bool {
+    let is_same = |pair: (&Option<Arc<Program>>, &Option<Arc<Program>>)| matches!(pair, (Some(before), Some(now)) if Arc::ptr_eq(before, now));
+    before.len() == now.len() && before.iter().zip(now).all(is_same)
+}
