@@ -35,7 +35,7 @@ fn a_path_is_guessed_to_be_in_the_drawing_of_its_name_and_nowhere_else() {
     let mut world = world();
     let _lister = guess(&mut world);
     world.ask("project", PROJECT, "8001.1P");
-    assert_eq!(world.codes("project"), ["PB501"]);
+    assert_eq!(world.codes("project"), ["PB503"]);
     assert!(!world.ran().contains("name_table project"), "{:?}", world.ran());
 }
 
@@ -75,7 +75,7 @@ fn a_wrong_guess_is_corrected() {
     world.ask("project", PROJECT, "8001.1P");
     assert!(is_made(&world));
     list(&mut world, Insight::Listed);
-    assert_eq!(world.codes("project"), ["PB502"]);
+    assert_eq!(world.codes("project"), ["PB504"]);
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn a_lister_that_never_runs_keeps_nobody_waiting() {
     drop(guess(&mut world));
     list(&mut world, Insight::Coming);
     world.ask("project", PROJECT, "8001.1P");
-    assert_eq!(world.codes("project"), ["PB501"]);
+    assert_eq!(world.codes("project"), ["PB503"]);
     list(&mut world, Insight::Listed);
     assert!(is_made(&world));
 }
@@ -98,5 +98,5 @@ fn names_that_change_later_are_listed_again() {
     world.ask("project", PROJECT, "8001.1P");
     assert!(is_made(&world));
     world.remove("lib/2000-2999.dxf");
-    assert_eq!(world.codes("project"), ["PB501"]);
+    assert_eq!(world.codes("project"), ["PB503"]);
 }

@@ -2,12 +2,13 @@
 //! the right ones.
 
 use std::sync::Arc;
+use std::thread::{Builder, JoinHandle};
 
 use pathbuild_db::{Database, Db, program};
 use pathbuild_toolpath::Program;
 
 use super::asked::Asked;
-use super::deliver::{Delivered, Means, Output, Task, finish, make};
+use super::deliver::{Delivered, Made, Means, Task, finish, make};
 use super::job::{Job, Maker};
 use crate::args::EmitArgs;
 use crate::session::Session;
@@ -17,8 +18,8 @@ pub(super) struct Ahead {
     job: Job,
     /// That of each of its paths.
     programs: Vec<Option<Arc<Program>>>,
-    delivered: Delivered,
-    outputs: Vec<Output>,
+    /// What was made is read back on a thread of its own: meanwhile one looks whether it was made from the right drawings.
+    reading: JoinHandle<Made>,
 }
 
 impl Ahead {
@@ -32,8 +33,10 @@ impl Ahead {
         let make = |db: &Database, job: &&Job| (programs(db, job), make(db, job, means));
         let made = session.guarded(&[&job], make).pop()?;
         // What went wrong goes wrong again when it counts.
-        let (programs, (delivered, outputs)) = made.ok()?;
-        Some(Self { job, programs, delivered, outputs })
+        let (programs, made) = made.ok()?;
+        // Where the system has no thread left, nothing is made in advance.
+        let reading = Builder::new().name("reading back".into()).spawn(move || made.read_back()).ok()?;
+        Some(Self { job, programs, reading })
     }
 
     /// Does what is to be done with the files, if these are the jobs that they were made for, and their programs the same.
@@ -48,8 +51,9 @@ impl Ahead {
         if *job != self.job || !is_same(&self.programs, &programs(session.db(), job)) {
             return None;
         }
-        let mut delivered = self.delivered;
-        finish(session.db().system(), self.outputs, task, means.poster, &mut delivered);
+        // A bug in there shows itself again when all is made anew.
+        let Made { mut delivered, outputs, .. } = self.reading.join().ok()?;
+        finish(session.db().system(), outputs, task, means.poster, &mut delivered);
         Some(delivered)
     }
 }

@@ -8,7 +8,7 @@ use std::thread::{self, Builder};
 use pathbuild_db::{Database, Db};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::deliver::{Delivered, Means, Output, Task, finish, make};
+use super::deliver::{Delivered, Made, Means, Output, Task, finish, make};
 use super::job::Job;
 use crate::session::Session;
 
@@ -20,7 +20,7 @@ pub(super) fn deliver_all(
     means: &Means<'_>,
 ) -> Vec<Delivered> {
     let at_once = |db: &Database, job: &Job| {
-        let (mut delivered, outputs) = make(db, job, means);
+        let Made { mut delivered, outputs, .. } = make(db, job, means).read_back();
         finish(db.system(), outputs, task, means.poster, &mut delivered);
         delivered
     };
@@ -60,7 +60,7 @@ fn write_behind(
     let (mut made, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = session.guarded(&numbered, |db, (index, job)| {
-            let (mut delivered, outputs) = make(db, job, means);
+            let Made { mut delivered, outputs, .. } = make(db, job, means).read_back();
             // Where the system has no thread left, nobody receives it.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 delivered.add(finished(outputs));

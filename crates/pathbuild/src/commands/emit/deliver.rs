@@ -102,11 +102,35 @@ pub(super) struct Means<'a> {
     pub(super) poster: Option<&'a Poster>,
 }
 
-/// The files of a job, with what is known of its program: none when something keeps one of them from being written.
-pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> (Delivered, Vec<Output>) {
+/// What a job becomes: no files where something keeps one of them from being written.
+#[derive(Default)]
+pub(super) struct Made {
+    /// What is known of its program.
+    pub(super) delivered: Delivered,
+    pub(super) outputs: Vec<Output>,
+    /// The program that native files must be the same as, and where it comes from.
+    unread: Option<(Arc<Program>, Utf8PathBuf, Box<str>)>,
+}
+
+impl Made {
+    /// The same once its native files have been read back and compared with the program. (spec/90-gcode-import.md, "verify")
+    pub(super) fn read_back(mut self) -> Self {
+        let Some((program, drawing, path)) = self.unread.take() else { return self };
+        let read_back =
+            |output: &Output| output.kind.read_back(&String::from_utf8_lossy(&output.text), &program).err();
+        if let Some(problem) = self.outputs.iter().find_map(read_back) {
+            self.delivered.problems.push(problem.in_file(&drawing).in_path(&path));
+            self.outputs.clear();
+        }
+        self
+    }
+}
+
+/// The files of a job; native ones must be [read back](Made::read_back) before anybody uses them.
+pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<Arc<Program>>>>() else {
-        return (Delivered::default(), Vec::new());
+        return Made::default();
     };
     let mut delivered = Delivered::default();
     let mut time = Total::default();
@@ -120,7 +144,11 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> (Delivered, V
         delivered.problems.extend(problems);
         Vec::new()
     });
-    (delivered, outputs)
+    let unread = match (means.poster, programs.as_slice()) {
+        (None, [program]) => Some((program.clone(), job.drawing(db).path(db).clone(), job.path.clone())),
+        _ => None,
+    };
+    Made { delivered, outputs, unread }
 }
 
 /// Writes, compares or prints what a job becomes.
@@ -173,7 +201,6 @@ pub(super) struct Output {
     pub(super) text: Vec<u8>,
 }
 
-/// The files of a job, each read back and compared with the program. (spec/90-gcode-import.md, "verify")
 fn outputs(
     db: &Database,
     job: &Job,
@@ -207,10 +234,9 @@ fn native(
     let provenance = job.provenance.to_string();
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text = kind.text(program, &provenance, &means.writing);
-        kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
-        Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
+        Output { kind: *kind, path: path.clone(), text: text.into_bytes() }
     };
-    job.files.iter().map(output).collect()
+    Ok(job.files.iter().map(output).collect())
 }
 
 /// What the post makes of programs; it reads that back itself.
