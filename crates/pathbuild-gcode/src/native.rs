@@ -12,5 +12,5 @@ pub(crate) use comment::transliterated;
 pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};
-pub use program::{Header, WriteOptions, program};
-pub use read_back::{read_back, read_probing_back};
+pub use program::{Header, WriteOptions, program, program_in_parts};
+pub use read_back::{is_read_back, read_back, read_probing_back};

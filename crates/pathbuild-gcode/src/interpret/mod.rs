@@ -68,22 +68,41 @@ pub fn interpret_each(
     options: &Options,
     each: &mut dyn FnMut(Step),
 ) -> Vec<Diagnostic> {
-    let rules = dialect.rules();
-    let mut reader = Reader::new(text, rules);
-    let mut interpreter = execute::Interpreter::new(rules, options, each);
-    let mut has_words = false;
-    while let Some(block) = reader.next_block() {
-        has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
-        interpreter.block(&block);
-        if interpreter.has_ended() {
-            reader.end_program();
-        }
-    }
-    let mut problems = interpreter.finish(reader.line(), reader.is_ended());
-    problems.append(reader.into_problems());
-    let problems = problems.into_diagnostics();
+    let (problems, has_words) = interpret_parts([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
     if is_other { vec![no_g_code(text)] } else { problems }
+}
+
+/// Interprets a file that comes in parts of whole lines. Gives back what is wrong with it, and whether any line has a word.
+pub(crate) fn interpret_parts(
+    parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    dialect: Dialect,
+    options: &Options,
+    each: &mut dyn FnMut(Step),
+) -> (Vec<Diagnostic>, bool) {
+    let rules = dialect.rules();
+    let mut interpreter = execute::Interpreter::new(rules, options, each);
+    let mut has_words = false;
+    let mut before: Option<Reader<'static>> = None;
+    for part in parts {
+        let text = part.as_ref();
+        let mut reader = match before.take() {
+            None => Reader::new(text, rules),
+            Some(reader) => reader.go_on(text),
+        };
+        while let Some(block) = reader.next_block() {
+            has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
+            interpreter.block(&block);
+            if interpreter.has_ended() {
+                reader.end_program();
+            }
+        }
+        before = Some(reader.go_on(&[]));
+    }
+    let reader = before.unwrap_or_else(|| Reader::new(&[], rules));
+    let mut problems = interpreter.finish(reader.line(), reader.is_ended());
+    problems.append(reader.into_problems());
+    (problems.into_diagnostics(), has_words)
 }
 
 /// What is said of a file in which no line has a word: nobody wants to read that of each line.

@@ -31,6 +31,16 @@ pub struct Header {
 /// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
 /// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
+    program_in_parts(program, header, options, &mut |_| {})
+}
+
+/// The same; hands on each part of it, of whole lines, as soon as it is written.
+pub fn program_in_parts(
+    program: &Program,
+    header: &Header,
+    options: &WriteOptions,
+    take: &mut dyn FnMut(&str),
+) -> String {
     let steps = options.correction.steps(program);
     let text = String::with_capacity(64 * steps.len() + 512);
     let formulas = Formulas::new(program, options.correction);
@@ -40,10 +50,15 @@ pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> St
     writer.line("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1");
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
+    let mut taken = 0;
     for step in steps.as_ref() {
         match step {
             Step::Move { to, count } => writer.step(to, count.length),
             Step::Comment(said) => writer.said(said),
+        }
+        if writer.text.len() - taken >= PART {
+            take(&writer.text[taken..]);
+            taken = writer.text.len();
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
@@ -51,8 +66,12 @@ pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> St
         writer.line(&line);
     }
     writer.line("M30\n%");
+    take(&writer.text[taken..]);
     writer.text
 }
+
+/// So many bytes at least are handed on at once.
+const PART: usize = 1 << 14;
 
 struct Writer<'a> {
     program: &'a Program,

@@ -6,7 +6,9 @@ use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
 use super::program::LAST_DIGIT;
 use crate::dialect::Dialect;
-use crate::interpret::{self, Axes, Heights, Options, Pace, each_move_of, interpret_each, moves_of};
+use crate::interpret::{
+    self, Axes, Heights, Options, Pace, each_move_of, interpret_each, interpret_parts, moves_of,
+};
 use crate::verify::{Difference, Tolerance, compare, is_near, is_same_move};
 
 /// Digits behind the point.
@@ -17,12 +19,10 @@ const DECIMALS: i32 = 3;
 /// # Errors
 /// PB006: where it does not. It is a bug.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
-    let exactly = Tolerance::of_decimals(DECIMALS);
-    let mut abreast = Abreast::new(each_move_of(program), exactly);
-    each_move(text, |_, it| abreast.step(&it))?;
-    if abreast.end_together() {
+    if is_read_back([text], program) {
         return Ok(());
     }
+    let exactly = Tolerance::of_decimals(DECIMALS);
     let (found, expected) = (moves(text)?, moves_of(program));
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
     match difference(&exactly) {
@@ -32,6 +32,19 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
         }
         found => found.map_or(Ok(()), |found| Err(differs(&found))),
     }
+}
+
+/// Whether a program's text, in parts of whole lines, says move by move what the program does. Where not, [`read_back`] may still find that it
+/// comes to the same.
+pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
+    let mut abreast = Abreast::new(each_move_of(program), Tolerance::of_decimals(DECIMALS));
+    let mut each = |step: interpret::Step| {
+        if let Some((_, it)) = step.as_move() {
+            abreast.step(&it);
+        }
+    };
+    let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal(), &mut each);
+    !problems.iter().any(Diagnostic::is_error) && abreast.end_together()
 }
 
 /// Whether the text of a probing run probes where the program's probes are, in their order.
@@ -93,14 +106,17 @@ fn moves(text: &str) -> Result<Vec<(u32, interpret::Move)>, Box<Diagnostic>> {
 }
 
 fn each_move(text: &str, mut take: impl FnMut(u32, interpret::Move)) -> Result<(), Box<Diagnostic>> {
-    let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut each = |step: interpret::Step| {
         if let Some((line, it)) = step.as_move() {
             take(line, it);
         }
     };
-    let problems = interpret_each(text.as_bytes(), Dialect::Native, &options, &mut each);
+    let problems = interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut each);
     problems.iter().find(|problem| problem.is_error()).map_or(Ok(()), |problem| Err(told(problem)))
+}
+
+fn nominal() -> Options {
+    Options { heights: Heights::Nominal, ..Options::default() }
 }
 
 /// Most lines have at least so many bytes.

@@ -63,6 +63,12 @@ impl<'t> Reader<'t> {
         }
     }
 
+    /// The same file goes on with these bytes: what was read ended with a line.
+    pub(crate) fn go_on<'u>(self, text: &'u [u8]) -> Reader<'u> {
+        let Self { rules, line, state, parts, problems, .. } = self;
+        Reader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
+    }
+
     /// The next line that is not blank and can be read.
     pub fn next_block(&mut self) -> Option<Block<'_>> {
         let text = loop {

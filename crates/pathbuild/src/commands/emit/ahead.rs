@@ -2,7 +2,6 @@
 //! the right ones.
 
 use std::sync::Arc;
-use std::thread::{Builder, JoinHandle};
 
 use pathbuild_db::{Database, Db, program};
 use pathbuild_toolpath::Program;
@@ -18,8 +17,8 @@ pub(super) struct Ahead {
     job: Job,
     /// That of each of its paths.
     programs: Vec<Option<Arc<Program>>>,
-    /// What was made is read back on a thread of its own: meanwhile one looks whether it was made from the right drawings.
-    reading: JoinHandle<Made>,
+    /// Not read back yet, or only on a thread of its own: meanwhile one looks whether it was made from the right drawings.
+    made: Made,
 }
 
 impl Ahead {
@@ -30,13 +29,12 @@ impl Ahead {
         let checked = session.check(&asked.targets);
         let mut jobs = maker.jobs(&checked, &mut Vec::new());
         let job = jobs.pop().filter(|_| jobs.is_empty())?;
-        let make = |db: &Database, job: &&Job| (programs(db, job), make(db, job, means));
+        let means = Means { is_followed: true, ..*means };
+        let make = |db: &Database, job: &&Job| (programs(db, job), make(db, job, &means));
         let made = session.guarded(&[&job], make).pop()?;
         // What went wrong goes wrong again when it counts.
         let (programs, made) = made.ok()?;
-        // Where the system has no thread left, nothing is made in advance.
-        let reading = Builder::new().name("reading back".into()).spawn(move || made.read_back()).ok()?;
-        Some(Self { job, programs, reading })
+        Some(Self { job, programs, made })
     }
 
     /// Does what is to be done with the files, if these are the jobs that they were made for, and their programs the same.
@@ -51,8 +49,7 @@ impl Ahead {
         if *job != self.job || !is_same(&self.programs, &programs(session.db(), job)) {
             return None;
         }
-        // A bug in there shows itself again when all is made anew.
-        let Made { mut delivered, outputs, .. } = self.reading.join().ok()?;
+        let Made { mut delivered, outputs, .. } = self.made.read_back();
         finish(session.db().system(), outputs, task, means.poster, &mut delivered);
         Some(delivered)
     }

@@ -6,6 +6,7 @@ mod behind;
 mod compare;
 mod deliver;
 mod deps;
+mod follower;
 mod job;
 mod kept;
 mod options;
@@ -70,7 +71,7 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
     if memory.is_some() {
         session.note_traces();
     }
-    let means = Means { writing: options::writing(context), poster };
+    let means = Means { writing: options::writing(context), poster, is_followed: false };
     let ahead = session.rehearse(&args.inputs, |session| {
         let maker = Maker { context, session, poster };
         args.join.is_none().then(|| Ahead::make(&maker, args, &means)).flatten()
@@ -176,7 +177,7 @@ pub(in crate::commands) fn write(
     let mut diagnostics = Vec::new();
     let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
     jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-    let means = Means { writing: options::writing(context), poster };
+    let means = Means { writing: options::writing(context), poster, is_followed: false };
     let delivered = deliver_all(session, &jobs, task, &means);
     show_all(context, &delivered, &mut diagnostics);
     diagnostics
