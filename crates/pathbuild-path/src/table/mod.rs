@@ -6,7 +6,7 @@ mod numbers;
 mod tree;
 
 use self::groups::GroupTable;
-use self::numbers::NumberTable;
+use self::numbers::{NumberTable, holding};
 use crate::files::{NameRange, PathKey};
 use crate::number_range::NumberRange;
 
@@ -42,14 +42,17 @@ impl Ranges {
 
     /// The numbers of the files that may hold a path, from this one on.
     pub fn files(&self, path: &PathKey, first: u32) -> Vec<u32> {
-        let numbers = self.numbers.iter().filter(|(_, file)| *file >= first);
         let others = self.others.iter().filter(|(range, file)| *file >= first && range.holds(path));
-        let is_held = |range: NumberRange| match path.number() {
-            Some(path) => range.holds(path),
-            None => NameRange::from(range).holds(path),
-        };
-        let numbers = numbers.filter(|(range, _)| is_held(*range)).map(|(_, file)| *file);
-        numbers.chain(others.map(|(_, file)| *file)).collect()
+        let others = others.map(|(_, file)| *file);
+        // They are in the order of their files.
+        let numbers = &self.numbers[self.numbers.partition_point(|(_, file)| *file < first)..];
+        match path.number() {
+            Some(path) => holding(numbers, path).chain(others).collect(),
+            None => {
+                let holds = |(range, _): &&(NumberRange, u32)| NameRange::from(*range).holds(path);
+                numbers.iter().filter(holds).map(|(_, file)| *file).chain(others).collect()
+            }
+        }
     }
 }
 

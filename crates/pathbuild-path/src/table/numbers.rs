@@ -39,11 +39,23 @@ impl NumberTable {
     /// The files whose ranges hold a path, in no particular order.
     pub(super) fn files(&self, path: NumberKey) -> Vec<u32> {
         if self.looks.fetch_add(1, Ordering::Relaxed) < LOOKS {
-            let held = self.entries.iter().filter(|(range, _)| range.holds(path));
-            return held.map(|(_, file)| *file).collect();
+            return holding(&self.entries, path).collect();
         }
         self.sorted.get_or_init(|| Sorted::new(self.entries.clone())).files(path)
     }
+}
+
+/// The files of ranges that hold a path, by looking at all: some at a time, since nearly all are looked at in vain.
+pub(super) fn holding(entries: &[(NumberRange, u32)], path: NumberKey) -> impl Iterator<Item = u32> {
+    const AT_ONCE: usize = 16;
+    let holds = move |(range, _): &&(NumberRange, u32)| range.holds(path);
+    let has_any = move |some: &&[(NumberRange, u32)]| {
+        some.iter().fold(false, |has_any, (range, _)| has_any | range.holds(path))
+    };
+    entries
+        .chunks(AT_ONCE)
+        .filter(has_any)
+        .flat_map(move |some| some.iter().filter(holds).map(|(_, file)| *file))
 }
 
 impl Clone for NumberTable {
