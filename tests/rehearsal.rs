@@ -56,7 +56,7 @@ fn outcome(library: &str, command: &str, threads: u32, input: &str) -> Outcome {
     let options = "--feed 150 --rapid 1000 --sweep-height 20";
     let Run { status, stdout, stderr, .. } = place.run(&format!("{command} {options} -j {threads} {input}"));
     let entries = fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap().file_name());
-    let names = entries.map(|name| name.into_string().unwrap()).filter(|name| name.ends_with(".gcode"));
+    let names = entries.map(|name| name.into_string().unwrap()).filter(|name| name.contains("_Milling."));
     (status, stdout, stderr, names.map(|name| (name.clone(), place.read(&name))).collect())
 }
 

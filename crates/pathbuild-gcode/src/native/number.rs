@@ -36,6 +36,7 @@ static THOUSANDTHS: &str = match str::from_utf8(&all_thousandths()) {
     Err(_) => "",
 };
 
+#[expect(clippy::cast_possible_truncation, reason = "digits")]
 const fn all_thousandths() -> [u8; 4000] {
     let mut text = [b'.'; 4000];
     let mut number = 0;

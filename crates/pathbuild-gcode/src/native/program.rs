@@ -71,7 +71,7 @@ pub fn program_in_parts(
 }
 
 /// So many bytes at least are handed on at once.
-const PART: usize = 1 << 14;
+const PART: usize = 1 << 12;
 
 struct Writer<'a> {
     program: &'a Program,

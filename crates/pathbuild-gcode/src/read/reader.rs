@@ -64,7 +64,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The same file goes on with these bytes: what was read ended with a line.
-    pub(crate) fn go_on<'u>(self, text: &'u [u8]) -> Reader<'u> {
+    pub(crate) fn go_on(self, text: &[u8]) -> Reader<'_> {
         let Self { rules, line, state, parts, problems, .. } = self;
         Reader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
     }

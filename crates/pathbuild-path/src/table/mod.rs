@@ -46,13 +46,11 @@ impl Ranges {
         let others = others.map(|(_, file)| *file);
         // They are in the order of their files.
         let numbers = &self.numbers[self.numbers.partition_point(|(_, file)| *file < first)..];
-        match path.number() {
-            Some(path) => holding(numbers, path).chain(others).collect(),
-            None => {
-                let holds = |(range, _): &&(NumberRange, u32)| NameRange::from(*range).holds(path);
-                numbers.iter().filter(holds).map(|(_, file)| *file).chain(others).collect()
-            }
+        if let Some(path) = path.number() {
+            return holding(numbers, path).chain(others).collect();
         }
+        let holds = |(range, _): &&(NumberRange, u32)| NameRange::from(*range).holds(path);
+        numbers.iter().filter(holds).map(|(_, file)| *file).chain(others).collect()
     }
 }
 
