@@ -3,12 +3,16 @@
 //! and what still holds, which is nearly everything nearly always, is there at once.
 
 use std::thread::Builder;
+use std::time::{Duration, Instant};
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Insight, Lister, SourceFile, has_subpaths, likely_file, search_directories};
 
 use super::Session;
 use crate::args::{Input, Inputs};
+
+/// What takes so long gains nothing from what is known a little earlier, and may be given up for taking too long: once is enough.
+const LONG: Duration = Duration::from_millis(200);
 
 impl Session<'_> {
     /// Does some work in advance that asks for a single drawing or path, if names of drawings will be needed for it. Where paths are is
@@ -22,8 +26,9 @@ impl Session<'_> {
         self.list_ahead(&directories);
         // What embeds nothing needs no names, unless it was itself looked for by name.
         let needs_names = matches!(input, Input::Name(_)) || has_subpaths(&self.db, drawing);
+        let begun = Instant::now();
         let mut guessed = if needs_names { work(self) } else { None };
-        if needs_names && guessed.is_none() {
+        if needs_names && guessed.is_none() && begun.elapsed() < LONG {
             self.set_insight(&directories, Insight::Coming);
             guessed = work(self);
         }

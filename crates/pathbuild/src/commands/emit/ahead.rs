@@ -61,6 +61,7 @@ fn programs(db: &Database, job: &Job) -> Vec<Option<Arc<Program>>> {
 
 /// Whether nobody had to make them again.
 fn is_same(before: &[Option<Arc<Program>>], now: &[Option<Arc<Program>>]) -> bool {
-    let is_same = |pair: (&Option<Arc<Program>>, &Option<Arc<Program>>)| matches!(pair, (Some(before), Some(now)) if Arc::ptr_eq(before, now));
+    type Pair<'p> = (&'p Option<Arc<Program>>, &'p Option<Arc<Program>>);
+    let is_same = |pair: Pair<'_>| matches!(pair, (Some(before), Some(now)) if Arc::ptr_eq(before, now));
     before.len() == now.len() && before.iter().zip(now).all(is_same)
 }

@@ -1,7 +1,7 @@
 //! Reading a program back on another thread while it is being written.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
 use pathbuild_gcode::native::is_read_back;
@@ -9,14 +9,17 @@ use pathbuild_toolpath::Program;
 
 /// Where the parts of a program's text go.
 pub(super) struct Follower {
-    parts: Sender<String>,
+    parts: SyncSender<String>,
     reading: JoinHandle<bool>,
 }
+
+/// So many parts may wait for being read, lest a large program be in memory twice.
+const AHEAD: usize = 256;
 
 impl Follower {
     /// Begins to read a program's text back; `None` where the system has no thread left.
     pub(super) fn begin(program: Arc<Program>) -> Option<Self> {
-        let (parts, received): (_, Receiver<String>) = channel();
+        let (parts, received): (_, Receiver<String>) = sync_channel(AHEAD);
         let read = move || is_read_back(received, &program);
         let reading = Builder::new().name("reading back".into()).spawn(read).ok()?;
         Some(Self { parts, reading })
