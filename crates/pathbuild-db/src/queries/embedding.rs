@@ -16,7 +16,7 @@ use crate::settings::Settings;
 /// A subpath segment and what came of it.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
 pub struct Embedding<'db> {
-    /// Index into [`Path::segments`].
+    /// Index into [`Path::segments`](pathbuild_path::Path::segments).
     pub segment: usize,
     /// Where the segment is drawn.
     pub origin: Origin,
