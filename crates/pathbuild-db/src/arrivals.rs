@@ -42,19 +42,17 @@ pub struct Lister {
 }
 
 impl Lister {
-    /// Lists it. The names are looked at when all have come, unless somebody waits for them.
+    /// Lists it. The names are looked at by whoever waits for them.
     pub fn run(self) {
         let listed = self.system.list_by_parts(&self.path, &mut |part| {
             self.change(|arrived| arrived.unread.push_back(part.files));
         });
-        while self.change(Arrived::read_part).unwrap_or_default() {}
         self.change(|arrived| arrived.are_all = listed.is_ok());
     }
 
-    fn change<R>(&self, change: impl FnOnce(&mut Arrived) -> R) -> Option<R> {
-        let result = self.arrivals.underway().get_mut(&self.directory).map(change);
+    fn change(&self, change: impl FnOnce(&mut Arrived)) {
+        self.arrivals.underway().get_mut(&self.directory).map(change);
         self.arrivals.changed.notify_all();
-        result
     }
 }
 
