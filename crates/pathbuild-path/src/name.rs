@@ -83,11 +83,6 @@ impl PathPattern {
 }
 
 impl PathName {
-    /// The name in a layer's, `_` read as `.`, a tilde suffix already dropped.
-    pub fn from_layer(layer: &str) -> Self {
-        Self(with_points(layer).into())
-    }
-
     /// A name as a person gave it.
     pub fn new(name: &str) -> Self {
         Self(name.into())

@@ -33,7 +33,7 @@ pub(super) fn check_library(
     files: &[SourceFile],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    // Whoever wants to know where the time goes gets it stage by stage, and one drawing has what it embeds read in parallel.
+    // Whoever wants to know where the time goes gets it stage by stage, and of one drawing all has been asked stage by stage while its directory was listed.
     if with_all_values || session.timings().is_on() || files.len() <= 1 {
         return session.in_batches(files, |session, files| check_drawings(session, files, with_all_values));
     }

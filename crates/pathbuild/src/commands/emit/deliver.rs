@@ -133,8 +133,8 @@ impl Made {
         let is_first_right = followed.is_some_and(|reading| reading.join().is_ok_and(|is_right| is_right));
         let read_back =
             |output: &Output| output.kind.read_back(&String::from_utf8_lossy(&output.text), &program).err();
-        let rest = self.outputs.iter().skip(usize::from(is_first_right));
-        if let Some(problem) = rest.map(read_back).find_map(|problem| problem) {
+        let mut rest = self.outputs.iter().skip(usize::from(is_first_right));
+        if let Some(problem) = rest.find_map(read_back) {
             self.delivered.problems.push(problem.in_file(&drawing).in_path(&path));
             self.outputs.clear();
         }
