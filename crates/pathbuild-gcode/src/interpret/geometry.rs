@@ -16,7 +16,7 @@ impl Move {
             |axis: usize| if known.has(Axes::of(axis)) { self.to.at[axis] - self.from.at[axis] } else { 0.0 };
         match self.path {
             Path::Arc(arc) if known.has(arc.plane.axes_of_plane()) => {
-                libm::hypot(arc.radius(&self.from) * arc.sweep(&self.from, &self.to), step(arc.plane.third()))
+                libm::hypot(Course::new(arc, &self.from, &self.to).length_in_plane(), step(arc.plane.third()))
             }
             _ => libm::hypot(libm::hypot(step(0), step(1)), step(2)),
         }
@@ -100,41 +100,65 @@ pub(crate) struct Course {
     from: [f64; 3],
     to: [f64; 3],
     sweep: f64,
+    /// The radius at its beginning, and how much it grows on the way, as a share of that.
     radius: f64,
+    growth: f64,
 }
 
 impl Course {
-    /// That of an arc between places that are known.
+    /// That of an arc between places that are known in its plane.
     pub(crate) fn new(arc: Arc, from: &Position, to: &Position) -> Self {
-        Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius: arc.radius(from) }
+        let (radius, end) = (arc.radius(from), arc.radius(to));
+        let growth = if radius > 0.0 { end / radius - 1.0 } else { 0.0 };
+        Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius, growth }
     }
 
     /// Its length in space, in mm.
     pub(crate) fn length(&self) -> f64 {
         let third = self.arc.plane.third();
-        libm::hypot(self.radius * self.sweep, self.to[third] - self.from[third])
+        libm::hypot(self.length_in_plane(), self.to[third] - self.from[third])
     }
 
-    /// The places a quarter, half and three quarters of the way along: what [`Arc::point`] gives, turned on from one to the next.
+    fn length_in_plane(&self) -> f64 {
+        self.radius * self.sweep
+    }
+
+    /// The place that a share (0 to 1) of the way leads to.
+    fn point(&self, share: f64) -> [f64; 3] {
+        self.place(turned(self.arc.spoke(&self.from), self.turn(share)), share)
+    }
+
+    /// The places a quarter, half and three quarters of the way along, turned on from one to the next.
     pub(crate) fn quarters(&self) -> [[f64; 3]; 3] {
-        let turn = self.sweep / 4.0;
-        let (sin, cos) = libm::sincos(if self.arc.clockwise { -turn } else { turn });
-        let end = Position { at: self.to, known: Axes::ALL };
-        let growth = if self.radius > 0.0 { self.arc.radius(&end) / self.radius - 1.0 } else { 0.0 };
-        let [first, second] = self.arc.plane.axes();
-        let third = self.arc.plane.third();
+        let quarter = self.turn(0.25);
         let mut spoke = self.arc.spoke(&self.from);
         [0.25, 0.5, 0.75].map(|share| {
-            let [a, b] = spoke;
-            spoke = [a * cos - b * sin, a * sin + b * cos];
-            let stretch = 1.0 + share * growth;
-            let mut at = [0.0; 3];
-            at[first] = self.arc.centre[0] + spoke[0] * stretch;
-            at[second] = self.arc.centre[1] + spoke[1] * stretch;
-            at[third] = self.from[third] + share * (self.to[third] - self.from[third]);
-            at
+            spoke = turned(spoke, quarter);
+            self.place(spoke, share)
         })
     }
+
+    /// The sine and cosine of the angle that a share of the way turns by.
+    fn turn(&self, share: f64) -> (f64, f64) {
+        let angle = self.sweep * share;
+        libm::sincos(if self.arc.clockwise { -angle } else { angle })
+    }
+
+    /// The place at the end of a spoke of the first radius that was turned by a share of the way.
+    fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
+        let stretch = 1.0 + share * self.growth;
+        let [first, second] = self.arc.plane.axes();
+        let third = self.arc.plane.third();
+        let mut at = [0.0; 3];
+        at[first] = self.arc.centre[0] + a * stretch;
+        at[second] = self.arc.centre[1] + b * stretch;
+        at[third] = self.from[third] + share * (self.to[third] - self.from[third]);
+        at
+    }
+}
+
+fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
+    [a * cos - b * sin, a * sin + b * cos]
 }
 
 impl Arc {
@@ -155,18 +179,7 @@ impl Arc {
 
     /// The place that a share (0 to 1) of the way from `from` to `to` leads to.
     pub fn point(&self, from: &Position, to: &Position, share: f64) -> [f64; 3] {
-        let sweep = self.sweep(from, to) * share;
-        let (sin, cos) = libm::sincos(if self.clockwise { -sweep } else { sweep });
-        let [a, b] = self.spoke(&from.at);
-        let (start, end) = (self.radius(from), self.radius(to));
-        let stretch = if start > 0.0 { 1.0 + share * (end / start - 1.0) } else { 1.0 };
-        let [first, second] = self.plane.axes();
-        let third = self.plane.third();
-        let mut at = [0.0; 3];
-        at[first] = self.centre[0] + (a * cos - b * sin) * stretch;
-        at[second] = self.centre[1] + (a * sin + b * cos) * stretch;
-        at[third] = from.at[third] + share * (to.at[third] - from.at[third]);
-        at
+        Course::new(*self, from, to).point(share)
     }
 
     /// The direction of travel in the plane at one of its ends, as a unit vector in the plane's axes.
