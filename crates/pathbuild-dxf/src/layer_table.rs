@@ -1,18 +1,17 @@
 //! The LAYER table: the line types of layers, and which of them are frozen or off. (spec/10-drawing.md)
 //!
-//! Hardly any of a drawing's layers is ever looked for, so records are kept as they stand, and put in the order of their names when the
-//! first is looked for.
+//! Hardly any of a drawing's layers is ever looked for, so records are kept as they stand, and put in an order when the first is looked
+//! for.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
-use std::cmp::Ordering;
 
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::fields::Fields;
 use crate::line_types::line_type_name;
-use crate::names::{Name, compare_ascii, without_xref};
+use crate::names::{Name, without_xref};
 use crate::number::{real, whole};
 
 /// The LAYER table.
@@ -28,7 +27,7 @@ pub(crate) struct LayerTable<'a> {
 pub(crate) struct LayerRecord<'a> {
     /// With whatever prefix it has.
     name: Name<'a>,
-    line_type: Option<Cow<'a, str>>,
+    line_type: Option<Cow<'a, [u8]>>,
     /// Of the colour and the flags, the bytes of their numbers.
     colour: Option<&'a [u8]>,
     flags: Option<&'a [u8]>,
@@ -37,6 +36,7 @@ pub(crate) struct LayerRecord<'a> {
 /// A name that a record is found by.
 #[derive(Clone, Copy, Debug)]
 struct Key {
+    hash: u64,
     record: usize,
     /// Where it begins in the record's name: 0, or behind the prefix of an external reference.
     begin: usize,
@@ -50,34 +50,34 @@ impl<'a> LayerTable<'a> {
 
     /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
     pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
-        let name = Name::new(full_name.into());
-        self.find(name.text()).or_else(|| self.find(without_xref(name.text())))
+        let find = |name: &str| self.find(&Name::new(name.into()));
+        find(full_name).or_else(|| find(without_xref(full_name)))
     }
 
-    fn find(&self, name: &str) -> Option<&LayerRecord<'a>> {
-        let is_before = |other: &Key| compare_ascii(self.name(*other), name) == Ordering::Less;
+    fn find(&self, name: &Name<'_>) -> Option<&LayerRecord<'a>> {
+        let hash = name.hash();
         let keys = self.keys.get_or_init(|| self.sorted_keys());
-        let first = keys.get(keys.partition_point(is_before))?;
-        compare_ascii(self.name(*first), name).is_eq().then(|| &self.records[first.record])
+        let from = keys.partition_point(|key| key.hash < hash);
+        let alike = keys[from..].iter().take_while(|key| key.hash == hash);
+        let same = alike.filter(|key| self.name(key) == *name);
+        // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
+        let key = same.min_by_key(|key| (key.begin > 0, key.record))?;
+        Some(&self.records[key.record])
     }
 
     fn sorted_keys(&self) -> Vec<Key> {
         let mut keys = Vec::with_capacity(self.records.len());
         for (record, LayerRecord { name, .. }) in self.records.iter().enumerate() {
-            let begin = name.text().len() - without_xref(name.text()).len();
-            keys.push(Key { record, begin: 0 });
-            keys.extend((begin > 0).then_some(Key { record, begin }));
+            let begin = name.xref_prefix();
+            keys.push(Key { hash: name.hash(), record, begin: 0 });
+            keys.extend((begin > 0).then(|| Key { hash: name.from(begin).hash(), record, begin }));
         }
-        // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
-        keys.sort_unstable_by(|a, b| {
-            let same_name = || (a.begin > 0, a.record).cmp(&(b.begin > 0, b.record));
-            compare_ascii(self.name(*a), self.name(*b)).then_with(same_name)
-        });
+        keys.sort_unstable_by_key(|key| key.hash);
         keys
     }
 
-    fn name(&self, key: Key) -> &str {
-        &self.records[key.record].name.text()[key.begin..]
+    fn name(&self, key: &Key) -> Name<'_> {
+        self.records[key.record].name.from(key.begin)
     }
 }
 
@@ -86,8 +86,8 @@ impl<'a> LayerRecord<'a> {
     pub(crate) fn read(groups: &Fields<'a>, decoder: &mut Decoder<'_>) -> Option<Self> {
         let name = groups.get(2)?;
         Some(Self {
-            name: Name::new(decoder.decode(name.bytes, name.line)),
-            line_type: groups.get(6).map(|it| decoder.decode(it.bytes, it.line)),
+            name: Name::decoded(name.bytes, name.line, decoder),
+            line_type: groups.get(6).map(|it| decoder.decode_bytes(it.bytes, it.line)),
             colour: groups.get(62).map(|it| it.bytes),
             flags: groups.get(70).map(|it| it.bytes),
         })
@@ -95,7 +95,8 @@ impl<'a> LayerRecord<'a> {
 
     /// The line type, upper case, if it has one.
     pub(crate) fn line_type(&self) -> Option<SmolStr> {
-        self.line_type.as_deref().map(line_type_name).filter(|name| !name.is_empty())
+        let name = String::from_utf8_lossy(self.line_type.as_deref()?);
+        Some(line_type_name(&name)).filter(|name| !name.is_empty())
     }
 
     /// Whether it is frozen or off.

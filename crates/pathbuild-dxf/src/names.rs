@@ -5,32 +5,70 @@ use std::cmp::Ordering;
 
 use smol_str::{SmolStr, StrExt};
 
+use crate::encoding::{Decoder, is_plain};
+
 /// A name without blanks around it that is compared without regard to case.
 #[derive(Clone, Debug)]
 pub(crate) struct Name<'a> {
-    /// Upper case unless it is ASCII.
-    text: Cow<'a, str>,
+    /// UTF-8, upper case unless it is ASCII.
+    bytes: Cow<'a, [u8]>,
 }
 
 impl<'a> Name<'a> {
     /// That of this text.
     pub(crate) fn new(text: Cow<'a, str>) -> Self {
-        let text = match text {
-            Cow::Borrowed(text) if text.is_ascii() => Cow::Borrowed(trimmed(text)),
-            text => Cow::Owned(folded(text.trim()).into()),
+        let bytes = match text {
+            Cow::Borrowed(text) if text.is_ascii() => Cow::Borrowed(trimmed(text).as_bytes()),
+            text => Cow::Owned(folded(text.trim()).as_bytes().to_vec()),
         };
-        Self { text }
+        Self { bytes }
     }
 
-    /// Its text, which [`compare_ascii`] compares as names are compared.
-    pub(crate) fn text(&self) -> &str {
-        &self.text
+    /// That of a string that begins on this line.
+    pub(crate) fn decoded(bytes: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> Self {
+        if is_plain(bytes) && has_graphic_ends(bytes) {
+            return Self { bytes: bytes.into() };
+        }
+        Self::new(decoder.decode(bytes, line))
+    }
+
+    /// How much of it is the prefix of an external reference.
+    pub(crate) fn xref_prefix(&self) -> usize {
+        if !has_xref_sign(&self.bytes) {
+            return 0;
+        }
+        let text = String::from_utf8_lossy(&self.bytes);
+        text.len() - without_xref(&text).len()
+    }
+
+    /// What it is from this byte on.
+    pub(crate) fn from(&self, begin: usize) -> Name<'_> {
+        Name { bytes: self.bytes[begin..].into() }
+    }
+
+    /// A number that equal names have in common.
+    pub(crate) fn hash(&self) -> u64 {
+        const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
+        let (words, rest) = self.bytes.as_chunks();
+        let rest = rest.iter().fold(0, |word, byte| word << 8 | u64::from(*byte));
+        let words = words.iter().map(|word| u64::from_le_bytes(*word)).chain([rest]);
+        // Without the bit that upper and lower case differ in.
+        let add =
+            |hash: u64, word: u64| (hash.rotate_left(29) ^ (word & !(ONES * 0x20))).wrapping_mul(MULTIPLIER);
+        words.fold(0, add)
+    }
+
+    fn upper_case(&self) -> impl Iterator<Item = u8> {
+        self.bytes.iter().map(u8::to_ascii_uppercase)
     }
 }
 
+/// One in each byte.
+const ONES: u64 = u64::from_le_bytes([1; 8]);
+
 impl Ord for Name<'_> {
     fn cmp(&self, other: &Self) -> Ordering {
-        compare_ascii(&self.text, &other.text)
+        self.upper_case().cmp(other.upper_case())
     }
 }
 
@@ -42,7 +80,7 @@ impl PartialOrd for Name<'_> {
 
 impl PartialEq for Name<'_> {
     fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
+        self.bytes.eq_ignore_ascii_case(&other.bytes)
     }
 }
 
@@ -51,7 +89,7 @@ impl Eq for Name<'_> {}
 /// A name without blanks around it and without the prefix of an external reference (`FILE$0$NAME`, `FILE|NAME`).
 pub(crate) fn without_xref(name: &str) -> &str {
     let name = trimmed(name);
-    if !name.bytes().any(|byte| matches!(byte, b'|' | b'$')) {
+    if !has_xref_sign(name.as_bytes()) {
         return name;
     }
     let after_bar = name.rfind('|').map_or(0, |bar| bar + 1);
@@ -59,11 +97,19 @@ pub(crate) fn without_xref(name: &str) -> &str {
     name[after_bar.max(after_bound)..].trim()
 }
 
+/// Whether a name may have the prefix of an external reference.
+fn has_xref_sign(name: &[u8]) -> bool {
+    name.iter().any(|byte| matches!(byte, b'|' | b'$'))
+}
+
 /// A text without blanks around it, which hardly any has.
 fn trimmed(text: &str) -> &str {
+    if has_graphic_ends(text.as_bytes()) { text } else { text.trim() }
+}
+
+fn has_graphic_ends(text: &[u8]) -> bool {
     let is_graphic = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_graphic);
-    let bytes = text.as_bytes();
-    if is_graphic(bytes.first()) && is_graphic(bytes.last()) { text } else { text.trim() }
+    is_graphic(text.first()) && is_graphic(text.last())
 }
 
 /// What names are compared by.
@@ -84,11 +130,6 @@ pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
 #[inline]
 fn has_same_ends<const N: usize>(a: &[u8], b: &[u8]) -> bool {
     a.first_chunk::<N>() == b.first_chunk() && a.last_chunk::<N>() == b.last_chunk()
-}
-
-/// The order of ASCII names without regard to case. (Names that are already folded may be anything.)
-pub(crate) fn compare_ascii(a: &str, b: &str) -> Ordering {
-    a.bytes().map(|byte| byte.to_ascii_uppercase()).cmp(b.bytes().map(|byte| byte.to_ascii_uppercase()))
 }
 
 /// Length of everything up to and including the last `$digits$`.

@@ -114,6 +114,13 @@ impl<'a> Pairs<'a> {
         self.at = at;
     }
 
+    /// The line of the next pair, counted from the beginning of the file.
+    pub(crate) fn counted_line(&self) -> u32 {
+        let mut pairs = Self { at: 0, line: 1, ..*self };
+        pairs.jump_to(self.at);
+        pairs.line
+    }
+
     /// Reads the line of a group code, however it is padded.
     fn code(&mut self) -> Result<i32, Stop<'a>> {
         let at = self.at;

@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use memchr::memmem::Finder;
+use memchr::memmem::{Finder, FinderRev};
 use memchr::memrchr;
 
 use crate::pairs::{Pair, Pairs};
@@ -18,7 +18,7 @@ pub(crate) type Keyword = LazyLock<Finder<'static>>;
 pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
 
 static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));
-static EOF: Keyword = LazyLock::new(|| Finder::new("EOF"));
+static EOF: LazyLock<FinderRev<'static>> = LazyLock::new(|| FinderRev::new("EOF"));
 
 /// The pair that a skipped section ended with, or should have ended before.
 pub(crate) enum SectionEnd<'a> {
@@ -54,12 +54,23 @@ impl<'a> Pairs<'a> {
 
     /// Jumps behind the next pair of this code and keyword, and returns it.
     pub(crate) fn find(&mut self, code: &str, keyword: &Keyword) -> Option<Pair<'a>> {
+        self.jump_to(self.place(code, keyword)?);
+        self.next().ok()
+    }
+
+    /// Those behind the next pair of this code and keyword. Their lines are not counted.
+    pub(crate) fn behind(&self, code: &str, keyword: &Keyword) -> Option<Self> {
+        let mut pairs = self.at(self.place(code, keyword)?, self.line());
+        pairs.next().ok()?;
+        Some(pairs)
+    }
+
+    /// Where the next pair of this code and keyword begins.
+    fn place(&self, code: &str, keyword: &Keyword) -> Option<usize> {
         let from = self.consumed();
         let length = keyword.needle().len();
         let mut found = keyword.find_iter(&self.bytes()[from..]);
-        let start = found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))?;
-        self.jump_to(start);
-        self.next().ok()
+        found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))
     }
 
     /// Where the pair begins whose code is this and whose value is here, if there is one that is not consumed.
@@ -78,7 +89,7 @@ pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
     const TAIL: usize = 4096;
     let bytes = pairs.bytes();
     let tail = bytes.len().saturating_sub(TAIL).max(pairs.consumed());
-    EOF.find_iter(&bytes[tail..]).any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
+    EOF.rfind_iter(&bytes[tail..]).any(|at| pairs.pair_of(b"0", tail + at..tail + at + 3).is_some())
 }
 
 fn trim_blanks(mut bytes: &[u8]) -> &[u8] {

@@ -4,19 +4,21 @@ use pathbuild_diagnostic::messages::files::WRONG_UNITS;
 use pathbuild_diagnostic::{Diagnostic, Word};
 
 use crate::Units;
+use crate::faults::Fatal;
 use crate::header::Header;
 
 /// Millimetres in one unit of the drawing, or PB113.
-pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Box<Diagnostic>> {
+pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fatal> {
     if units == Units::Millimetres {
         return Ok(1.0);
     }
-    let Some((number, line)) = header.units()? else { return Ok(1.0) };
+    let Some(number) = header.units()? else { return Ok(1.0) };
     match (number, unit(number)) {
         (0 | 4, _) => Ok(1.0),
         (_, Some((_, factor))) if units == Units::Drawing => Ok(factor),
         (_, unit) => {
-            Err(Box::new(wrong_units(number, unit.map_or(&UNKNOWN, |(name, _)| name)).at_line(line, None)))
+            let name = unit.map_or(&UNKNOWN, |(name, _)| name);
+            Err(Box::new(header.at_units(wrong_units(number, name))))
         }
     }
 }

@@ -60,6 +60,14 @@ impl<'a> Decoder<'a> {
         if is_plain(bytes) { decode_latin1(bytes) } else { self.decode_others(bytes, line) }
     }
 
+    /// The same as bytes: UTF-8.
+    pub(crate) fn decode_bytes<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, [u8]> {
+        if is_plain(bytes) {
+            return bytes.into();
+        }
+        Cow::Owned(self.decode_others(bytes, line).into_owned().into_bytes())
+    }
+
     /// What was doubtful.
     pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
         self.doubt
