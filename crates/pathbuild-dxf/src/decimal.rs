@@ -4,7 +4,8 @@
 //! The value is exactly that of a general parser: digits up to 2^53 and powers of ten up to 10^22 are exact, so one division rounds
 //! correctly.
 
-/// `[-]digits[.digits]` with at most 16 characters behind the sign; `None` when it is anything else.
+/// `[-]digits[.digits]` with at most 16 characters behind the sign; `None` when it is anything else. A point alone beside one digit is
+/// something else.
 #[inline]
 pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
     // By far the most frequent number: heights and normals.
@@ -20,11 +21,11 @@ pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
 /// One of three to eight characters, of which one is a digit in any case. In which of them there is a sign, if there is one, is nothing to branch on.
 #[inline]
 fn short_decimal(value: &[u8]) -> Option<f64> {
-    let is_negative = u64::from(value.first() == Some(&b'-'));
-    let sign = (is_negative * u64::from(b'-' ^ b'0')) << (64 - 8 * value.len());
-    let (digits, decimals) = without_point(right_aligned(value) ^ sign);
-    let number = eight_digits(digits)? as f64 / POWERS[decimals.unwrap_or(0)];
-    Some(f64::from_bits(number.to_bits() | is_negative << 63))
+    let is_negative = value.first() == Some(&b'-');
+    let sign = u64::from(is_negative) * u64::from(b'-' ^ b'0');
+    let digits = Digits::read(value).0 ^ sign << (64 - 8 * value.len());
+    let (digits, decimals) = Digits(digits).without_point();
+    Some(quotient(digits.number()?, decimals.unwrap_or(0), is_negative))
 }
 
 /// One of any other length.
@@ -33,14 +34,32 @@ fn other_decimal(value: &[u8]) -> Option<f64> {
         [b'-', text @ ..] => (true, text),
         text => (false, text),
     };
-    let Digits { number, decimals } = match text.len() {
-        // A point alone is no number.
-        1 if text == b"." => return None,
-        1..=WIDTH => Digits::read(text)?,
-        _ => Digits::read_long(text)?,
+    let (number, decimals) = match text {
+        [a @ b'0'..=b'9'] => (u64::from(a - b'0'), 0),
+        [a @ b'0'..=b'9', b @ b'0'..=b'9'] => (u64::from(a - b'0') * 10 + u64::from(b - b'0'), 0),
+        _ => long_number(text)?,
     };
-    let number = number as f64 / POWERS[decimals.unwrap_or(0)];
-    Some(if is_negative { -number } else { number })
+    Some(quotient(number, decimals, is_negative))
+}
+
+/// Eight to sixteen characters as a number without the point, and how many digits are behind that.
+fn long_number(text: &[u8]) -> Option<(u64, usize)> {
+    let split = text.len().checked_sub(WIDTH).filter(|split| *split <= WIDTH)?;
+    let (first, decimals) = Digits::first(*text.first_chunk()?, split).without_point();
+    let last = Digits::of(*text.last_chunk()?);
+    let (last, scale, decimals) = match (decimals, last.without_point()) {
+        (Some(decimals), _) => (last, 100_000_000, decimals + WIDTH),
+        (None, (last, Some(decimals))) => (last, 10_000_000, decimals),
+        (None, (last, None)) => (last, 100_000_000, 0),
+    };
+    let number = first.number()? * scale + last.number()?;
+    (number <= LARGEST_EXACT).then_some((number, decimals))
+}
+
+#[inline]
+fn quotient(number: u64, decimals: usize, is_negative: bool) -> f64 {
+    let number = number as f64 / POWERS[decimals];
+    f64::from_bits(number.to_bits() | u64::from(is_negative) << 63)
 }
 
 /// 2^53: up to here all whole numbers have an f64 of their own.
@@ -56,78 +75,62 @@ const POWERS: [f64; 2 * WIDTH] =
 /// One in each byte.
 const ONES: u64 = u64::from_le_bytes([1; WIDTH]);
 
-/// What some digits say, among which there may be a point.
+/// A zero in each byte.
+const ZEROS: u64 = ONES * 0x30;
+
+/// At most eight digits, the last in the highest byte, with zeros before the first. A byte of more than 9 is some other character.
 #[derive(Clone, Copy)]
-struct Digits {
-    /// The number without the point.
-    number: u64,
-    /// How many are behind the point.
-    decimals: Option<usize>,
-}
+struct Digits(u64);
 
 impl Digits {
-    /// Reads at most eight characters.
+    /// Those of three to eight characters.
     #[inline]
-    fn read(text: &[u8]) -> Option<Self> {
-        let (digits, decimals) = without_point(right_aligned(text));
-        Some(Self { number: eight_digits(digits)?, decimals })
+    fn read(text: &[u8]) -> Self {
+        let half = |characters: [u8; 4]| u64::from(u32::from_le_bytes(characters)) ^ ZEROS >> 32;
+        Self(match (text.first_chunk(), text.last_chunk(), text) {
+            // Bytes that are in both halves are the same.
+            (Some(first), Some(last), _) => half(*first) << (64 - 8 * text.len()) | half(*last) << 32,
+            (_, _, [a, b, c]) => half([b'0', *a, *b, *c]) << 32,
+            // No number has less.
+            _ => u64::MAX,
+        })
     }
 
-    /// Reads nine to sixteen characters.
-    fn read_long(text: &[u8]) -> Option<Self> {
-        let split = text.len().checked_sub(WIDTH).filter(|split| (1..=WIDTH).contains(split))?;
-        let (first, last) = (Self::read(&text[..split])?, Self::read(&text[split..])?);
-        let (scale, decimals) = match (first.decimals, last.decimals) {
-            (None, None) => (100_000_000, None),
-            (Some(decimals), None) => (100_000_000, Some(decimals + WIDTH)),
-            (None, Some(decimals)) => (10_000_000, Some(decimals)),
-            (Some(_), Some(_)) => return None,
-        };
-        let number = first.number * scale + last.number;
-        (number <= LARGEST_EXACT).then_some(Self { number, decimals })
+    /// Those of eight characters.
+    #[inline]
+    fn of(characters: [u8; WIDTH]) -> Self {
+        Self(u64::from_le_bytes(characters) ^ ZEROS)
     }
-}
 
-/// At most eight characters, the last in the highest byte, with zeros before the first.
-#[inline]
-fn right_aligned(text: &[u8]) -> u64 {
-    let bits = 8 * text.len();
-    // Bytes that are in both halves are the same.
-    let word = match (text.first_chunk::<4>().zip(text.last_chunk::<4>()), text) {
-        (Some((first, last)), _) => {
-            u64::from(u32::from_le_bytes(*first)) << (64 - bits) | u64::from(u32::from_le_bytes(*last)) << 32
+    /// Those of the first few of eight characters.
+    #[inline]
+    fn first(characters: [u8; WIDTH], count: usize) -> Self {
+        if count == 0 { Self(0) } else { Self(Self::of(characters).0 << (64 - 8 * count)) }
+    }
+
+    /// Without the first point, and how many are behind that.
+    #[inline]
+    fn without_point(self) -> (Self, Option<usize>) {
+        let zero_where_point = self.0 ^ (ONES * u64::from(b'.' ^ b'0'));
+        // The lowest bit is right, those above may not be.
+        let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
+        if points == 0 {
+            return (self, None);
         }
-        (None, [a, b, c]) => u64::from(*a) << 40 | u64::from(*b) << 48 | u64::from(*c) << 56,
-        (None, [a, b]) => u64::from(*a) << 48 | u64::from(*b) << 56,
-        (None, [a]) => u64::from(*a) << 56,
-        _ => 0,
-    };
-    word | (ONES * 0x30).checked_shr(u32::try_from(bits).unwrap_or(64)).unwrap_or(0)
-}
-
-/// The characters without the first point, and how many are behind it.
-#[inline]
-fn without_point(text: u64) -> (u64, Option<usize>) {
-    let zero_where_point = text ^ (ONES * u64::from(b'.'));
-    // The lowest bit is right, those above may not be.
-    let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
-    if points == 0 {
-        return (text, None);
+        let up_to_point = points ^ (points - 1);
+        let (before, behind) = (self.0 & up_to_point >> 8, self.0 & !up_to_point);
+        (Self(behind | before << 8), Some(WIDTH - 1 - points.trailing_zeros() as usize / 8))
     }
-    let bits = points.trailing_zeros() & !7;
-    let before = text & ((1 << bits) - 1);
-    let behind = text & (!0xFF << bits);
-    (behind | before << 8 | u64::from(b'0'), Some(WIDTH - 1 - bits as usize / 8))
-}
 
-/// The number that these characters are, if all are digits.
-#[inline]
-fn eight_digits(text: u64) -> Option<u64> {
-    let digits = text ^ (ONES * 0x30);
-    let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
-    // Neighbours are joined, what belongs to no pair falls out at the top: digits to numbers of two, these to numbers of four, these to
-    // the whole.
-    let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
-    let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
-    (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)
+    /// The number that they are.
+    #[inline]
+    fn number(self) -> Option<u64> {
+        let Self(digits) = self;
+        let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
+        // Neighbours are joined, what belongs to no pair falls out at the top: digits to numbers of two, these to numbers of four, these
+        // to the whole.
+        let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
+        let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
+        (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)
+    }
 }
