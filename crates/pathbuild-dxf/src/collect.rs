@@ -1,6 +1,6 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
 use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
@@ -20,8 +20,8 @@ pub(crate) struct Collector {
     drawing: Drawing,
     /// Numbers of [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
-    /// For each of them, whether an invisible entity was found.
-    has_invisible: Vec<bool>,
+    /// Those of them on which an invisible entity was found.
+    with_invisible: BTreeSet<u32>,
     /// The layer that the last entity was on.
     last: Option<(LayerId, u32)>,
     /// Lines of broken entities, each with the layers on which that was said.
@@ -77,7 +77,7 @@ impl Collector {
                 ..Drawing::default()
             },
             layers: BTreeMap::new(),
-            has_invisible: Vec::new(),
+            with_invisible: BTreeSet::new(),
             last: None,
             faulty: HashSet::new(),
             groups: 0,
@@ -198,7 +198,7 @@ impl Collector {
     }
 
     fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {
-        if !std::mem::replace(&mut self.has_invisible[layer as usize], true) {
+        if self.with_invisible.insert(layer) {
             let diagnostic = Diagnostic::new(&INVISIBLE).with("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
@@ -234,7 +234,6 @@ impl Collector {
         let layer = u32::try_from(self.drawing.layers.len()).unwrap_or(u32::MAX);
         self.layers.insert(used.folded.clone(), layer);
         self.drawing.layers.push(Layer { name: used.name.as_str().into(), hidden: used.hidden });
-        self.has_invisible.push(false);
         layer
     }
 

@@ -11,7 +11,6 @@ use crate::entities::{EntityReader, Records, most_repeated};
 use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
 use crate::fields::Fields;
 use crate::header::Header;
-use crate::layer_table::LayerTable;
 use crate::layers::Layers;
 use crate::model::Model;
 use crate::pairs::{Pair, Pairs, Stop};
@@ -140,27 +139,25 @@ impl<'a> File<'a> {
 
     fn read_entities(self, options: &Options<'_>) -> Result<Drawing, Fatal> {
         let scale = millimetres(&self.header, options.units)?;
-        let mut decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
-        let mut fields = Fields::new(most_repeated(options));
-        let table = match self.tables {
-            Some(tables) => read_layers(tables, &mut fields, &mut decoder)?,
-            None => LayerTable::default(),
-        };
-        let layers = Layers::new(table, options.keep_layer);
-        let reader = EntityReader::new(options, decoder, layers, fields);
+        let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
+        let layers = Layers::new(options.keep_layer);
+        let mut reader = EntityReader::new(options, decoder, layers, Fields::new(most_repeated(options)));
+        if let Some(tables) = self.tables {
+            reader.layers.table = read_layers(tables, &mut reader.fields, &mut reader.decoder)?;
+        }
         let limits = Limits {
             entities: options.max_entities,
             text: options.max_text,
             curves: options.approximate_curves,
         };
-        let mut model = Model::new(reader, Collector::new(limits), self.blocks);
+        let mut model = Model::new(&mut reader, Collector::new(limits), self.blocks);
         let mut records = Records::new(self.pairs).map_err(|stop| stopped(stop, "ENTITIES"))?;
         model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {
             return Err(not_ended("ENTITIES", &records.head));
         }
         let mut drawing = model.collector.finish();
-        drawing.diagnostics.extend(model.reader.decoder.into_doubt());
+        drawing.diagnostics.extend(reader.decoder.into_doubt());
         drawing
             .diagnostics
             .extend((!ends_with_eof(&records.groups.pairs())).then(|| Diagnostic::new(&NO_END_OF_FILE)));

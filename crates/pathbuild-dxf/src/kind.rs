@@ -26,12 +26,16 @@ impl Kind {
     /// The kind of this name; `None` for all others. (`3DLINE` is the LINE of R10 that has a z.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
-        Self::exact(name).or_else(|| Self::unusual(name.trim_ascii()))
+        Self::exact(name).or_else(|| Self::unusual(name))
     }
 
     /// The same for a name that is not written like this.
-    #[cold]
+    #[inline(never)]
     fn unusual(name: &[u8]) -> Option<Self> {
+        let name = name.trim_ascii();
+        if !name.iter().any(u8::is_ascii_lowercase) {
+            return Self::exact(name);
+        }
         let mut room = [0; LONGEST];
         let upper_case = room.get_mut(..name.len())?;
         upper_case.copy_from_slice(name);

@@ -19,7 +19,8 @@ pub(crate) struct LayerId(u32);
 
 /// The layers that entities were found on so far.
 pub(crate) struct Layers<'a, 'o> {
-    table: LayerTable<'a>,
+    /// What the drawing says of layers.
+    pub(crate) table: LayerTable<'a>,
     keep: &'o dyn Fn(&str) -> bool,
     by_spelling: Spellings<'a, LayerId>,
     found: Vec<FoundLayer<'a>>,
@@ -53,9 +54,10 @@ pub(crate) struct UsedLayer {
 const USUAL: usize = 8;
 
 impl<'a, 'o> Layers<'a, 'o> {
-    /// No layer is used yet.
-    pub(crate) fn new(table: LayerTable<'a>, keep: &'o dyn Fn(&str) -> bool) -> Self {
-        Self { table, keep, by_spelling: Spellings::default(), found: Vec::with_capacity(USUAL), last: None }
+    /// No layer is used yet, and nothing said of any.
+    pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool) -> Self {
+        let (table, by_spelling) = (LayerTable::default(), Spellings::default());
+        Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
     }
 
     /// The layer of an entity that names it so.

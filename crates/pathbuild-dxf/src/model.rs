@@ -17,8 +17,8 @@ use crate::shapes::Insert;
 use crate::trouble::Trouble;
 
 /// Reads a drawing's model space.
-pub(crate) struct Model<'a, 'o> {
-    pub(crate) reader: EntityReader<'a, 'o>,
+pub(crate) struct Model<'r, 'a, 'o> {
+    reader: &'r mut EntityReader<'a, 'o>,
     pub(crate) collector: Collector,
     /// Where the BLOCKS section begins, until its index is made.
     section: Option<Pairs<'a>>,
@@ -50,9 +50,13 @@ const DEEPEST: usize = 64;
 /// How many entities of blocks are looked at for each one that the limit allows.
 const STEPS_AN_ENTITY: usize = 16;
 
-impl<'a, 'o> Model<'a, 'o> {
+impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// A model without entities.
-    pub(crate) fn new(reader: EntityReader<'a, 'o>, collector: Collector, blocks: Option<Pairs<'a>>) -> Self {
+    pub(crate) fn new(
+        reader: &'r mut EntityReader<'a, 'o>,
+        collector: Collector,
+        blocks: Option<Pairs<'a>>,
+    ) -> Self {
         let steps = reader.options.max_entities.saturating_mul(STEPS_AN_ENTITY);
         Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
     }
@@ -72,6 +76,7 @@ impl<'a, 'o> Model<'a, 'o> {
         Ok(())
     }
 
+    #[inline]
     fn place(&mut self, item: Item<'a>, around: &Around) -> Result<(), Fatal> {
         let layer = match &around.insertion {
             Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
@@ -80,7 +85,7 @@ impl<'a, 'o> Model<'a, 'o> {
         match item.shape {
             Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
             shape if self.reader.layers.is_kept(layer) => {
-                let placed = placed(&self.reader, &item.traits, layer, around);
+                let placed = placed(self.reader, &item.traits, layer, around);
                 self.collector.add(&placed, shape)
             }
             _ => Ok(()),
@@ -95,7 +100,7 @@ impl<'a, 'o> Model<'a, 'o> {
         around: &Around,
     ) -> Result<(), Fatal> {
         if let Some(section) = self.section.take() {
-            let blocks = Blocks::index(section, &mut self.reader);
+            let blocks = Blocks::index(section, self.reader);
             self.blocks = blocks.map_err(|stop| stopped(stop, "BLOCKS"))?;
         }
         let Some(block) = self.blocks.find(&insert.block) else {
@@ -103,7 +108,7 @@ impl<'a, 'o> Model<'a, 'o> {
             let trouble = Trouble::LeftOut { message: &BLOCK_MISSING, point, block: Some(insert.block) };
             return self.refuse(traits, &[layer], &trouble, around);
         };
-        let wanted = self.blocks.wanted_layers(block, layer, &mut self.reader)?;
+        let wanted = self.blocks.wanted_layers(block, layer, self.reader)?;
         if wanted.is_empty() {
             return Ok(());
         }
@@ -125,11 +130,11 @@ impl<'a, 'o> Model<'a, 'o> {
         copies: impl Iterator<Item = Placement>,
         around: &Around,
     ) -> Result<(), Fatal> {
-        let placed = placed(&self.reader, traits, layer, around);
+        let placed = placed(self.reader, traits, layer, around);
         let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let mut inside =
             Around { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
-        let items = self.blocks.items(block, &mut self.reader)?;
+        let items = self.blocks.items(block, self.reader)?;
         self.open.push(block);
         for copy in copies {
             inside.placement = Some(around.placement.map_or(copy, |outer| outer.after(&copy)));
@@ -151,7 +156,7 @@ impl<'a, 'o> Model<'a, 'o> {
         around: &Around,
     ) -> Result<(), Fatal> {
         for layer in layers.iter().filter(|layer| self.reader.layers.is_kept(**layer)) {
-            let placed = placed(&self.reader, traits, *layer, around);
+            let placed = placed(self.reader, traits, *layer, around);
             self.collector.add(&placed, Err(trouble.clone()))?;
         }
         Ok(())

@@ -5,6 +5,7 @@
 //! file. Codes may be padded, values are given as they stand.
 
 use memchr::{memchr, memchr_iter};
+use wide::u8x16;
 
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
@@ -52,9 +53,12 @@ impl Pair<'_> {
     /// Whether this is `0/KEYWORD`.
     #[inline]
     pub(crate) fn is(&self, keyword: &str) -> bool {
+        let keyword = keyword.as_bytes();
+        let is_begin = |byte: u8| byte <= b' ' || byte.to_ascii_uppercase() == keyword[0];
         self.code == 0
             && self.value.len() >= keyword.len()
-            && (self.value == keyword.as_bytes() || self.trimmed().eq_ignore_ascii_case(keyword.as_bytes()))
+            && is_begin(self.value[0])
+            && (self.value == keyword || self.trimmed().eq_ignore_ascii_case(keyword))
     }
 }
 
@@ -131,7 +135,8 @@ impl<'a> Pairs<'a> {
     /// The next line without its end.
     fn next_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let length = memchr(self.line_end, rest).unwrap_or(rest.len());
+        let length = place_nearby(self.line_end, rest).or_else(|| memchr(self.line_end, rest));
+        let length = length.unwrap_or(rest.len());
         self.at = (self.at + length + 1).min(self.bytes.len());
         &rest[..length]
     }
@@ -153,6 +158,13 @@ const LONGEST_PADDING: usize = 1 << 16;
 
 /// Most bytes of a line that are shown when it is wrong.
 const MOST_SHOWN: usize = 60;
+
+/// Where a byte is, if it is among the next few, as the end of nearly every line is.
+#[inline]
+fn place_nearby(byte: u8, bytes: &[u8]) -> Option<usize> {
+    let places = u8x16::from(*bytes.first_chunk()?).simd_eq(u8x16::splat(byte)).to_bitmask();
+    (places != 0).then_some(places.trailing_zeros() as usize)
+}
 
 /// The number that these characters are.
 fn number(text: &[u8]) -> Option<i32> {
