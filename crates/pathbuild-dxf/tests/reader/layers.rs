@@ -87,6 +87,41 @@ fn line_types_of_layers_count_whatever_their_case() {
 }
 
 #[test]
+fn a_record_is_found_by_a_name_of_any_length_and_not_by_one_that_is_almost_the_same() {
+    let name = |length: usize| "~Layer-1234.5P_".chars().cycle().take(length).collect::<String>();
+    let records: Vec<_> = (1..40).map(|length| format!("2 {}\n6 T{length}", name(length))).collect();
+    let records: Vec<_> = records.iter().map(String::as_str).collect();
+    for length in 1..40 {
+        let layer = name(length);
+        // These two characters differ in the same bit as upper and lower case do.
+        for (layer, line_type) in [
+            (layer.to_uppercase(), format!("T{length}")),
+            (layer.to_lowercase(), format!("T{length}")),
+            (layer.replacen('~', "^", 1), "CONTINUOUS".into()),
+            (format!("{layer}x"), "CONTINUOUS".into()),
+        ] {
+            let drawing = circles(&[&layer], &table(&records));
+            assert_eq!(&*drawing.entities[0].line_type, line_type, "{layer}");
+        }
+    }
+}
+
+#[test]
+fn records_of_names_that_are_not_plain_are_found() {
+    for (record, layer) in [
+        (" A", "a"),
+        ("A ", "A"),
+        ("ma\u{df}e", "MASSE"),
+        ("MA\\U+00C4E", "ma\u{e4}e"),
+        ("x$0$\u{e4}", "\u{c4}"),
+        ("A\\B", "a\\b"),
+    ] {
+        let drawing = circles(&[layer], &table(&[&format!("2 {record}\n6 Dot")]));
+        assert_eq!(&*drawing.entities[0].line_type, "DOT", "{record}");
+    }
+}
+
+#[test]
 fn a_layer_called_layer_is_no_record() {
     let drawing = circles(&["LAYER"], &table(&["2 LAYER\n70 1"]));
     assert_eq!(names(&drawing), [("LAYER", true)]);
