@@ -9,6 +9,8 @@
 mod support;
 
 use std::collections::BTreeMap;
+#[cfg(target_os = "linux")]
+use std::ffi::OsStr;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
@@ -380,6 +382,12 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     {
         std::os::unix::fs::symlink("../elsewhere", place.path().join("library/linked")).unwrap();
         std::os::unix::fs::symlink("../elsewhere/1006.dxf", place.path().join("library/1006.dxf")).unwrap();
+    }
+    #[cfg(target_os = "linux")]
+    {
+        // No argument could name it either.
+        let unspeakable: &OsStr = std::os::unix::ffi::OsStrExt::from_bytes(b"library/\xff.dxf");
+        fs::write(place.path().join(unspeakable), drawing("1007.1P")).unwrap();
     }
     let summary = |place: &Place| place.run("check --no-cache").stderr.split(':').next().unwrap().to_owned();
     let without = summary(&place);

@@ -5,7 +5,7 @@
 )]
 
 use std::collections::HashMap;
-use std::fs::{self, FileType};
+use std::fs;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -24,13 +24,11 @@ pub struct Listing {
 pub type Listings = HashMap<Utf8PathBuf, Listing>;
 
 impl Listing {
-    /// Adds something in a directory, if it counts.
-    pub fn add(&mut self, kind: ListingKind, name: &str, file_type: FileType) {
+    /// Adds something in a directory that is no directory itself, if it counts.
+    pub fn add(&mut self, kind: ListingKind, name: &str, is_link: bool) {
         if kind.counts(name) {
-            self.is_doubtful |= file_type.is_symlink();
-            if !file_type.is_dir() {
-                self.names.push(name.into());
-            }
+            self.is_doubtful |= is_link;
+            self.names.push(name.into());
         }
     }
 
@@ -39,8 +37,8 @@ impl Listing {
         let mut listing = Self::default();
         for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
             // As System lists them: of names that are no UTF-8 a lossy spelling.
-            if let Ok(file_type) = entry.file_type() {
-                listing.add(kind, &entry.file_name().to_string_lossy(), file_type);
+            if let Some(file_type) = entry.file_type().ok().filter(|file_type| !file_type.is_dir()) {
+                listing.add(kind, &entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
         }
         listing.names.sort_unstable();

@@ -90,6 +90,18 @@ impl Arrivals {
         self.underway().insert(directory, arrived);
     }
 
+    /// A directory has been listed already.
+    pub(crate) fn put(&self, directory: Directory, pattern: FilePattern, names: Names) {
+        let whole = || Arrived {
+            pattern,
+            unread: VecDeque::from([names]),
+            names: GatheredNames::default(),
+            is_complete: true,
+            are_all: true,
+        };
+        self.underway().entry(directory).or_insert_with(whole);
+    }
+
     /// The names that may hold a path and come first; waits for them.
     pub(crate) fn find(&self, directory: Directory, key: &PathKey) -> Vec<String> {
         let mut seen = 0;

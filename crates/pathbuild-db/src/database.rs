@@ -11,7 +11,7 @@ use crate::arrivals::{Arrivals, Lister};
 use crate::inputs::{Directory, Insight, SourceFile};
 use crate::queries;
 use crate::settings::Settings;
-use crate::system::System;
+use crate::system::{Names, System};
 
 /// What queries may ask besides each other.
 #[salsa::db]
@@ -115,6 +115,13 @@ impl Database {
             directory,
             path: path.to_owned(),
         }
+    }
+
+    /// The names of files in a directory that somebody listed already, so that it is not listed once more when they are first wanted. For runs that
+    /// nobody tells when they change.
+    pub fn know_names(&self, path: &Utf8Path, names: Names) {
+        let pattern = Settings::get(self).lookup(self).file_pattern.clone();
+        self.arrivals.put(self.directory(path), pattern, names);
     }
 
     /// How much is known of the names in a directory. What was found by knowing less is asked again.

@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-pub use listing::{Listing, Names};
+pub use listing::{Entry, EntryKind, Listing, Names};
 pub use memory::MemorySystem;
 pub use os::OsSystem;
 pub use overlay::Overlay;

@@ -1,7 +1,9 @@
 //! Files of the operating system.
 
+use std::ops::ControlFlow;
+
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{OsSystem, ReadError, System};
+use pathbuild_db::system::{Entry, EntryKind, OsSystem, ReadError, System};
 use tempfile::TempDir;
 
 /// A directory with a file of so many bytes.
@@ -28,4 +30,70 @@ fn drawings_are_read_into_the_same_memory() {
         OsSystem.read_into(&path, 1000, &mut bytes).unwrap();
         assert_eq!(bytes, b"0123456789".repeat(size / 10));
     }
+}
+
+/// The entries of a directory, in order of name.
+fn entries(directory: &Utf8Path) -> Vec<(String, bool, EntryKind)> {
+    let mut entries = Vec::new();
+    let listed = OsSystem.each_entry(directory, |Entry { name, is_exact, kind }| {
+        entries.push((name.to_owned(), is_exact, kind));
+        ControlFlow::Continue(())
+    });
+    assert_eq!(listed, Ok(()));
+    entries.sort_by(|a, b| a.0.cmp(&b.0));
+    entries
+}
+
+#[cfg(unix)]
+#[test]
+fn a_directory_says_what_is_a_file_a_directory_or_a_link() {
+    use std::os::unix::fs::symlink;
+
+    let (_guard, file) = file(10);
+    let directory = file.parent().unwrap();
+    OsSystem.write(&directory.join("below/drawing.dxf"), b"x").unwrap();
+    symlink("below", directory.join("to-below")).unwrap();
+    symlink("nowhere", directory.join("to-nowhere")).unwrap();
+    let expected = [
+        ("below", EntryKind::Directory),
+        ("drawing.dxf", EntryKind::File),
+        ("to-below", EntryKind::Link),
+        ("to-nowhere", EntryKind::Link),
+    ];
+    assert_eq!(entries(directory), expected.map(|(name, kind)| (name.to_owned(), true, kind)));
+    assert!(OsSystem.each_entry(&file, |_| ControlFlow::Continue(())).is_err(), "a file has no entries");
+}
+
+/// No file can be found under the spelling that is shown; one whose name is just that spelling can.
+#[cfg(target_os = "linux")]
+#[test]
+#[expect(clippy::disallowed_methods, reason = "System has no names that are no UTF-8")]
+fn names_that_are_no_utf_8_are_told_from_what_they_are_shown_as() {
+    use std::ffi::OsStr;
+    use std::fs::File;
+    use std::os::unix::ffi::OsStrExt;
+
+    let (_guard, file) = file(10);
+    let directory = file.parent().unwrap();
+    let unspeakable = directory.as_std_path().join(OsStr::from_bytes(b"\xff.dxf"));
+    File::create(unspeakable).unwrap();
+    OsSystem.write(&directory.join("\u{fffe}.dxf"), b"x").unwrap();
+    let exact: Vec<(String, bool)> =
+        entries(directory).into_iter().map(|(name, is_exact, _)| (name, is_exact)).collect();
+    let expected = [("drawing.dxf", true), ("\u{fffd}.dxf", false), ("\u{fffe}.dxf", true)];
+    assert_eq!(exact, expected.map(|(name, is_exact)| (name.to_owned(), is_exact)));
+}
+
+#[test]
+fn entries_end_where_there_are_enough() {
+    let (_guard, file) = file(10);
+    for name in ["a", "b"] {
+        OsSystem.write(&file.with_file_name(name), b"x").unwrap();
+    }
+    let mut seen = 0;
+    let listed = OsSystem.each_entry(file.parent().unwrap(), |_| {
+        seen += 1;
+        if seen == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!((listed, seen), (Ok(()), 2));
 }

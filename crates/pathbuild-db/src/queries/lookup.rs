@@ -1,12 +1,12 @@
 //! Where paths are: file names to files. (spec/20-paths-and-files.md)
 
 use std::borrow::Cow;
-use std::cell::LazyCell;
+use std::cell::{LazyCell, OnceCell};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{PathKey, PathName};
 
-use super::names::{EXTENSION, joined, name_table};
+use super::names::{EXTENSION, NameTable, joined, name_table};
 use super::raw::{NameKey, defines, path_names};
 use crate::database::Db;
 use crate::inputs::{Directory, Insight, SourceFile};
@@ -36,14 +36,14 @@ pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> 
 
 /// As they are asked where drawings are not surveyed.
 mod query {
-    use super::{Found, Search, files_of};
+    use super::{Found, Place, Search, files_of};
     use crate::database::Db;
     use crate::inputs::{Directory, SourceFile};
     use crate::queries::raw::NameKey;
 
     #[salsa::tracked]
     pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
-        let files = |directory| files_for(db, directory, name).clone();
+        let files = |place: &Place<'_>| files_for(db, place.directory, name).clone();
         Search::new(db, from).find_among(&name.name(db), files)
     }
 
@@ -60,39 +60,46 @@ pub(super) struct Search<'db> {
     from: SourceFile,
     /// The paths of the drawing itself.
     own: &'db [PathName],
-    directories: Vec<Directory>,
+    places: Vec<Place<'db>>,
+}
+
+/// A directory that is looked through.
+struct Place<'db> {
+    directory: Directory,
+    /// The names in it, once they are wanted.
+    names: OnceCell<&'db NameTable>,
 }
 
 impl<'db> Search<'db> {
     pub(super) fn new(db: &'db dyn Db, from: SourceFile) -> Self {
         let directories = search_directories(db, from);
-        let directories = directories.iter().map(|path| db.directory(path)).collect();
-        Self { db, from, own: path_names(db, from), directories }
+        let place = |path: &Utf8PathBuf| Place { directory: db.directory(path), names: OnceCell::new() };
+        Self { db, from, own: path_names(db, from), places: directories.iter().map(place).collect() }
     }
 
     /// Where a path is; nothing of it is kept.
     pub(super) fn find(&self, name: &PathName) -> Found {
         let pattern = &Settings::get(self.db).language(self.db).path_pattern;
         let key = LazyCell::new(|| PathKey::new(&name.folded(), pattern));
-        self.find_among(name, |directory| {
-            let files = |key| name_table(self.db, directory).files(self.db, directory, key);
-            key.as_ref().map(files).unwrap_or_default()
+        self.find_among(name, |place| {
+            let names = || place.names.get_or_init(|| name_table(self.db, place.directory));
+            key.as_ref().map(|key| names().files(self.db, place.directory, key)).unwrap_or_default()
         })
     }
 
     /// The same, when it is known which files of a directory may hold it by their names.
-    fn find_among(&self, name: &PathName, files: impl Fn(Directory) -> Vec<SourceFile>) -> Found {
+    fn find_among(&self, name: &PathName, files: impl Fn(&Place<'db>) -> Vec<SourceFile>) -> Found {
         let Self { db, from, .. } = *self;
         if self.own.contains(name) {
             return Found { files: vec![from], searched: vec![from], directories: Vec::new() };
         }
         let mut searched: Vec<SourceFile> = Vec::new();
-        for directory in &self.directories {
+        for place in &self.places {
             // A guess need not be told of all.
-            if !searched.is_empty() && directory.insight(db) != Insight::Listed {
+            if !searched.is_empty() && place.directory.insight(db) != Insight::Listed {
                 break;
             }
-            for file in files(*directory) {
+            for file in files(place) {
                 if !searched.contains(&file) {
                     searched.push(file);
                 }
@@ -110,7 +117,7 @@ impl<'db> Search<'db> {
                 is_new
             });
         }
-        Found { files, searched, directories: self.directories.clone() }
+        Found { files, searched, directories: self.places.iter().map(|place| place.directory).collect() }
     }
 }
 

@@ -20,6 +20,28 @@ pub struct Listing {
     pub directories: Names,
 }
 
+/// A name in a directory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry<'a> {
+    /// The name, or a lossy spelling of one that is no UTF-8.
+    pub name: &'a str,
+    /// Whether a file can be found under that spelling.
+    pub is_exact: bool,
+    /// What it is a name of.
+    pub kind: EntryKind,
+}
+
+/// What a directory says of a name in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryKind {
+    /// Anything that is none of the others.
+    File,
+    /// A directory.
+    Directory,
+    /// A symbolic link, to whatever.
+    Link,
+}
+
 impl Names {
     /// Those behind these.
     pub(crate) fn extend(&mut self, names: &Self) {

@@ -5,15 +5,30 @@ mod directory;
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
+use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Kind, Listing, ReadError, System, Written};
+use super::{Entry, Kind, Listing, ReadError, System, Written};
 
 /// Paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OsSystem;
+
+impl OsSystem {
+    /// Each name in a directory, in no particular order, until `take` has enough. Links are links.
+    ///
+    /// # Errors
+    /// When there is no such directory, or it cannot be read, also after some of them.
+    pub fn each_entry(
+        self,
+        directory: &Utf8Path,
+        take: impl FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        Ok(directory::each_entry(readable(directory), take)?)
+    }
+}
 
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
@@ -60,13 +75,11 @@ impl System for OsSystem {
     }
 
     fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
-        let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-        Ok(directory::list_by_parts(directory, take)?)
+        Ok(directory::list_by_parts(readable(directory), take)?)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {
-        let path = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
-        match fs::metadata(path) {
+        match fs::metadata(readable(path)) {
             Ok(data) if data.is_dir() => Kind::Directory,
             Ok(_) => Kind::File,
             Err(_) => Kind::Missing,
@@ -91,6 +104,11 @@ impl System for OsSystem {
             _ => Ok(()),
         }
     }
+}
+
+/// A path in a system call's words.
+fn readable(path: &Utf8Path) -> &Utf8Path {
+    if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }
 
 impl From<io::Error> for ReadError {

@@ -100,3 +100,14 @@ fn names_that_change_later_are_listed_again() {
     world.remove("lib/2000-2999.dxf");
     assert_eq!(world.codes("project"), ["PB503"]);
 }
+
+/// Whoever has walked through a library knows the names already.
+#[test]
+fn names_that_somebody_knows_are_not_listed_until_they_change() {
+    let mut world = world();
+    world.db.know_names("lib".into(), ["1111.1P.dxf", "8001.1P.dxf"].into_iter().collect());
+    world.ask("project", PROJECT, "8001.1P");
+    assert_eq!(world.codes("project"), ["PB503"]);
+    world.db.touch_directory("lib".into());
+    assert!(is_made(&world));
+}

@@ -1,3 +1,4 @@
+use std::mem::ManuallyDrop;
 use std::time::Duration;
 
 use camino::Utf8Path;
@@ -33,7 +34,11 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitSt
             Ok(baseline) => deliver(context, args, &baseline.compare(findings), checked.time),
             Err(faults) => context.refuse(faults),
         },
-        None => deliver(context, args, &Compared { new: findings, known: 0, gone: 0 }, checked.time),
+        None => {
+            // The run is over: what it looked at is not taken apart.
+            let compared = ManuallyDrop::new(Compared { new: findings, known: 0, gone: 0 });
+            deliver(context, args, &compared, checked.time)
+        }
     }
 }
 

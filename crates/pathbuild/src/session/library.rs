@@ -1,11 +1,13 @@
 //! Walking directories for drawings. (spec/20-paths-and-files.md, "The library")
 
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 use std::path::is_separator;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use ignore::WalkBuilder;
 use pathbuild_cache::{Listing, ListingKind, Listings};
+use pathbuild_db::system::{Entry, EntryKind, OsSystem};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
@@ -131,6 +133,8 @@ struct Directory {
     drawings: Vec<Utf8PathBuf>,
     directories: Vec<Utf8PathBuf>,
     listing: Listing,
+    /// The same of names that are no UTF-8: nothing can be found under their spellings.
+    inexact: Listing,
     /// How much there is, hidden things aside.
     count: u64,
 }
@@ -138,34 +142,54 @@ struct Directory {
 impl Directory {
     /// Nothing where it cannot be listed.
     fn list(directory: &Utf8Path, limit: u64) -> Result<Option<Self>, HasRules> {
-        let Ok(entries) = readable(directory).as_std_path().read_dir() else { return Ok(None) };
         let mut found = Self::default();
-        for entry in entries.filter_map(Result::ok) {
-            let name = entry.file_name();
-            let Ok(kind) = entry.file_type() else { continue };
-            found.listing.add(ListingKind::Drawings, &name.to_string_lossy(), kind);
-            let Some(name) = name.to_str() else { continue };
-            if matches!(name, ".gitignore" | ".ignore") {
-                return Err(HasRules);
-            }
-            if name.starts_with('.') {
-                continue;
-            }
-            found.count += 1;
-            if found.count > limit {
-                break;
-            }
-            if kind.is_dir() {
-                found.directories.push(directory.join(name));
-            } else if is_drawing(Utf8Path::new(name)) {
-                found.drawings.push(directory.join(name));
-            }
+        let mut has_rules = false;
+        let listed = OsSystem.each_entry(directory, |entry| {
+            has_rules = entry.is_exact && matches!(entry.name, ".gitignore" | ".ignore");
+            found.add(directory, entry);
+            if has_rules || found.count > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        if has_rules {
+            return Err(HasRules);
+        }
+        if listed.is_err() && found.listing.names.is_empty() && found.count == 0 {
+            return Ok(None);
         }
         found.listing.names.sort_unstable();
-        // By place: they differ in their last part only.
-        found.drawings.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
+        let drawings = found.listing.names.iter().filter(|name| !is_hidden(name));
+        found.drawings = drawings.map(|name| joined(directory, name)).collect();
+        if !found.inexact.names.is_empty() {
+            found.listing.is_doubtful |= found.inexact.is_doubtful;
+            found.listing.names.append(&mut found.inexact.names);
+            found.listing.names.sort_unstable();
+        }
         Ok(Some(found))
     }
+
+    fn add(&mut self, directory: &Utf8Path, Entry { name, is_exact, kind }: Entry<'_>) {
+        if kind != EntryKind::Directory {
+            let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
+            listing.add(ListingKind::Drawings, name, kind == EntryKind::Link);
+        }
+        if is_exact && !is_hidden(name) {
+            self.count += 1;
+            if kind == EntryKind::Directory {
+                self.directories.push(joined(directory, name));
+            }
+        }
+    }
+}
+
+fn is_hidden(name: &str) -> bool {
+    name.starts_with('.')
+}
+
+/// A name in a directory, made at once in the memory that it needs.
+fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
+    let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.len());
+    path.push(directory);
+    path.push(name);
+    path
 }
 
 /// The order of paths, part by part. It is `Ord`'s, as long as no part is empty or `.`, and is told without taking paths apart: of ten thousand that

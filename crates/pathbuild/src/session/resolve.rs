@@ -28,6 +28,8 @@ pub struct Wanted {
     pub directories: Vec<Utf8PathBuf>,
     /// Names that mean nothing, or too much.
     pub problems: Vec<Diagnostic>,
+    /// What is in directories that were looked through.
+    pub listings: Listings,
     /// Where each drawing stands in `drawings`.
     places: HashMap<SourceFile, usize>,
 }
@@ -78,6 +80,13 @@ impl Session<'_> {
             }
         }
         wanted
+    }
+
+    /// Directories that were just listed need not be listed once more for their names. Links are asked where they lead to.
+    pub fn know_names(&self, listings: &Listings) {
+        for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
+            self.db.know_names(directory, listing.names.iter().map(|name| &**name).collect());
+        }
     }
 
     /// Whether a name is a drawing's.
@@ -190,6 +199,7 @@ impl Session<'_> {
         for drawing in walked.drawings {
             wanted.add_drawing(self.file(&drawing), false);
         }
+        wanted.listings.extend(walked.listings);
         wanted.directories.push(directory);
     }
 

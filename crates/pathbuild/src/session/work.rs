@@ -1,5 +1,6 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
+use std::hint::black_box;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
@@ -204,9 +205,20 @@ impl Session<'_> {
     fn pool(&self) -> Option<&ThreadPool> {
         let start = || {
             let threads = usize::from(self.context.jobs.unwrap_or(0));
-            ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE).build().ok()
+            let pool = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE);
+            pool.start_handler(|_| reserve_memory()).build().ok()
         };
         self.pool.get_or_init(start).as_ref()
+    }
+}
+
+/// Takes at one go what a thread will need, and gives it back at once, so that it is at hand. glibc asks the system for a thread's memory page by
+/// page as it is used, each time while all other threads wait, unless there was more than that; and it keeps no more than twice the largest piece
+/// that was given back to the system itself, as the first one here is. Nothing is used of it before it is needed.
+fn reserve_memory() {
+    const RESERVED: usize = 16 << 20;
+    for _ in 0..2 {
+        drop(black_box(Vec::<u8>::with_capacity(RESERVED)));
     }
 }
 

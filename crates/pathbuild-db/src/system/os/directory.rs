@@ -5,10 +5,11 @@
 use std::fs;
 use std::io;
 use std::mem;
+use std::ops::ControlFlow;
 
 use camino::Utf8Path;
 
-use crate::system::Listing;
+use crate::system::{Entry, EntryKind, Listing};
 
 /// The names in a directory, in the order in which the system gives them, some at a time.
 ///
@@ -17,7 +18,10 @@ use crate::system::Listing;
 pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> io::Result<()> {
     let mut part = Listing::default();
     each_name(directory, |entry| {
-        let Some((name, kind)) = entry else { return take(mem::take(&mut part)) };
+        let Some(Name { spelling: name, kind, .. }) = entry else {
+            take(mem::take(&mut part));
+            return ControlFlow::Continue(());
+        };
         // A link is what it leads to; one that leads nowhere is a file that cannot be read. Some file systems do not tell what a name is.
         let is_directory = match kind {
             Kind::Directory => true,
@@ -25,7 +29,45 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
             Kind::File => false,
         };
         if is_directory { &mut part.directories } else { &mut part.files }.push(name);
+        ControlFlow::Continue(())
     })
+}
+
+/// Each name in a directory with what the directory itself says of it, until `take` has enough.
+///
+/// # Errors
+/// As [`list_by_parts`].
+pub(super) fn each_entry(
+    directory: &Utf8Path,
+    mut take: impl FnMut(Entry<'_>) -> ControlFlow<()>,
+) -> io::Result<()> {
+    each_name(directory, |entry| {
+        let Some(Name { spelling: name, is_exact, kind }) = entry else { return ControlFlow::Continue(()) };
+        let kind = match kind {
+            Kind::Directory => EntryKind::Directory,
+            Kind::Link => EntryKind::Link,
+            Kind::File => EntryKind::File,
+            Kind::Untold => told(&directory.join(name)),
+        };
+        take(Entry { name, is_exact, kind })
+    })
+}
+
+/// What the system says of a name of which the directory says nothing.
+fn told(path: &Utf8Path) -> EntryKind {
+    match fs::symlink_metadata(path).map(|data| data.file_type()) {
+        Ok(kind) if kind.is_dir() => EntryKind::Directory,
+        Ok(kind) if kind.is_symlink() => EntryKind::Link,
+        _ => EntryKind::File,
+    }
+}
+
+/// A name, as a directory has it.
+struct Name<'a> {
+    spelling: &'a str,
+    /// Whether it has no other.
+    is_exact: bool,
+    kind: Kind,
 }
 
 /// What a directory says of a name in it.
@@ -52,7 +94,12 @@ impl From<fs::FileType> for Kind {
 
 /// Takes each name, and nothing whenever the next must be waited for. By the system call itself: the standard library makes three copies of each name, which is half of the time of listing ten thousand.
 #[cfg(target_os = "linux")]
-fn each_name(directory: &Utf8Path, mut take: impl FnMut(Option<(&str, Kind)>)) -> io::Result<()> {
+fn each_name(
+    directory: &Utf8Path,
+    mut take: impl FnMut(Option<Name<'_>>) -> ControlFlow<()>,
+) -> io::Result<()> {
+    use std::borrow::Cow;
+
     use rustix::fs::{FileType, Mode, OFlags, RawDir};
 
     let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
@@ -67,15 +114,17 @@ fn each_name(directory: &Utf8Path, mut take: impl FnMut(Option<(&str, Kind)>)) -
             FileType::Unknown => Kind::Untold,
             _ => Kind::File,
         };
-        match entry.file_name().to_bytes() {
-            b"." | b".." => {}
-            name => match str::from_utf8(name) {
-                Ok(name) => take(Some((name, kind))),
-                Err(_) => take(Some((&String::from_utf8_lossy(name), kind))),
-            },
-        }
-        if entries.is_buffer_empty() {
-            take(None);
+        let flow = match entry.file_name().to_bytes() {
+            b"." | b".." => ControlFlow::Continue(()),
+            name => {
+                let spelling =
+                    str::from_utf8(name).map_or_else(|_| String::from_utf8_lossy(name), Cow::Borrowed);
+                let is_exact = matches!(spelling, Cow::Borrowed(_));
+                take(Some(Name { spelling: &spelling, is_exact, kind }))
+            }
+        };
+        if flow.is_break() || entries.is_buffer_empty() && take(None).is_break() {
+            break;
         }
     }
     Ok(())
@@ -87,11 +136,18 @@ const BUFFER: usize = 1 << 15;
 
 /// Takes each name, and nothing at the end.
 #[cfg(not(target_os = "linux"))]
-fn each_name(directory: &Utf8Path, mut take: impl FnMut(Option<(&str, Kind)>)) -> io::Result<()> {
+fn each_name(
+    directory: &Utf8Path,
+    mut take: impl FnMut(Option<Name<'_>>) -> ControlFlow<()>,
+) -> io::Result<()> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
-        take(Some((&entry.file_name().to_string_lossy(), entry.file_type()?.into())));
+        let (name, kind) = (entry.file_name(), entry.file_type()?.into());
+        let name = Name { spelling: &name.to_string_lossy(), is_exact: name.to_str().is_some(), kind };
+        if take(Some(name)).is_break() {
+            return Ok(());
+        }
     }
-    take(None);
+    _ = take(None);
     Ok(())
 }
