@@ -9,7 +9,7 @@ use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
 use crate::path::{CutParameters, Helix, Hole, Path, SegmentKind};
-use crate::walk::{Passage, Step, curve};
+use crate::walk::{Passage, curve};
 
 /// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,19 +66,8 @@ pub struct PlacedSubpath {
     pub end: Xy,
 }
 
-/// Groups the steps of a walk; chains without I, and letters without effect inside chains, are reported.
-pub(crate) fn items(path: &Path, steps: Vec<Step>) -> (Vec<Item>, Vec<Diagnostic>) {
-    let (items, chain) = (Vec::with_capacity(steps.len()), Vec::with_capacity(steps.len()));
-    let mut grouped = Grouped { path, items, chain, diagnostics: Vec::new() };
-    for step in steps {
-        grouped.add(step);
-    }
-    grouped.finish_chain();
-    (grouped.items, grouped.diagnostics)
-}
-
-/// The items so far.
-struct Grouped<'a> {
+/// What was gone along so far. Chains without I, and letters without effect inside chains, are reported.
+pub(crate) struct Grouped<'a> {
     path: &'a Path,
     items: Vec<Item>,
     /// The members of the chain so far.
@@ -86,9 +75,15 @@ struct Grouped<'a> {
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Grouped<'_> {
-    fn add(&mut self, Step { segment, passage, is_return }: Step) {
-        let Some(passage) = passage else { return self.finish_chain() };
+impl<'a> Grouped<'a> {
+    pub(crate) fn new(path: &'a Path) -> Self {
+        let count = path.segments.len();
+        let (items, chain) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        Self { path, items, chain, diagnostics: Vec::new() }
+    }
+
+    /// Takes the next segment that is gone along.
+    pub(crate) fn add(&mut self, segment: usize, passage: Passage, is_return: bool) {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
             let segment = u32::try_from(segment).unwrap_or(u32::MAX);
             let Passage { is_turned, moved, .. } = passage;
@@ -96,6 +91,12 @@ impl Grouped<'_> {
         }
         self.finish_chain();
         self.items.extend(self.single(segment, &passage, is_return));
+    }
+
+    /// All that was gone along, and what is wrong with it.
+    pub(crate) fn finish(&mut self) -> (Vec<Item>, Vec<Diagnostic>) {
+        self.finish_chain();
+        (std::mem::take(&mut self.items), std::mem::take(&mut self.diagnostics))
     }
 
     /// What is done along a segment that is in no chain. Going back over it is a sweep.
@@ -112,7 +113,7 @@ impl Grouped<'_> {
     }
 
     /// Ends the chain, if there is one.
-    fn finish_chain(&mut self) {
+    pub(crate) fn finish_chain(&mut self) {
         let [first, others @ ..] = &*self.chain else { return };
         let has_letters = |member: &ChainSegment| member.cut(self.path).chain_letters.is_some();
         for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {

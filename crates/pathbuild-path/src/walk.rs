@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use crate::approx::{coincide, near};
-use crate::chain::{Item, items};
+use crate::chain::{Grouped, Item};
 use crate::geometry::Xy;
 use crate::path::{Path, SegmentKind};
 
@@ -26,22 +26,11 @@ pub struct Walked {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// A step along a segment.
-#[derive(Debug)]
-pub(crate) struct Step {
-    /// Its index in the path.
-    pub(crate) segment: usize,
-    /// How it is traversed; `None` for the return over a drilled hole, which only ends the chain.
-    pub(crate) passage: Option<Passage>,
-    /// Whether it is gone back over.
-    pub(crate) is_return: bool,
-}
-
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     let mut walk = Walk::new(path, join_tolerance);
     let (items, mut diagnostics) = match walk.run() {
-        Ok(()) => items(path, std::mem::take(&mut walk.steps)),
+        Ok(()) => walk.grouped.finish(),
         Err(problem) => (Vec::new(), vec![*problem]),
     };
     diagnostics.append(&mut walk.joined);
@@ -60,10 +49,13 @@ struct Walk<'a> {
     is_traversed: Vec<bool>,
     left: usize,
     at: Xy,
-    steps: Vec<Step>,
-    /// Steps taken forwards and not yet gone back over, by number. They always lead from the start to `at`. Nothing goes back where there
-    /// is no turn marker.
-    way_back: Vec<usize>,
+    /// The segment that was gone along last.
+    last: Option<usize>,
+    /// What was gone along.
+    grouped: Grouped<'a>,
+    /// Segments gone along forwards and not yet back over. They always lead from the start to `at`. Nothing goes back where there is no
+    /// turn marker.
+    way_back: Vec<(usize, Passage)>,
     has_acted: Vec<bool>,
     join_tolerance: f64,
     /// PB115 for each join.
@@ -81,7 +73,8 @@ impl<'a> Walk<'a> {
             is_traversed: vec![false; count],
             left: count,
             at: path.start,
-            steps: Vec::with_capacity(count),
+            last: None,
+            grouped: Grouped::new(path),
             way_back: Vec::new(),
             has_acted: vec![false; path.turns.len()],
         }
@@ -154,19 +147,18 @@ impl<'a> Walk<'a> {
     fn take(&mut self, segment: usize) {
         self.is_traversed[segment] = true;
         self.left -= 1;
-        if !self.path.turns.is_empty() {
-            self.way_back.push(self.steps.len());
-        }
         let drawn = Passage::drawn(self.ends.of(segment));
-        self.follow(segment, Some(drawn), false);
+        let passage = self.as_met_here(segment, drawn, false);
+        if !self.path.turns.is_empty() {
+            self.way_back.push((segment, passage.clone()));
+        }
+        self.follow(segment, passage, false);
     }
 
-    fn follow(&mut self, segment: usize, passage: Option<Passage>, is_return: bool) {
-        let passage = passage.map(|passage| self.as_met_here(segment, passage, is_return));
-        if let Some(passage) = &passage {
-            self.at = passage.end;
-        }
-        self.steps.push(Step { segment, passage, is_return });
+    fn follow(&mut self, segment: usize, passage: Passage, is_return: bool) {
+        self.at = passage.end;
+        self.last = Some(segment);
+        self.grouped.add(segment, passage, is_return);
     }
 
     /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined. Holes and circles stay
@@ -198,13 +190,14 @@ impl<'a> Walk<'a> {
     /// Goes back over the way until something is found; an error when the way back is used up. (spec/50-path-building.md, "Turn markers")
     fn go_back(&mut self, is_found: impl Fn(&Self) -> bool) -> Result<(), ()> {
         loop {
-            let step = &self.steps[self.way_back.pop().ok_or(())?];
-            let segment = step.segment;
-            let passage = match self.path.segments[segment].kind {
-                SegmentKind::Hole(_) => None,
-                _ => step.passage.clone().map(Passage::turned_round),
-            };
-            self.follow(segment, passage, true);
+            let (segment, passage) = self.way_back.pop().ok_or(())?;
+            if let SegmentKind::Hole(_) = self.path.segments[segment].kind {
+                self.last = Some(segment);
+                self.grouped.finish_chain();
+            } else {
+                let passage = self.as_met_here(segment, passage.turned_round(), true);
+                self.follow(segment, passage, true);
+            }
             if is_found(self) {
                 return Ok(());
             }

@@ -1,6 +1,6 @@
 //! Which segments have an end at a point.
 
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
@@ -21,18 +21,20 @@ struct SegmentEnds {
     next: [u32; 2],
 }
 
-/// Its column and row.
+/// Its column and row, see [`strip`].
 #[derive(Clone, Copy)]
-struct Square(i64, i64);
+struct Square(u64, u64);
 
 /// There is no further end in a bucket.
 const NONE: u32 = u32::MAX;
 /// Squares in a mm.
 const SQUARES: f64 = 100.0;
 /// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
-const SHIFT: f64 = 0.003_7;
+const SHIFT: f64 = 0.001_3;
 /// Around a point is looked so far, in squares: a few times the distance within which points coincide.
 const REACH: f64 = 0.01;
+/// So large that a sum with it has no fraction: its last bits count whole numbers. (1.5 * 2^52)
+const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
     pub(super) fn new(path: &Path) -> Self {
@@ -84,33 +86,31 @@ impl Ends {
 }
 
 fn square(point: Xy) -> Square {
-    Square(floor(in_squares(point.x)), floor(in_squares(point.y)))
+    Square(strip(in_squares(point.x)), strip(in_squares(point.y)))
 }
 
 /// The columns, or rows, of what is close to a coordinate: one, or two where they meet.
-fn around(coordinate: f64) -> RangeInclusive<i64> {
+fn around(coordinate: f64) -> Range<u64> {
     let place = in_squares(coordinate);
-    let number = floor(place);
-    let part = place - number as f64;
-    let (is_first, is_last) = (part < REACH, part > 1.0 - REACH);
-    number.saturating_sub(is_first.into())..=number.saturating_add(is_last.into())
+    let from_middle = place - (place + WHOLE - WHOLE);
+    let (is_first, is_last) = (from_middle < REACH - 0.5, from_middle > 0.5 - REACH);
+    let strip = strip(place);
+    strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
 }
 
 fn in_squares(coordinate: f64) -> f64 {
     (coordinate + SHIFT) * SQUARES
 }
 
-/// The whole number below. All that is very far off falls into one square.
-#[expect(clippy::cast_possible_truncation, reason = "saturates")]
-fn floor(number: f64) -> i64 {
-    let towards_zero = number as i64;
-    towards_zero.saturating_sub(i64::from(number < towards_zero as f64))
+/// The column, or row, whose middle is nearest, as a number whose neighbours are one more and one less. Very far off strips are wider;
+/// there points are so far apart that only equal ones coincide.
+fn strip(place: f64) -> u64 {
+    (place + WHOLE).to_bits()
 }
 
 /// The bucket of a square among so many. The upper bits of a product depend on all bits of its factors.
-#[expect(clippy::cast_sign_loss, reason = "any bits are as good")]
 fn bucket_of(Square(column, row): Square, count: usize) -> usize {
     const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mixed = (column as u64).wrapping_mul(ODD).rotate_left(32) ^ row as u64;
+    let mixed = column.wrapping_mul(ODD).rotate_left(32) ^ row;
     (mixed.wrapping_mul(ODD) >> 32) as usize & (count - 1)
 }

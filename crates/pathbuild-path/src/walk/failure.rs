@@ -16,7 +16,7 @@ impl Walk<'_> {
 
     pub(super) fn nothing_continues(&self) -> Diagnostic {
         let problem = Diagnostic::new(&messages::NOTHING_CONTINUES).with("left", self.left);
-        let last = self.steps.last().map(|step| self.path.origin(&self.path.segments[step.segment]));
+        let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
         let mut problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
         problem.place.point = Some(shown(self.at));
         self.with_hints(problem)
