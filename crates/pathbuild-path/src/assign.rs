@@ -83,8 +83,11 @@ fn overlap(text: &TextCircle, shape: &Shape) -> Option<(Kind, f64)> {
             (distance < text.radius + radius).then_some((Kind::Circle, distance))
         }
         Shape::Curve(Curve::Arc(arc)) => {
-            let distance = text.distance_to_arc(arc)?;
-            (distance <= text.radius).then_some((Kind::Arc, distance))
+            // Looked at first: it is soon said, and true of few of the arcs around.
+            if text.distance_to_circle(arc.centre, arc.radius) > text.radius {
+                return None;
+            }
+            text.distance_to_arc(arc).map(|distance| (Kind::Arc, distance))
         }
         Shape::Curve(Curve::Line(line)) => {
             let distance = text.distance_to_line(line)?;

@@ -19,7 +19,7 @@ use crate::text::ParameterText;
 use crate::values::Values;
 use crate::variables::{Bindings, Interpolation};
 
-use cuts::KnownCuts;
+use cuts::KnownCut;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -40,7 +40,7 @@ struct Binder<'a> {
     /// The path's own values.
     values: Values<'a>,
     cuts: Vec<CutParameters>,
-    known_cuts: KnownCuts<'a>,
+    known_cuts: Vec<KnownCut>,
     problems: Vec<Diagnostic>,
     /// How often something was reported, also where it had been before.
     reported: usize,
@@ -63,7 +63,7 @@ impl<'a> Binder<'a> {
             interpolation,
             values,
             cuts: Vec::new(),
-            known_cuts: KnownCuts::default(),
+            known_cuts: Vec::new(),
             problems: Vec::new(),
             reported: 0,
         }

@@ -21,6 +21,7 @@ mod line_type;
 mod name;
 mod number;
 mod number_range;
+mod packed;
 mod path;
 mod pattern;
 mod raw;

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::packed::packed;
+
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the meaning depends on the entity: spec/10-drawing.md has the table")]
@@ -60,29 +62,30 @@ impl LineTypeAliases {
 }
 
 /// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
-pub(crate) struct LineTypes<'d, 'l> {
+pub(crate) struct LineTypes<'l> {
     aliases: &'l LineTypeAliases,
-    known: Vec<(&'d str, Option<LineType>)>,
+    /// The first names that came, as numbers; 0 where there are no more.
+    known: [(u128, Option<LineType>); 8],
 }
 
-impl<'d, 'l> LineTypes<'d, 'l> {
-    /// More names than these are looked up each time.
-    const MOST: usize = 8;
-
+impl<'l> LineTypes<'l> {
     pub(crate) fn new(aliases: &'l LineTypeAliases) -> Self {
-        Self { aliases, known: Vec::with_capacity(Self::MOST) }
+        Self { aliases, known: [(0, None); 8] }
     }
 
     /// What a name stands for.
-    pub(crate) fn get(&mut self, name: &'d str) -> Option<LineType> {
-        if let Some((_, line_type)) = self.known.iter().find(|(known, _)| *known == name) {
-            return *line_type;
+    pub(crate) fn get(&mut self, name: &str) -> Option<LineType> {
+        // Long names, and more than there is room for, are looked up each time.
+        let Some(number) = packed(name) else { return LineType::of(name, self.aliases) };
+        let known = self.known.iter_mut().find(|(known, _)| *known == number || *known == 0);
+        match known {
+            Some((known, line_type)) if *known == number => *line_type,
+            Some(free) => {
+                *free = (number, LineType::of(name, self.aliases));
+                free.1
+            }
+            None => LineType::of(name, self.aliases),
         }
-        let line_type = LineType::of(name, self.aliases);
-        if self.known.len() < Self::MOST {
-            self.known.push((name, line_type));
-        }
-        line_type
     }
 }
 

@@ -3,9 +3,12 @@
 /// A number: an optional sign, digits, at most one decimal point or comma. `None` for anything else, exponents included, and for what
 /// is too large to be finite.
 pub fn parse_number(text: &str) -> Option<f64> {
-    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let (is_negative, digits) = match text.as_bytes() {
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] | digits => (false, digits),
+    };
     let (mut value, mut count, mut point) = (0_u64, 0, None);
-    for byte in digits.bytes() {
+    for byte in digits {
         match byte {
             b'0'..=b'9' => {
                 value = value.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
@@ -22,7 +25,7 @@ pub fn parse_number(text: &str) -> Option<f64> {
         // Both are exact, so their quotient is the number that is nearest to what is written.
         let decimals = point.map_or(0, |before| count - before);
         let number = value as f64 / POWERS_OF_TEN[decimals];
-        return Some(if text.starts_with('-') { -number } else { number });
+        return Some(if is_negative { -number } else { number });
     }
     let number: f64 = text.replace(',', ".").parse().ok()?;
     number.is_finite().then_some(number)

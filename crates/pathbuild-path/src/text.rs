@@ -9,23 +9,32 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::number::{parse_integer, parse_number};
+use crate::packed::packed;
 
-/// The parameter texts of a path, behind each other, read once: what they say is asked for by several stages.
+/// The parameter texts of a path, read once: what they say is asked for by several stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterTexts {
+    /// All wordings behind each other.
     string: String,
     pieces: Vec<Piece>,
-    texts: Vec<Extent>,
+    wordings: Vec<Wording>,
+    /// What each text says: index into the wordings. What is milled alike is mostly written alike.
+    texts: Vec<u32>,
 }
 
-/// Where a text and its pieces are, and what is known of it as a whole.
+/// Where a wording and its pieces are, and what is known of it as a whole.
 #[derive(Clone, Debug, PartialEq)]
-struct Extent {
+struct Wording {
+    /// As it is drawn, where that is short and what it says: see [`packed`].
+    drawn: Option<u128>,
     string: Range<usize>,
     pieces: Range<usize>,
     letters: Letters,
     is_plain: bool,
 }
+
+/// So many of the last wordings are looked at for a text that is drawn the same.
+const RECENT: usize = 8;
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,42 +72,65 @@ pub(crate) enum Written {
 }
 
 impl ParameterTexts {
-    /// Makes room for so many texts with so many bytes in all.
-    pub(crate) fn reserve(&mut self, texts: usize, bytes: usize) {
-        self.string.reserve(bytes);
-        self.pieces.reserve(2 * texts);
+    /// Makes room for so many texts.
+    pub(crate) fn reserve(&mut self, texts: usize) {
+        let wordings = texts.min(RECENT);
+        self.string.reserve(16 * wordings);
+        self.pieces.reserve(2 * wordings);
+        self.wordings.reserve(wordings);
         self.texts.reserve(texts);
     }
 
     /// Adds a text as it is drawn; its number.
     pub(crate) fn push_drawn(&mut self, text: &str) -> u32 {
-        // Nearly all texts are what they look like.
-        if text.bytes().any(|byte| matches!(byte, b'%' | b'~')) {
-            return self.push(&joined(&without_percent_codes(text)));
-        }
-        self.push(text)
+        let drawn = packed(text);
+        let wording = drawn.and_then(|drawn| self.recent(drawn)).unwrap_or_else(|| {
+            // Nearly all texts are what they look like.
+            if text.bytes().any(|byte| matches!(byte, b'%' | b'~')) {
+                self.wording(&joined(&without_percent_codes(text)), None)
+            } else {
+                self.wording(text, drawn)
+            }
+        });
+        self.add(wording)
     }
 
     /// Adds a text whose lines are joined and codes replaced; its number.
     pub(crate) fn push(&mut self, text: &str) -> u32 {
+        let wording = self.wording(text, None);
+        self.add(wording)
+    }
+
+    fn add(&mut self, wording: u32) -> u32 {
+        self.texts.push(wording);
+        number(self.texts.len() - 1)
+    }
+
+    fn recent(&self, drawn: u128) -> Option<u32> {
+        let last = self.wordings.len().saturating_sub(RECENT);
+        let found = self.wordings[last..].iter().rposition(|wording| wording.drawn == Some(drawn))?;
+        Some(number(last + found))
+    }
+
+    /// Reads a text; the number of what it says.
+    fn wording(&mut self, text: &str, drawn: Option<u128>) -> u32 {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
-        let string = &self.string[start..];
         let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
-        while let Some(piece) = next_piece(string, end) {
+        while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
         let (string, pieces) = (start..self.string.len(), first..self.pieces.len());
-        self.texts.push(Extent { string, pieces, letters, is_plain });
-        u32::try_from(self.texts.len() - 1).unwrap_or(u32::MAX)
+        self.wordings.push(Wording { drawn, string, pieces, letters, is_plain });
+        number(self.wordings.len() - 1)
     }
 
     /// A text by its number.
     pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
-        let Extent { string, pieces, letters, is_plain } = self.texts.get(number as usize)?;
+        let Wording { string, pieces, letters, is_plain, .. } = &self.wordings[self.wording_of(number)? as usize];
         Some(ParameterText {
             string: &self.string[string.clone()],
             pieces: &self.pieces[pieces.clone()],
@@ -106,6 +138,21 @@ impl ParameterTexts {
             is_plain: *is_plain,
         })
     }
+
+    /// The number of what a text says: where it is the same, texts say the same.
+    pub(crate) fn wording_of(&self, number: u32) -> Option<u32> {
+        self.texts.get(number as usize).copied()
+    }
+
+    /// Whether nothing is wrong with a text, see [`ParameterText::is_right`].
+    pub(crate) fn is_right(&self, number: u32, class: ElementClass) -> bool {
+        let wording = self.wording_of(number).map(|wording| &self.wordings[wording as usize]);
+        wording.is_some_and(|it| is_right(it.is_plain, it.letters, class))
+    }
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
 }
 
 impl From<&str> for ParameterTexts {
@@ -157,7 +204,7 @@ impl<'t> ParameterText<'t> {
 
     /// Whether nothing is wrong with it, as is soon seen of most texts.
     pub(crate) fn is_right(self, class: ElementClass) -> bool {
-        self.is_plain && class.effective_letters().contain(self.letters)
+        is_right(self.is_plain, self.letters, class)
     }
 
     /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
@@ -231,6 +278,10 @@ impl Written {
     }
 }
 
+fn is_right(is_plain: bool, letters: Letters, class: ElementClass) -> bool {
+    is_plain && class.effective_letters().contain(letters)
+}
+
 fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
     let upper = letter.to_uppercase().next().and_then(Letter::new);
     let known: pathbuild_diagnostic::Value = class.known_letters().map(|known| known.to_string()).collect();
@@ -281,8 +332,7 @@ fn next_piece(text: &str, from: usize) -> Option<Piece> {
     // All letters are ASCII.
     let letter = Letter::new(char::from(bytes[start]));
     let written = letter.map_or(Written::Text, |letter| Written::of(letter, &text[start + 1..end]));
-    let byte = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-    Some(Piece { letter, written, span: byte(start)..byte(end) })
+    Some(Piece { letter, written, span: number(start)..number(end) })
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.

@@ -52,6 +52,11 @@ impl TextCircle {
         (centre - self.centre).norm()
     }
 
+    /// How far its centre is from a circle's rim.
+    pub(crate) fn distance_to_circle(&self, centre: Xy, radius: f64) -> f64 {
+        ((self.centre - centre).norm() - radius).abs()
+    }
+
     /// How far its centre is from an arc, where its radial projection lies on the arc.
     pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
         let out = self.centre - arc.centre;
@@ -59,7 +64,7 @@ impl TextCircle {
         let angle = libm::atan2(across, along).to_degrees();
         let ahead = if arc.clockwise { -angle } else { angle };
         let ahead = if ahead < 0.0 { ahead + 360.0 } else { ahead };
-        (ahead <= arc.degrees).then(|| (out.norm() - arc.radius).abs())
+        (ahead <= arc.degrees).then(|| self.distance_to_circle(arc.centre, arc.radius))
     }
 
     /// How far its centre is from a line, where the foot of the perpendicular lies on the line.

@@ -12,13 +12,23 @@ use crate::text_circle::TextCircle;
 /// Where the candidates of a layer lie.
 pub(crate) enum Boxes {
     /// Few are all looked at: that is sooner done than to make a tree of them.
-    List(Vec<Sides>),
+    List(List),
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
 }
 
-/// The left and lower side of a box, and its right and upper one, negated, so that all four are compared at once. Rounded outwards.
-#[derive(Clone, Copy)]
-pub(crate) struct Sides(f32x4);
+/// The boxes of a few candidates.
+#[derive(Default)]
+pub(crate) struct List {
+    fours: Vec<Four>,
+    count: usize,
+}
+
+/// The left, lower, right and upper sides of four boxes beside each other, the last two negated, so that all are compared at once. Rounded
+/// outwards.
+struct Four([f32x4; 4]);
+
+/// The sides of one box in this order.
+type Sides = [f32; 4];
 
 /// How many candidates are few.
 const FEW: usize = 128;
@@ -28,7 +38,7 @@ const SLACK: f64 = 1e-6;
 
 impl Default for Boxes {
     fn default() -> Self {
-        Self::List(Vec::new())
+        Self::List(List::default())
     }
 }
 
@@ -36,7 +46,7 @@ impl Boxes {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
         let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
         if candidates.len() <= FEW {
-            return Self::List(boxes.map(|box_| Sides::of(&box_)).collect());
+            return Self::List(boxes.collect());
         }
         let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
         Self::Tree(RTree::bulk_load(numbered.collect()))
@@ -46,11 +56,7 @@ impl Boxes {
     pub(super) fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
         let searched = square(circle.centre, circle.radius);
         match self {
-            Self::List(boxes) => {
-                let limits = Sides::limits(&searched);
-                let touched = boxes.iter().enumerate().filter(|(_, sides)| sides.are_within(limits));
-                touched.for_each(|(index, _)| take(index));
-            }
+            Self::List(list) => list.each_within(limits(&searched), take),
             Self::Tree(tree) => {
                 tree.locate_in_envelope_intersecting(searched).for_each(|found| take(found.data));
             }
@@ -62,7 +68,7 @@ impl Boxes {
         let at_least = |squared: f64| libm::sqrt(squared) - SLACK;
         match self {
             // Nothing is gained by sorting a few.
-            Self::List(boxes) => Box::new((0..boxes.len()).map(|index| (index, f64::NEG_INFINITY))),
+            Self::List(list) => Box::new((0..list.count).map(|index| (index, f64::NEG_INFINITY))),
             Self::Tree(tree) => {
                 let found = tree.nearest_neighbor_iter_with_distance_2([point.x, point.y]);
                 Box::new(found.map(move |(found, squared)| (found.data, at_least(squared))))
@@ -71,21 +77,47 @@ impl Boxes {
     }
 }
 
-impl Sides {
-    fn of(box_: &AABB<[f64; 2]>) -> Self {
-        let ([left, low], [right, high]) = (box_.lower(), box_.upper());
-        Self(f32x4::from([left, low, -right, -high].map(|side| rounded(side, -ROUNDING))))
+impl FromIterator<AABB<[f64; 2]>> for List {
+    fn from_iter<I: IntoIterator<Item = AABB<[f64; 2]>>>(boxes: I) -> Self {
+        let mut sides = boxes.into_iter().map(|box_| sides(&box_));
+        let (mut fours, mut count) = (Vec::with_capacity(sides.size_hint().0.div_ceil(4)), 0);
+        while let Some(first) = sides.next() {
+            // What is missing in the last is nowhere.
+            let mut four = [first, [f32::INFINITY; 4], [f32::INFINITY; 4], [f32::INFINITY; 4]];
+            count += 1;
+            for (place, next) in four[1..].iter_mut().zip(&mut sides) {
+                *place = next;
+                count += 1;
+            }
+            fours.push(Four(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
+        }
+        Self { fours, count }
     }
+}
 
-    /// Up to where the sides of boxes are that touch this one.
-    fn limits(box_: &AABB<[f64; 2]>) -> f32x4 {
-        let ([left, low], [right, high]) = (box_.lower(), box_.upper());
-        f32x4::from([right, high, -left, -low].map(|side| rounded(side, ROUNDING)))
+impl List {
+    fn each_within(&self, limits: Sides, mut take: impl FnMut(usize)) {
+        let limits = limits.map(f32x4::splat);
+        for (number, Four(sides)) in self.fours.iter().enumerate() {
+            let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
+            let mut found = ((left & low) & (right & high)).to_bitmask();
+            while found != 0 {
+                take(4 * number + found.trailing_zeros() as usize);
+                found &= found - 1;
+            }
+        }
     }
+}
 
-    fn are_within(self, limits: f32x4) -> bool {
-        self.0.simd_le(limits).all()
-    }
+fn sides(box_: &AABB<[f64; 2]>) -> Sides {
+    let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+    [left, low, -right, -high].map(|side| rounded(side, -ROUNDING))
+}
+
+/// Up to where the sides of boxes are that touch this one.
+fn limits(box_: &AABB<[f64; 2]>) -> Sides {
+    let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+    [right, high, -left, -low].map(|side| rounded(side, ROUNDING))
 }
 
 /// More than a number changes, as part of itself, when it becomes an `f32`.

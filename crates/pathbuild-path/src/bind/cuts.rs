@@ -10,49 +10,19 @@ use crate::element::{Cut, Element};
 use crate::geometry::Curve;
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
-use crate::text::ParameterText;
 
-/// How the last segments were milled, so that what says the same shares it. Only what nothing was wrong with is known.
-#[derive(Default)]
-pub(super) struct KnownCuts<'a> {
-    /// The last with a text of its own.
-    with_text: Option<Known<'a>>,
-    /// The last without, of each kind.
-    without_text: [Option<Known<'a>>; 3],
-}
-
-struct Known<'a> {
-    text: Option<ParameterText<'a>>,
+/// A way in which segments are milled, so that what says the same shares it. Only those are known with which nothing was wrong.
+pub(super) struct KnownCut {
+    /// What the segments say, by its number; `None` where they have no text.
+    wording: Option<u32>,
     cut: Cut,
     order: f64,
     /// Index into the path's cuts.
     number: u32,
 }
 
-impl Known<'_> {
-    fn says(&self, text: Option<ParameterText<'_>>) -> bool {
-        self.text.map(ParameterText::as_str) == text.map(ParameterText::as_str)
-    }
-}
-
-impl<'a> KnownCuts<'a> {
-    fn get(&self, text: Option<ParameterText<'_>>, cut: Cut) -> Option<(f64, u32)> {
-        let known = match text {
-            Some(_) => &self.with_text,
-            None => &self.without_text[cut as usize],
-        };
-        let known = known.as_ref().filter(|known| known.cut == cut && known.says(text))?;
-        Some((known.order, known.number))
-    }
-
-    fn insert(&mut self, known: Known<'a>) {
-        let place = match known.text {
-            Some(_) => &mut self.with_text,
-            None => &mut self.without_text[known.cut as usize],
-        };
-        *place = Some(known);
-    }
-}
+/// More are not looked through for each segment.
+const MOST_KNOWN: usize = 16;
 
 impl Binder<'_> {
     /// A segment of a milling chain, with its order at a star.
@@ -63,8 +33,10 @@ impl Binder<'_> {
         curve: &Curve,
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
-        let text = self.raw.drawn.text(element.text);
-        if let Some((order, number)) = self.known_cuts.get(text, cut) {
+        let wording = element.text.and_then(|text| self.raw.drawn.texts.wording_of(text));
+        let is_same = |known: &&KnownCut| known.wording == wording && known.cut == cut;
+        if let Some(KnownCut { order, number, .. }) = self.known_cuts.iter().find(is_same) {
+            let (order, number) = (*order, *number);
             if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
                 self.check_room(element, &bars, curve.length(), tool);
             }
@@ -72,14 +44,15 @@ impl Binder<'_> {
         }
         let reported = self.reported;
         let class = element.class(tool);
+        let text = self.raw.drawn.text(element.text);
         let values = self.element_values(At::Element(element), text, class == ElementClass::Support);
         let scope = Scope { element, class, values: &values, tool };
         let parameters = self.cut_parameters(&scope, cut, curve)?;
         let number = u32::try_from(self.cuts.len()).unwrap_or(u32::MAX);
         self.cuts.push(parameters);
         let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
-        if self.reported == reported {
-            self.known_cuts.insert(Known { text, cut, order, number });
+        if self.reported == reported && self.known_cuts.len() < MOST_KNOWN {
+            self.known_cuts.push(KnownCut { wording, cut, order, number });
         }
         Some((order, SegmentKind::Cut(number)))
     }

@@ -29,7 +29,7 @@ impl<'d> Collected<'d> {
         entity: &'d Entity,
         layer: u32,
         position: Position,
-        line_types: &mut LineTypes<'d, '_>,
+        line_types: &mut LineTypes<'_>,
     ) {
         let source = Source { id: self.next_id(position), entity: entity.kind, layer };
         let found = |line_type| Found { source, entity, line_type };
@@ -60,6 +60,10 @@ impl<'d> Collected<'d> {
 
     fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
         self.has_elements = true;
+        // As nearly all of them are.
+        if points.iter().all(|point| point.z == 0.0) {
+            return;
+        }
         if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
             let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
             self.report(self.origin(source, begin).at(problem));

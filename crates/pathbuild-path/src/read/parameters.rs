@@ -34,8 +34,10 @@ impl Checked {
                 }
             }
         }
-        for problem in self.raw.parameters().problems(ElementClass::PathStart) {
-            self.report(self.raw.at_parameters(problem));
+        if !self.raw.parameters().is_right(ElementClass::PathStart) {
+            for problem in self.raw.parameters().problems(ElementClass::PathStart) {
+                self.report(self.raw.at_parameters(problem));
+            }
         }
         self.define_variables();
         self.check_elements(self.raw.tool());
@@ -50,17 +52,17 @@ impl Checked {
         let drawn = Arc::clone(&self.raw.drawn);
         let mut seen = None;
         for element in &drawn.elements {
+            let Some(number) = element.text else { continue };
             // The parts of a polyline share one text, which is checked once.
-            if element.text.is_none() || element.text == seen {
+            if seen.replace(number) == Some(number) {
                 continue;
             }
-            seen = element.text;
-            let Some(text) = drawn.text(element.text) else { continue };
             let class = element.class(tool);
-            if text.is_right(class) {
+            if drawn.texts.is_right(number, class) {
                 continue;
             }
-            for problem in text.problems(class) {
+            let problems = drawn.texts.get(number).map(|text| text.problems(class));
+            for problem in problems.into_iter().flatten() {
                 self.report(drawn.origin(element).at(problem));
             }
         }

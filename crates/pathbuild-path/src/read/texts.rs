@@ -96,8 +96,7 @@ impl<'d> Texts<'d> {
 
     /// Gives each text to its element; what finds none is PB107.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
-        let texts = || self.layers.iter().flat_map(|layer| &layer.texts);
-        path.given.reserve(texts().count(), texts().map(|text| text.string().len()).sum());
+        path.given.reserve(self.layers.iter().map(|layer| layer.texts.len()).sum());
         for layer in &mut self.layers {
             layer.assign(path);
         }

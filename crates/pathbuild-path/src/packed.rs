@@ -1,0 +1,22 @@
+//! Short texts as numbers, which are compared at once: names and texts that are looked up for each element.
+
+/// A text of at most 15 bytes as a number that no other one has, and that is not 0.
+pub(crate) fn packed(text: &str) -> Option<u128> {
+    let bytes = text.as_bytes();
+    let length = bytes.len();
+    if length > MOST {
+        return None;
+    }
+    // Where both parts overlap they are the same.
+    let number = if let (Some(first), Some(last)) = (bytes.first_chunk(), bytes.last_chunk()) {
+        u128::from(u64::from_le_bytes(*first)) | u128::from(u64::from_le_bytes(*last)) << (8 * (length - 8))
+    } else if let (Some(first), Some(last)) = (bytes.first_chunk(), bytes.last_chunk()) {
+        u128::from(u32::from_le_bytes(*first)) | u128::from(u32::from_le_bytes(*last)) << (8 * (length - 4))
+    } else {
+        bytes.iter().rev().fold(0, |number, byte| number << 8 | u128::from(*byte))
+    };
+    Some(number | (length as u128 + 1) << (8 * MOST))
+}
+
+/// Longest text that has a number.
+const MOST: usize = 15;
