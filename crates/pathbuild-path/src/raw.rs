@@ -136,9 +136,9 @@ impl Drawn {
 }
 
 impl SourceMap {
-    /// Makes room for so many more.
-    pub(crate) fn reserve(&mut self, count: usize) {
-        self.0.reserve_exact(count);
+    /// None yet, with room for so many.
+    pub(crate) fn with_capacity(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
     }
 
     pub(crate) fn push(&mut self, position: Position) {

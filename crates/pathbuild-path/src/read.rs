@@ -10,6 +10,7 @@ mod meaning;
 mod parameters;
 mod proxies;
 mod texts;
+mod workspace;
 
 use std::collections::BTreeMap;
 
@@ -21,6 +22,7 @@ use crate::name::PathName;
 use crate::raw::{Language, RawFile};
 
 use collect::Collected;
+use workspace::Workspace;
 
 pub(crate) use collect::Owner;
 
@@ -29,7 +31,11 @@ pub use proxies::{ProxyLine, proxy_lines};
 
 /// Finds the paths of a drawing. A drawing with errors of its own has none.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
-    let mut collected = collect::paths(drawing, language);
+    Workspace::with(|workspace| raw_file_in(workspace, drawing, language))
+}
+
+fn raw_file_in(workspace: &mut Workspace, drawing: &Drawing, language: &Language) -> RawFile {
+    let mut collected = collect::paths(drawing, language, workspace);
     let without_elements = collected.extract_if(.., |path| !path.has_elements()).collect::<Vec<_>>();
     let mut diagnostics = drawing.diagnostics.clone();
     for path in without_elements {
@@ -39,7 +45,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
         path.assign_texts();
     }
     let starts = starts(&collected);
-    let paths = collected.into_iter().map(|path| path.finish(&starts)).collect();
+    let paths = collected.into_iter().map(|path| path.finish(&starts, workspace)).collect();
     RawFile { paths, diagnostics }
 }
 

@@ -130,7 +130,8 @@ impl ParameterTexts {
 
     /// A text by its number.
     pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
-        let Wording { string, pieces, letters, is_plain, .. } = &self.wordings[self.wording_of(number)? as usize];
+        let Wording { string, pieces, letters, is_plain, .. } =
+            &self.wordings[self.wording_of(number)? as usize];
         Some(ParameterText {
             string: &self.string[string.clone()],
             pieces: &self.pieces[pieces.clone()],

@@ -9,8 +9,9 @@ use pathbuild_dxf::Drawing;
 use super::Starts;
 use super::checked::Checked;
 use super::elements::{Elements, Place};
-use super::layers::{Count, Membership, counts, path_layers};
+use super::layers::{Membership, path_layers};
 use super::texts::Texts;
+use super::workspace::Workspace;
 use crate::assign::Candidate;
 use crate::element::Marker;
 use crate::line_type::LineTypes;
@@ -48,18 +49,23 @@ pub(crate) enum Owner {
 }
 
 /// The paths of a drawing in order of first appearance, their texts not yet assigned.
-pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
+pub(super) fn paths<'d>(
+    drawing: &'d Drawing,
+    language: &Language,
+    workspace: &mut Workspace,
+) -> Vec<Collected<'d>> {
     let layers = path_layers(drawing, &language.path_pattern);
     let mut by_path: Vec<&[(PathName, usize)]> = layers.chunk_by(|one, other| one.0 == other.0).collect();
     by_path.sort_by_key(|layers| layers[0].1);
-    let counts = counts(drawing);
+    // Mostly there is one layer, with everything on it.
+    let room = drawing.entities.len() / layers.len().max(1);
     let mut paths = Vec::with_capacity(by_path.len());
     let mut memberships = vec![None; drawing.layers.len()];
     for (path, layers) in by_path.into_iter().enumerate() {
         for (layer, (_, number)) in (0_u32..).zip(layers) {
             memberships[*number] = Some(Membership { path, layer });
         }
-        paths.push(Collected::new(drawing, layers, &counts));
+        paths.push(Collected::new(drawing, layers, room, workspace));
     }
     let mut line_types = LineTypes::new(&language.line_types);
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
@@ -83,17 +89,17 @@ pub(crate) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
 }
 
 impl Collected<'_> {
-    /// A path with these layers, with room for what is on them.
-    fn new(drawing: &Drawing, layers: &[(PathName, usize)], counts: &[Count]) -> Self {
+    /// A path with these layers, with room for so many entities on each.
+    fn new(drawing: &Drawing, layers: &[(PathName, usize)], room: usize, workspace: &mut Workspace) -> Self {
         let mut path = Self {
             name: layers[0].0.clone(),
             start: None,
             end: None,
             turns: Vec::new(),
             probes: Vec::new(),
-            elements: Elements::default(),
+            elements: workspace.elements(),
             given: ParameterTexts::default(),
-            map: SourceMap::default(),
+            map: SourceMap::with_capacity(layers.len() * room),
             texts: Texts::with_capacity(layers.len()),
             left_out: Vec::new(),
             diagnostics: Vec::new(),
@@ -102,10 +108,8 @@ impl Collected<'_> {
             has_elements: false,
         };
         for (_, number) in layers {
-            let (layer, count) = (&drawing.layers[*number], counts[*number]);
-            path.texts.add_layer(&layer.name, count);
-            path.elements.reserve(count);
-            path.map.reserve(count.texts + count.others());
+            let layer = &drawing.layers[*number];
+            path.texts.add_layer(&layer.name, workspace.candidates(), room);
             if layer.hidden {
                 path.report_hidden(&layer.name);
             }
@@ -146,12 +150,13 @@ impl Collected<'_> {
     }
 
     /// Puts the elements into the order of segments, and checks what needs no values.
-    pub(crate) fn finish(self, starts: &Starts) -> (RawPath, SourceMap) {
+    pub(super) fn finish(mut self, starts: &Starts, workspace: &mut Workspace) -> (RawPath, SourceMap) {
         let drawn = Drawn {
-            elements: self.elements.in_order(),
+            elements: self.elements.take_in_order(),
             texts: self.given,
-            layers: self.texts.into_layer_names(),
+            layers: self.texts.into_layer_names(workspace),
         };
+        workspace.keep_elements(self.elements);
         let raw = RawPath {
             name: self.name,
             start: self.start,

@@ -1,7 +1,6 @@
 //! The elements of a path while they are read in file order: kept apart by what comes first as a segment.
 //! (spec/50-path-building.md, "Segments")
 
-use super::layers::Count;
 use crate::element::{Element, Shape};
 use crate::geometry::Curve;
 
@@ -22,12 +21,6 @@ pub(crate) enum Place {
 }
 
 impl Elements {
-    /// Makes room for a layer's. Arcs, which are fewer, are appended to the lines.
-    pub(super) fn reserve(&mut self, count: Count) {
-        self.lines.reserve(count.lines + count.arcs);
-        self.arcs.reserve(count.arcs);
-    }
-
     /// The place of the next element of this shape.
     pub(super) fn next(&self, shape: &Shape) -> Place {
         match shape {
@@ -53,13 +46,16 @@ impl Elements {
         }
     }
 
-    /// All of them in the order of segments.
-    pub(super) fn in_order(mut self) -> Vec<Element> {
-        let mut elements = self.lines;
-        elements.append(&mut self.arcs);
-        if !self.circles.is_empty() {
-            elements.splice(0..0, self.circles);
-        }
+    /// Takes all of them in the order of segments.
+    pub(super) fn take_in_order(&mut self) -> Vec<Element> {
+        let kinds = [&mut self.circles, &mut self.lines, &mut self.arcs];
+        let mut elements = Vec::with_capacity(kinds.iter().map(|kind| kind.len()).sum());
+        kinds.into_iter().for_each(|kind| elements.append(kind));
         elements
+    }
+
+    /// For how many there is room.
+    pub(super) fn room(&self) -> usize {
+        self.circles.capacity() + self.lines.capacity() + self.arcs.capacity()
     }
 }

@@ -10,7 +10,7 @@ use pathbuild_dxf::{MText, Text};
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
-use super::layers::Count;
+use super::workspace::Workspace;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
@@ -44,19 +44,24 @@ impl<'d> Texts<'d> {
         Self { layers: Vec::with_capacity(layers) }
     }
 
-    /// The next layer, with how much is on it as far as that is known.
-    pub(crate) fn add_layer(&mut self, name: &str, count: Count) {
+    /// The next layer, with an empty list for its candidates and room for so many entities.
+    pub(super) fn add_layer(&mut self, name: &str, mut candidates: Vec<Candidate>, room: usize) {
+        candidates.reserve(room);
         self.layers.push(LayerTexts {
             name: name.into(),
-            candidates: Vec::with_capacity(count.others()),
+            candidates,
             boxes: Boxes::default(),
-            texts: Vec::with_capacity(count.texts),
+            texts: Vec::with_capacity(room / 2),
         });
     }
 
     /// The names of the layers in order.
-    pub(crate) fn into_layer_names(self) -> Vec<Arc<str>> {
-        self.layers.into_iter().map(|layer| layer.name).collect()
+    pub(super) fn into_layer_names(self, workspace: &mut Workspace) -> Vec<Arc<str>> {
+        let name_of = |layer: LayerTexts<'_>| {
+            workspace.keep_candidates(layer.candidates);
+            layer.name
+        };
+        self.layers.into_iter().map(name_of).collect()
     }
 
     /// Where an entity is that begins, or has its centre, at a point.
