@@ -50,7 +50,9 @@ impl Elements {
     pub(super) fn take_in_order(&mut self) -> Vec<Element> {
         let kinds = [&mut self.circles, &mut self.lines, &mut self.arcs];
         let mut elements = Vec::with_capacity(kinds.iter().map(|kind| kind.len()).sum());
-        kinds.into_iter().for_each(|kind| elements.append(kind));
+        for kind in kinds {
+            elements.append(kind);
+        }
         elements
     }
 
