@@ -32,10 +32,10 @@ impl Kind {
     /// The same for a name that is not written like this.
     #[inline(never)]
     fn unusual(name: &[u8]) -> Option<Self> {
-        let name = name.trim_ascii();
-        if !name.iter().any(u8::is_ascii_lowercase) {
-            return Self::exact(name);
+        if name.iter().all(u8::is_ascii_uppercase) {
+            return None;
         }
+        let name = name.trim_ascii();
         let mut room = [0; LONGEST];
         let upper_case = room.get_mut(..name.len())?;
         upper_case.copy_from_slice(name);

@@ -105,7 +105,11 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         let Some(block) = self.blocks.find(&insert.block) else {
             let point = insert.array.ok().map(|array| array.begin());
-            let trouble = Trouble::LeftOut { message: &BLOCK_MISSING, point, block: Some(insert.block) };
+            let trouble = Trouble::LeftOut {
+                message: &BLOCK_MISSING,
+                point,
+                block: Some(insert.block.as_str().into()),
+            };
             return self.refuse(traits, &[layer], &trouble, around);
         };
         let wanted = self.blocks.wanted_layers(block, layer, self.reader)?;
@@ -113,7 +117,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return Ok(());
         }
         if self.open.contains(&block) || self.open.len() >= DEEPEST {
-            return self.refuse(traits, &wanted, &Trouble::Nested(insert.block), around);
+            return self.refuse(traits, &wanted, &Trouble::Nested(insert.block.as_str().into()), around);
         }
         match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
             Ok(copies) => self.copy(traits, layer, block, copies, around),

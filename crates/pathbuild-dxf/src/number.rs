@@ -22,8 +22,9 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
 /// Reads a whole number; one written as a real (`5.0`) is fine.
 pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
     // Nearly all are padded, and have one digit.
-    let value = value.trim_ascii();
-    if let [digit @ b'0'..=b'9'] = value {
+    if let [blanks @ .., digit @ b'0'..=b'9'] = value
+        && blanks.iter().all(|byte| *byte == b' ')
+    {
         return Ok(i64::from(digit - b'0'));
     }
     let number = real(value)?;

@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::reading::INSERT_SCALED;
+use smol_str::SmolStr;
 
 use super::is_mirrored;
 use crate::Point3;
@@ -14,33 +15,36 @@ use crate::trouble::Trouble;
 #[derive(Clone, Debug)]
 pub(crate) struct Insert<'a> {
     /// The block's name as it is spelt here.
-    pub(crate) block: Box<str>,
+    pub(crate) block: SmolStr,
     /// Where; whatever is wrong with that is only of interest if the block holds something that is wanted.
     pub(crate) array: Result<Array, Trouble<'a>>,
 }
 
-/// Where the copies of a block go.
+/// Where the copies of a block go. Most blocks hold nothing that is wanted, so it is not worked out before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Array {
-    /// From the block's coordinates, with its base point at the origin, to those of the space, for the first copy.
-    first: Placement,
-    /// From the first copy to the next in x and in y.
+    /// In object coordinates.
+    at: Point3,
+    is_mirrored: bool,
+    scaled: Placement,
+    /// Degrees.
+    turn: f64,
     columns: Steps,
     rows: Steps,
 }
 
+/// Copies of a block, and how far it is from each to the next.
 #[derive(Clone, Copy, Debug)]
 struct Steps {
     count: u32,
-    x: f64,
-    y: f64,
+    distance: f64,
 }
 
 impl<'a> Insert<'a> {
     /// Reads one.
     pub(crate) fn read(fields: &Fields<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Trouble<'a>> {
         let name = fields.get(2).ok_or(BadGroup::Missing { code: 2 })?;
-        let block: Box<str> = decoder.decode(name.bytes, name.line).trim().into();
+        let block: SmolStr = decoder.decode(name.bytes, name.line).trim().into();
         let array = Array::read(fields, &block);
         Ok(Self { block, array })
     }
@@ -49,45 +53,62 @@ impl<'a> Insert<'a> {
 impl Array {
     fn read<'a>(fields: &Fields<'a>, block: &str) -> Result<Self, Trouble<'a>> {
         let at = fields.point(10)?;
-        let object = if is_mirrored(fields)? { Placement::MIRRORED } else { Placement::IDENTITY };
+        let is_mirrored = is_mirrored(fields)?;
         let [x, y, z] = [scale(fields, 41)?, scale(fields, 42)?, scale(fields, 43)?];
         let Some(scaled) = Placement::scaled_by(x, y, z) else {
-            let at = object.point(at);
+            let at = object(is_mirrored).point(at);
             let point = Some(Point::new(at.x, at.y));
             return Err(Trouble::LeftOut { message: &INSERT_SCALED, point, block: Some(block.into()) });
         };
-        let turned = Placement::turned(fields.number(50)?.unwrap_or(0.0));
-        // Copies are set off along the turned axes, but not scaled.
-        let direction = object.after(&turned);
-        let step = |x: f64, y: f64, count: u32| {
-            let (x, y) = direction.direction(x, y);
-            Steps { count, x, y }
-        };
         Ok(Self {
-            first: object.after(&Placement::moved(at)).after(&turned).after(&scaled),
-            columns: step(fields.number(44)?.unwrap_or(0.0), 0.0, count(fields, 70)?),
-            rows: step(0.0, fields.number(45)?.unwrap_or(0.0), count(fields, 71)?),
+            at,
+            is_mirrored,
+            scaled,
+            turn: fields.number(50)?.unwrap_or(0.0),
+            columns: Steps::read(fields, 44, 70)?,
+            rows: Steps::read(fields, 45, 71)?,
         })
     }
 
     /// The point of insertion.
     pub(crate) fn begin(&self) -> Point {
-        let at = self.first.point(Point3::default());
+        let at = self.first().point(Point3::default());
         Point::new(at.x, at.y)
+    }
+
+    /// From the block's coordinates, with its base point at the origin, to those of the space, for the first copy.
+    fn first(&self) -> Placement {
+        let moved = object(self.is_mirrored).after(&Placement::moved(self.at));
+        moved.after(&Placement::turned(self.turn)).after(&self.scaled)
     }
 
     /// The placement of each copy, for a block with this base point.
     pub(crate) fn copies(self, base: Point3) -> impl Iterator<Item = Placement> {
-        let first = self.first.after(&Placement::moved(Point3 { x: -base.x, y: -base.y, z: -base.z }));
+        let first = self.first().after(&Placement::moved(Point3 { x: -base.x, y: -base.y, z: -base.z }));
+        // Copies are set off along the turned axes, but not scaled.
+        let direction = object(self.is_mirrored).after(&Placement::turned(self.turn));
+        let column_step = direction.direction(self.columns.distance, 0.0);
+        let row_step = direction.direction(0.0, self.rows.distance);
         let places = (0..self.rows.count)
             .flat_map(move |row| (0..self.columns.count).map(move |column| (row, column)));
         places.map(move |(row, column)| {
             let [row, column] = [f64::from(row), f64::from(column)];
-            let x = self.columns.x * column + self.rows.x * row;
-            let y = self.columns.y * column + self.rows.y * row;
+            let x = column_step.0 * column + row_step.0 * row;
+            let y = column_step.1 * column + row_step.1 * row;
             Placement::moved(Point3 { x, y, z: 0.0 }).after(&first)
         })
     }
+}
+
+impl Steps {
+    fn read<'a>(fields: &Fields<'a>, distance: i32, count: i32) -> Result<Self, BadGroup<'a>> {
+        Ok(Self { distance: fields.number(distance)?.unwrap_or(0.0), count: self::count(fields, count)? })
+    }
+}
+
+/// From object coordinates to those of the space.
+fn object(is_mirrored: bool) -> Placement {
+    if is_mirrored { Placement::MIRRORED } else { Placement::IDENTITY }
 }
 
 /// A scale, 1 when it is missing.
