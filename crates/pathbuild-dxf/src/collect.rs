@@ -1,5 +1,7 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
+#![expect(clippy::inline_always, reason = "an entity is made where it ends up, without copies from function to function")]
+
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
@@ -91,7 +93,7 @@ impl Collector {
     }
 
     /// Adds an entity.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn add(
         &mut self,
         placed: &Placed<'_>,
@@ -139,7 +141,7 @@ impl Collector {
         parts.into_iter().try_for_each(|part| self.push(placed, layer, group, part))
     }
 
-    #[inline]
+    #[inline(always)]
     fn push(
         &mut self,
         placed: &Placed<'_>,

@@ -1,5 +1,7 @@
 //! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
 
+#![expect(clippy::inline_always, reason = "an entity is made where it ends up, without copies from function to function")]
+
 use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
 use smol_str::SmolStr;
 
@@ -76,7 +78,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    #[inline]
+    #[inline(always)]
     fn place(&mut self, item: Item<'a>, around: &Around) -> Result<(), Fatal> {
         let layer = match &around.insertion {
             Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
