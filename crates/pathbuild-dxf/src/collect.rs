@@ -1,6 +1,9 @@
 //! Items to the entities, faults and left-out curves of a [`Drawing`].
 
-#![expect(clippy::inline_always, reason = "an entity is made where it ends up, without copies from function to function")]
+#![expect(
+    clippy::inline_always,
+    reason = "an entity is made where it ends up, without copies from function to function"
+)]
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 

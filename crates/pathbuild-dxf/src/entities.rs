@@ -1,5 +1,10 @@
 //! The entities of a section or block, one after the other: those on wanted layers, with their numbers parsed.
 
+#![expect(
+    clippy::inline_always,
+    reason = "an entity is made where it ends up, without copies from function to function"
+)]
+
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
 use crate::code::Role;
@@ -88,6 +93,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
+    #[inline(always)]
     pub(crate) fn next_item(
         &mut self,
         records: &mut Records<'a>,
@@ -129,6 +135,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
+    #[inline(always)]
     fn item(
         &mut self,
         records: &mut Records<'a>,
@@ -197,6 +204,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         self.fields.whole(67).is_ok_and(|flag| flag == Some(1))
     }
 
+    #[inline(always)]
     fn shape(&mut self, kind: Kind) -> Result<Shape<'a>, Trouble<'a>> {
         let Self { fields, decoder, options, .. } = self;
         if kind != Kind::MText && kind.repeated_codes() != 0 && fields.is_full() {

@@ -1,6 +1,9 @@
 //! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
 
-#![expect(clippy::inline_always, reason = "an entity is made where it ends up, without copies from function to function")]
+#![expect(
+    clippy::inline_always,
+    reason = "an entity is made where it ends up, without copies from function to function"
+)]
 
 use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
 use smol_str::SmolStr;
