@@ -15,8 +15,8 @@ use crate::sections::Keyword;
 pub(crate) struct Header<'a> {
     version: Option<&'a [u8]>,
     code_page: Option<&'a [u8]>,
-    /// Where the value of `$INSUNITS` stands.
-    units: Option<Pairs<'a>>,
+    /// With where it stands, since its line is not counted.
+    units: Option<(Pair<'a>, Pairs<'a>)>,
 }
 
 static VERSION: Keyword = LazyLock::new(|| Finder::new("$ACADVER"));
@@ -30,7 +30,7 @@ impl<'a> Header<'a> {
             if let Some(mut pairs) = section.behind("9", variable) {
                 let place = pairs;
                 if let Ok(value) = pairs.next() {
-                    self.set(variable.needle(), value.value, place);
+                    self.set(variable.needle(), value, place);
                 }
             }
         }
@@ -46,7 +46,7 @@ impl<'a> Header<'a> {
                 0 => return Ok(pair),
                 9 => variable = pair.value.trim_ascii(),
                 999 => {}
-                _ => self.set(variable, pair.value, place),
+                _ => self.set(variable, pair, place),
             }
         }
     }
@@ -67,7 +67,7 @@ impl<'a> Header<'a> {
 
     /// `$INSUNITS`.
     pub(crate) fn units(&self) -> Result<Option<i64>, Fatal> {
-        let Some(Ok(pair)) = self.units.map(|mut pairs| pairs.next()) else { return Ok(None) };
+        let Some((pair, _)) = self.units else { return Ok(None) };
         whole(pair.value).map(Some).map_err(|reason| {
             let diagnostic = faults::bad_value("$INSUNITS", pair.code, pair.value, reason);
             Box::new(self.at_units(diagnostic))
@@ -77,16 +77,16 @@ impl<'a> Header<'a> {
     /// This is to be said of the value of `$INSUNITS`.
     pub(crate) fn at_units(&self, diagnostic: Diagnostic) -> Diagnostic {
         match self.units {
-            Some(pairs) => diagnostic.at_line(pairs.counted_line().saturating_add(1), None),
+            Some((_, pairs)) => diagnostic.at_line(pairs.counted_line().saturating_add(1), None),
             None => diagnostic,
         }
     }
 
-    fn set(&mut self, variable: &[u8], value: &'a [u8], place: Pairs<'a>) {
+    fn set(&mut self, variable: &[u8], pair: Pair<'a>, place: Pairs<'a>) {
         match variable {
-            b"$ACADVER" => self.version = Some(value),
-            b"$DWGCODEPAGE" => self.code_page = Some(value),
-            b"$INSUNITS" => self.units = Some(place),
+            b"$ACADVER" => self.version = Some(pair.value),
+            b"$DWGCODEPAGE" => self.code_page = Some(pair.value),
+            b"$INSUNITS" => self.units = Some((pair, place)),
             _ => {}
         }
     }

@@ -4,7 +4,7 @@
 //! A line ends with LF, CRLF, CRCRLF, or, in files of old Macs, with CR alone; which of the two bytes ends lines is decided once a
 //! file. Codes may be padded, values are given as they stand.
 
-use memchr::{memchr, memchr_iter};
+use memchr::memchr;
 use wide::u8x16;
 
 /// A group code and its value.
@@ -113,7 +113,7 @@ impl<'a> Pairs<'a> {
 
     /// Goes on at a later place, which must be the beginning of a line.
     pub(crate) fn jump_to(&mut self, at: usize) {
-        let lines = memchr_iter(self.line_end, &self.bytes[self.at..at]).count();
+        let lines = count(self.line_end, &self.bytes[self.at..at]);
         self.line = self.line.saturating_add(u32::try_from(lines).unwrap_or(u32::MAX));
         self.at = at;
     }
@@ -158,6 +158,15 @@ const LONGEST_PADDING: usize = 1 << 16;
 
 /// Most bytes of a line that are shown when it is wrong.
 const MOST_SHOWN: usize = 60;
+
+/// How often a byte occurs.
+fn count(byte: u8, bytes: &[u8]) -> usize {
+    /// So few that no count of them is too large for a byte.
+    const BLOCK: usize = 240;
+    let (blocks, rest) = bytes.as_chunks::<BLOCK>();
+    let among = |bytes: &[u8]| bytes.iter().map(|other| u8::from(*other == byte)).sum::<u8>();
+    blocks.iter().map(|block| usize::from(among(block))).sum::<usize>() + usize::from(among(rest))
+}
 
 /// Where a byte is, if it is among the next few, as the end of nearly every line is.
 #[inline]

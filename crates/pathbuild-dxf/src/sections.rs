@@ -7,7 +7,6 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use memchr::memmem::{Finder, FinderRev};
-use memchr::memrchr;
 
 use crate::pairs::{Pair, Pairs};
 
@@ -77,7 +76,8 @@ impl<'a> Pairs<'a> {
     fn pair_of(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
         let (before, after) = (&self.bytes()[..value.start], &self.bytes()[value.end..]);
         let before = trim_blanks_end(before).strip_suffix(&[self.line_end()])?;
-        let start = memrchr(self.line_end(), before).map_or(0, |line_end| line_end + 1);
+        let start =
+            before.iter().rposition(|byte| *byte == self.line_end()).map_or(0, |line_end| line_end + 1);
         let has_code = before[start..].trim_ascii() == code;
         let is_whole_line = trim_blanks(after).first().is_none_or(|byte| matches!(byte, b'\r' | b'\n'));
         (has_code && is_whole_line && start >= self.consumed()).then_some(start)
