@@ -40,6 +40,19 @@ fn a_check_ends_with_one_line() {
     assert_snapshot!(timeless(&library().run("check --lang de --format concise")));
 }
 
+/// Where there are files of rules directories are walked in another way.
+#[test]
+fn drawings_are_named_alike_with_and_without_rules() {
+    let (plain, ruled) = (library(), library().file("parts/.ignore", "nothing\n"));
+    for directory in [".", "parts", "./parts/", "parts/../parts"] {
+        let run =
+            |place: &Place| timeless(&place.run(&format!("check --no-cache --format concise {directory}")));
+        let found = run(&plain);
+        assert!(found.lines().any(|line| line.starts_with("parts/1236.1P.dxf:")), "{found}");
+        assert_eq!(run(&ruled), found);
+    }
+}
+
 #[test]
 fn the_status_is_that_of_the_worst_finding() {
     let place = library();

@@ -39,7 +39,7 @@ pub(super) struct Walk {
 
 impl Walk {
     /// Every drawing in a directory and below; .gitignore and .ignore files inside are respected. Links to directories are not followed: they
-    /// could lead anywhere, and round in circles.
+    /// could lead anywhere, and round in circles. What is found is spelt as the root is: normally, if that is.
     pub(super) fn through(self, root: &Utf8Path) -> Walked {
         let (mut walked, count) = self.plain(root).unwrap_or_else(|HasRules| self.ruled(root));
         if count > self.limit.saturating_add(1) {
@@ -95,12 +95,13 @@ impl Walk {
         let mut walked = Walked::default();
         let mut count = 0;
         let named = walk.build().filter_map(Result::ok).filter_map(|entry| {
-            let path = Utf8Path::from_path(entry.path())?.to_owned();
+            let path = Utf8Path::from_path(entry.path())?;
+            let path = if root.as_str().is_empty() { path.strip_prefix(".").unwrap_or(path) } else { path };
             // What was named may be a link itself.
             let is_directory = entry
                 .file_type()
                 .is_some_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.depth() == 0));
-            Some((path, is_directory))
+            Some((path.to_owned(), is_directory))
         });
         for (path, is_directory) in named.take(most) {
             count += 1;

@@ -1,7 +1,6 @@
 //! Which drawings and paths the arguments mean. (spec/05-command-line.md)
 
 use std::cell::LazyCell;
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -12,6 +11,7 @@ use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::{Session, library};
 use crate::args::{Input, Inputs};
@@ -31,7 +31,7 @@ pub struct Wanted {
     /// What is in directories that were looked through.
     pub listings: Listings,
     /// Where each drawing stands in `drawings`.
-    places: HashMap<SourceFile, usize>,
+    places: FxHashMap<SourceFile, usize>,
 }
 
 /// The drawings in directories.
@@ -197,7 +197,7 @@ impl Session<'_> {
         let walked = self.walked(&directory);
         wanted.problems.extend(walked.problem.as_deref().cloned());
         for drawing in walked.drawings {
-            wanted.add_drawing(self.file(&drawing), false);
+            wanted.add_drawing(self.db.file(&drawing), false);
         }
         wanted.listings.extend(walked.listings);
         wanted.directories.push(directory);

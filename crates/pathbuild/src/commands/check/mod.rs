@@ -95,6 +95,7 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     found.extend(check_paths(session, &single, with_all_values));
     let files = whole.iter().copied().chain(single.iter().map(|asked| asked.file));
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
+    checked.files.reserve(found.len());
     for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
         let paths = names.into_iter().map(|name| CheckedPath { name, time: None }).collect();
         checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths });
@@ -117,6 +118,9 @@ fn rehearse(session: &Session<'_>, args: &CheckArgs) -> Option<()> {
 
 /// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.
 fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked<'static>> {
+    if paths.is_empty() {
+        return Vec::new();
+    }
     let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
     let mut single: Vec<Asked<'static>> = Vec::new();
     for WantedPath { file, name } in paths.into_iter().filter(|path| !is_whole.contains(&path.file)) {
