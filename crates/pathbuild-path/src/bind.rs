@@ -62,8 +62,8 @@ impl<'a> Binder<'a> {
             language,
             interpolation,
             values,
-            cuts: Vec::new(),
-            known_cuts: Vec::new(),
+            cuts: Vec::with_capacity(cuts::FEW),
+            known_cuts: Vec::with_capacity(cuts::FEW),
             problems: Vec::new(),
             reported: 0,
         }

@@ -69,17 +69,29 @@ pub struct PlacedSubpath {
 /// What was gone along so far. Chains without I, and letters without effect inside chains, are reported.
 pub(crate) struct Grouped<'a> {
     path: &'a Path,
-    items: Vec<Item>,
-    /// The members of the chain so far.
-    chain: Vec<ChainSegment>,
+    room: Room,
     diagnostics: Vec<Diagnostic>,
 }
 
+/// Where the items are collected, and the members of the chain that is not yet one of them.
+#[derive(Default)]
+pub(crate) struct Room {
+    items: Vec<Item>,
+    chain: Vec<ChainSegment>,
+}
+
+impl Room {
+    /// For how many segments there is room.
+    pub(crate) fn size(&self) -> usize {
+        self.items.capacity().max(self.chain.capacity())
+    }
+}
+
 impl<'a> Grouped<'a> {
-    pub(crate) fn new(path: &'a Path) -> Self {
-        let count = path.segments.len();
-        let (items, chain) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        Self { path, items, chain, diagnostics: Vec::new() }
+    pub(crate) fn new(path: &'a Path, mut room: Room) -> Self {
+        room.items.clear();
+        room.chain.clear();
+        Self { path, room, diagnostics: Vec::new() }
     }
 
     /// Takes the next segment that is gone along.
@@ -87,16 +99,21 @@ impl<'a> Grouped<'a> {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
             let segment = u32::try_from(segment).unwrap_or(u32::MAX);
             let Passage { is_turned, moved, .. } = passage;
-            return self.chain.push(ChainSegment { segment, cut, is_return, is_turned, moved });
+            return self.room.chain.push(ChainSegment { segment, cut, is_return, is_turned, moved });
         }
         self.finish_chain();
-        self.items.extend(self.single(segment, &passage, is_return));
+        self.room.items.extend(self.single(segment, &passage, is_return));
     }
 
     /// All that was gone along, and what is wrong with it.
     pub(crate) fn finish(&mut self) -> (Vec<Item>, Vec<Diagnostic>) {
         self.finish_chain();
-        (std::mem::take(&mut self.items), std::mem::take(&mut self.diagnostics))
+        (self.room.items.drain(..).collect(), std::mem::take(&mut self.diagnostics))
+    }
+
+    /// Where it was collected, for the next path.
+    pub(crate) fn into_room(self) -> Room {
+        self.room
     }
 
     /// What is done along a segment that is in no chain. Going back over it is a sweep.
@@ -114,21 +131,22 @@ impl<'a> Grouped<'a> {
 
     /// Ends the chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
-        let [first, others @ ..] = &*self.chain else { return };
+        let Room { items, chain } = &mut self.room;
+        let [first, others @ ..] = &**chain else { return };
         let has_letters = |member: &ChainSegment| member.cut(self.path).chain_letters.is_some();
         for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {
             self.diagnostics.extend(member.letters_without_effect(self.path));
         }
         let parameters = first.cut(self.path).chain;
         match parameters.infeed {
-            Some(infeed) => self.items.push(Item::Chain(Chain {
+            Some(infeed) => items.push(Item::Chain(Chain {
                 infeed,
                 first_depth: parameters.first_depth,
-                segments: self.chain.drain(..).collect(),
+                segments: chain.drain(..).collect(),
             })),
             None => self.diagnostics.push(first.without_infeed(self.path)),
         }
-        self.chain.clear();
+        chain.clear();
     }
 }
 

@@ -44,7 +44,14 @@ struct Limits<'a> {
 }
 
 impl Limits<'_> {
+    #[inline]
     fn check_positive(&mut self, letter: Letter) {
+        if self.own.has(letter) {
+            self.compare_with_zero(letter);
+        }
+    }
+
+    fn compare_with_zero(&mut self, letter: Letter) {
         let Given::Number(value) = self.own.number(letter) else { return };
         if !above(value, 0.0) {
             let problem = Diagnostic::new(&messages::NOT_POSITIVE);
@@ -54,10 +61,14 @@ impl Limits<'_> {
     }
 
     /// That `upper` is above `lower`, where the own text gives at least one of them: else it is the path's fault, reported there.
+    #[inline]
     fn check_above(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
-        if !self.own.has(upper) && !self.own.has(lower) {
-            return;
+        if self.own.has(upper) || self.own.has(lower) {
+            self.compare(upper, lower, message);
         }
+    }
+
+    fn compare(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
         let value = |letter| -> Given { self.own.number(letter).or(self.path.number(letter)) };
         let (Given::Number(high), Given::Number(low)) = (value(upper), value(lower)) else { return };
         if above(high, low) {

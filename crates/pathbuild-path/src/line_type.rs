@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::packed::packed;
+use crate::packed::{Recent, packed};
 
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -64,28 +64,22 @@ impl LineTypeAliases {
 /// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
 pub(crate) struct LineTypes<'l> {
     aliases: &'l LineTypeAliases,
-    /// The first names that came, as numbers; 0 where there are no more.
-    known: [(u128, Option<LineType>); 8],
+    recent: Recent<Option<LineType>>,
 }
 
 impl<'l> LineTypes<'l> {
     pub(crate) fn new(aliases: &'l LineTypeAliases) -> Self {
-        Self { aliases, known: [(0, None); 8] }
+        Self { aliases, recent: Recent::new() }
     }
 
-    /// What a name stands for.
+    /// What a name stands for. Long ones are looked up each time.
     pub(crate) fn get(&mut self, name: &str) -> Option<LineType> {
-        // Long names, and more than there is room for, are looked up each time.
         let Some(number) = packed(name) else { return LineType::of(name, self.aliases) };
-        let known = self.known.iter_mut().find(|(known, _)| *known == number || *known == 0);
-        match known {
-            Some((known, line_type)) if *known == number => *line_type,
-            Some(free) => {
-                *free = (number, LineType::of(name, self.aliases));
-                free.1
-            }
-            None => LineType::of(name, self.aliases),
-        }
+        self.recent.get(number).unwrap_or_else(|| {
+            let line_type = LineType::of(name, self.aliases);
+            self.recent.insert(number, line_type);
+            line_type
+        })
     }
 }
 

@@ -45,7 +45,8 @@ fn raw_file_in(workspace: &mut Workspace, drawing: &Drawing, language: &Language
         path.assign_texts();
     }
     let starts = starts(&collected);
-    let paths = collected.into_iter().map(|path| path.finish(&starts, workspace)).collect();
+    let mut paths = Vec::with_capacity(collected.len());
+    paths.extend(collected.into_iter().map(|path| path.finish(&starts, workspace)));
     RawFile { paths, diagnostics }
 }
 

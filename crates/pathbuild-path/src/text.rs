@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::number::{parse_integer, parse_number};
-use crate::packed::packed;
+use crate::packed::{Recent, packed};
 
 /// The parameter texts of a path, read once: what they say is asked for by several stages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,16 +25,11 @@ pub struct ParameterTexts {
 /// Where a wording and its pieces are, and what is known of it as a whole.
 #[derive(Clone, Debug, PartialEq)]
 struct Wording {
-    /// As it is drawn, where that is short and what it says: see [`packed`].
-    drawn: Option<u128>,
     string: Range<usize>,
     pieces: Range<usize>,
     letters: Letters,
     is_plain: bool,
 }
-
-/// So many of the last wordings are looked at for a text that is drawn the same.
-const RECENT: usize = 8;
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,33 +66,38 @@ pub(crate) enum Written {
     NoNumber,
 }
 
+/// So many wordings are made room for at once; most drawings have fewer.
+const MOST_EXPECTED: usize = 8;
+
 impl ParameterTexts {
     /// Makes room for so many texts.
     pub(crate) fn reserve(&mut self, texts: usize) {
-        let wordings = texts.min(RECENT);
+        let wordings = texts.min(MOST_EXPECTED);
         self.string.reserve(16 * wordings);
         self.pieces.reserve(2 * wordings);
         self.wordings.reserve(wordings);
         self.texts.reserve(texts);
     }
 
-    /// Adds a text as it is drawn; its number.
-    pub(crate) fn push_drawn(&mut self, text: &str) -> u32 {
+    /// Adds a text as it is drawn; its number. `recent`: what the last ones of these texts say.
+    pub(crate) fn push_drawn(&mut self, text: &str, recent: &mut Recent<u32>) -> u32 {
         let drawn = packed(text);
-        let wording = drawn.and_then(|drawn| self.recent(drawn)).unwrap_or_else(|| {
-            // Nearly all texts are what they look like.
-            if text.bytes().any(|byte| matches!(byte, b'%' | b'~')) {
-                self.wording(&joined(&without_percent_codes(text)), None)
-            } else {
-                self.wording(text, drawn)
-            }
-        });
+        if let Some(wording) = drawn.and_then(|drawn| recent.get(drawn)) {
+            return self.add(wording);
+        }
+        // Nearly all texts are what they look like.
+        let is_plain = !text.bytes().any(|byte| matches!(byte, b'%' | b'~'));
+        let wording =
+            if is_plain { self.wording(text) } else { self.wording(&joined(&without_percent_codes(text))) };
+        if let Some(drawn) = drawn {
+            recent.insert(drawn, wording);
+        }
         self.add(wording)
     }
 
     /// Adds a text whose lines are joined and codes replaced; its number.
     pub(crate) fn push(&mut self, text: &str) -> u32 {
-        let wording = self.wording(text, None);
+        let wording = self.wording(text);
         self.add(wording)
     }
 
@@ -106,14 +106,8 @@ impl ParameterTexts {
         number(self.texts.len() - 1)
     }
 
-    fn recent(&self, drawn: u128) -> Option<u32> {
-        let last = self.wordings.len().saturating_sub(RECENT);
-        let found = self.wordings[last..].iter().rposition(|wording| wording.drawn == Some(drawn))?;
-        Some(number(last + found))
-    }
-
     /// Reads a text; the number of what it says.
-    fn wording(&mut self, text: &str, drawn: Option<u128>) -> u32 {
+    fn wording(&mut self, text: &str) -> u32 {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
         let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
@@ -124,7 +118,7 @@ impl ParameterTexts {
             self.pieces.push(piece);
         }
         let (string, pieces) = (start..self.string.len(), first..self.pieces.len());
-        self.wordings.push(Wording { drawn, string, pieces, letters, is_plain });
+        self.wordings.push(Wording { string, pieces, letters, is_plain });
         number(self.wordings.len() - 1)
     }
 

@@ -5,11 +5,13 @@ mod failure;
 mod join;
 mod passage;
 
+use std::cell::Cell;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use crate::approx::{coincide, near};
-use crate::chain::{Grouped, Item};
+use crate::chain::{Grouped, Item, Room};
 use crate::geometry::Xy;
 use crate::path::{Path, SegmentKind};
 
@@ -28,7 +30,7 @@ pub struct Walked {
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
-    let mut walk = Walk::new(path, join_tolerance);
+    let mut walk = Walk::new(path, join_tolerance, KEPT.take());
     let (items, mut diagnostics) = match walk.run() {
         Ok(()) => walk.grouped.finish(),
         Err(problem) => (Vec::new(), vec![*problem]),
@@ -40,13 +42,33 @@ pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     for diagnostic in &mut diagnostics {
         diagnostic.path = Some(path.name.as_str().into());
     }
+    walk.keep();
     Walked { items, diagnostics }
 }
+
+/// Lists that are needed while a path is walked along.
+#[derive(Default)]
+struct Workspace {
+    ends: Ends,
+    is_traversed: Vec<bool>,
+    found: Vec<usize>,
+    room: Room,
+}
+
+thread_local! {
+    /// Those of the path before, for the next one.
+    static KEPT: Cell<Workspace> = Cell::default();
+}
+
+/// They are kept if there is room in them for no more segments than these.
+const MOST_KEPT: usize = 1024;
 
 struct Walk<'a> {
     path: &'a Path,
     ends: Ends,
     is_traversed: Vec<bool>,
+    /// Segments at the current point; only room.
+    found: Vec<usize>,
     left: usize,
     at: Xy,
     /// The segment that was gone along last.
@@ -63,20 +85,33 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &'a Path, join_tolerance: f64) -> Self {
+    fn new(path: &'a Path, join_tolerance: f64, workspace: Workspace) -> Self {
+        let Workspace { mut ends, mut is_traversed, found, room } = workspace;
         let count = path.segments.len();
+        ends.fill(path);
+        is_traversed.clear();
+        is_traversed.resize(count, false);
         Self {
             path,
             join_tolerance,
             joined: Vec::new(),
-            ends: Ends::new(path),
-            is_traversed: vec![false; count],
+            ends,
+            is_traversed,
+            found,
             left: count,
             at: path.start,
             last: None,
-            grouped: Grouped::new(path),
+            grouped: Grouped::new(path, room),
             way_back: Vec::new(),
             has_acted: vec![false; path.turns.len()],
+        }
+    }
+
+    fn keep(self) {
+        let Self { ends, is_traversed, found, grouped, .. } = self;
+        let room = grouped.into_room();
+        if ends.room().max(room.size()) <= MOST_KEPT {
+            KEPT.set(Workspace { ends, is_traversed, found, room });
         }
     }
 
@@ -99,31 +134,22 @@ impl<'a> Walk<'a> {
             return Ok(());
         }
         let stopped_at = self.at;
-        if self.turn_marker().is_none() || self.go_back(Self::is_at_end).is_err() {
+        if self.turn_marker().is_none() || self.go_back(|walk| walk.is_at_end()).is_err() {
             return Err(self.end_not_reached(stopped_at).into());
         }
         Ok(())
     }
 
     /// The segment that is next at the current point: the least by order, preference and length.
-    fn next(&self) -> Option<usize> {
-        let (mut first, mut second, mut others) = (None, None, Vec::new());
-        let is_open = |segment: usize| !self.is_traversed[segment];
-        self.ends.each_near(self.at, is_open, |segment| match (first, second) {
-            (None, _) => first = Some(segment),
-            (Some(_), None) => second = Some(segment),
-            (Some(_), Some(_)) => others.push(segment),
-        });
-        let Some(second) = second else { return first };
-        let first = first?;
-        let before = |best: usize, other: usize| if self.comes_before(other, best) { other } else { best };
-        if others.is_empty() {
-            return Some(before(first.min(second), first.max(second)));
-        }
+    fn next(&mut self) -> Option<usize> {
+        let mut found = std::mem::take(&mut self.found);
+        self.ends.find_near(self.at, |segment| !self.is_traversed[segment], &mut found);
         // One scan in segment order: lengths are compared approximately, which is not transitive.
-        others.extend([first, second]);
-        others.sort_unstable();
-        others.into_iter().reduce(before)
+        found.sort_unstable();
+        let before = |best: usize, other: usize| if self.comes_before(other, best) { other } else { best };
+        let next = found.iter().copied().reduce(before);
+        self.found = found;
+        next
     }
 
     fn comes_before(&self, a: usize, b: usize) -> bool {
@@ -147,8 +173,7 @@ impl<'a> Walk<'a> {
     fn take(&mut self, segment: usize) {
         self.is_traversed[segment] = true;
         self.left -= 1;
-        let drawn = Passage::drawn(self.ends.of(segment));
-        let passage = self.as_met_here(segment, drawn, false);
+        let passage = self.as_met_here(segment, Passage::drawn(self.ends.of(segment)), false);
         if !self.path.turns.is_empty() {
             self.way_back.push((segment, passage.clone()));
         }
@@ -167,7 +192,7 @@ impl<'a> Walk<'a> {
         let is_end_here = coincide(passage.end, self.at);
         let is_joined = !is_end_here && !coincide(passage.start, self.at);
         if !is_joined {
-            return if is_end_here { passage.turned_round() } else { passage };
+            return passage.turned_if(is_end_here);
         }
         let segment = &self.path.segments[segment];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
@@ -188,7 +213,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Goes back over the way until something is found; an error when the way back is used up. (spec/50-path-building.md, "Turn markers")
-    fn go_back(&mut self, is_found: impl Fn(&Self) -> bool) -> Result<(), ()> {
+    fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;
             if let SegmentKind::Hole(_) = self.path.segments[segment].kind {
@@ -204,7 +229,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn has_next(&self) -> bool {
+    fn has_next(&mut self) -> bool {
         self.next().is_some()
     }
 

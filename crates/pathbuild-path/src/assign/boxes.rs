@@ -33,6 +33,9 @@ type Sides = [f32; 4];
 /// How many candidates are few.
 const FEW: usize = 128;
 
+/// So many are compared before those are taken that are touched.
+const BITS: usize = u64::BITS as usize;
+
 /// Boxes are larger by this than what they hold, in mm: rounding must not decide what a text touches.
 const SLACK: f64 = 1e-6;
 
@@ -98,13 +101,19 @@ impl FromIterator<AABB<[f64; 2]>> for List {
 impl List {
     fn each_within(&self, limits: Sides, mut take: impl FnMut(usize)) {
         let limits = limits.map(f32x4::splat);
-        for (number, Four(sides)) in self.fours.iter().enumerate() {
-            let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
-            let mut found = ((left & low) & (right & high)).to_bitmask();
-            while found != 0 {
-                take(4 * number + found.trailing_zeros() as usize);
-                found &= found - 1;
+        let mut first = 0;
+        for fours in self.fours.chunks(BITS / 4) {
+            // Found first and taken then, since few are found, and it is hard to foresee which.
+            let found = |Four(sides): &Four| {
+                let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
+                ((left & low) & (right & high)).to_bitmask()
+            };
+            let mut all = fours.iter().rev().fold(0, |all, four| all << 4 | u64::from(found(four)));
+            while all != 0 {
+                take(first + all.trailing_zeros() as usize);
+                all &= all - 1;
             }
+            first += BITS;
         }
     }
 }

@@ -21,6 +21,9 @@ pub(super) struct KnownCut {
     number: u32,
 }
 
+/// So many ways are expected.
+pub(super) const FEW: usize = 4;
+
 /// More are not looked through for each segment.
 const MOST_KNOWN: usize = 16;
 

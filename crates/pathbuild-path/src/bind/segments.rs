@@ -23,8 +23,9 @@ impl Binder<'_> {
         let raw = self.raw;
         let mut segments = Vec::with_capacity(raw.drawn.elements.len());
         for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
-            let segment = self.segment(element, tool);
-            segments.extend(segment.map(|(order, kind)| Segment { element: number, order, kind }));
+            if let Some((order, kind)) = self.segment(element, tool) {
+                segments.push(Segment { element: number, order, kind });
+            }
         }
         segments
     }
@@ -50,11 +51,11 @@ impl Binder<'_> {
         if let (Role::Cut(cut), Shape::Curve(curve)) = (element.role, &element.shape) {
             return self.cut(element, cut, curve, tool);
         }
-        let class = element.class(tool);
-        let text = match element.role {
-            Role::SilentSweep | Role::SkippedSubpath => None,
-            _ => self.raw.drawn.text(element.text),
-        };
+        if let Role::SilentSweep | Role::SkippedSubpath = element.role {
+            // A text that one has is not read.
+            return Some((UNNUMBERED, SegmentKind::Sweep { height: None }));
+        }
+        let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
         let values = self.element_values(At::Element(element), text, class == ElementClass::HelicalSupport);
         let scope = Scope { element, class, values: &values, tool };
         let order = || values.number(Letter::N).number().unwrap_or(UNNUMBERED);

@@ -14,6 +14,7 @@ use super::workspace::Workspace;
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
+use crate::packed::Recent;
 use crate::text::{ParameterText, ParameterTexts, without_percent_codes};
 use crate::text_circle::TextCircle;
 
@@ -102,8 +103,9 @@ impl<'d> Texts<'d> {
     /// Gives each text to its element; what finds none is PB107.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
         path.given.reserve(self.layers.iter().map(|layer| layer.texts.len()).sum());
+        let mut recent = Recent::new();
         for layer in &mut self.layers {
-            layer.assign(path);
+            layer.assign(path, &mut recent);
         }
         if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
@@ -127,13 +129,14 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Gives each text to its element. What finds no element stays in `texts`.
-    fn assign(&mut self, path: &mut Collected<'_>) {
+    fn assign(&mut self, path: &mut Collected<'_>, recent: &mut Recent<u32>) {
         let mut open = Vec::new();
         self.each_match(|layer, text, _, owners| {
             if owners.is_empty() {
                 open.push(*text);
             } else {
-                layer.give(text, owners, path);
+                let number = path.given.push_drawn(text.string(), recent);
+                layer.give(number, owners, path);
             }
         });
         self.texts = open;
@@ -170,8 +173,7 @@ impl<'d> LayerTexts<'d> {
         first..behind
     }
 
-    fn give(&self, text: &FoundText<'_>, owners: Range<usize>, path: &mut Collected<'_>) {
-        let number = path.given.push_drawn(text.string());
+    fn give(&self, number: u32, owners: Range<usize>, path: &mut Collected<'_>) {
         for owner in &self.candidates[owners] {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),

@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
-use crate::path::{Path, Segment};
+use crate::path::Path;
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
+#[derive(Default)]
 pub(super) struct Ends {
     segments: Vec<SegmentEnds>,
     /// The first end in the squares of a bucket, see [`bucket_of`]; their number is a power of two.
@@ -27,6 +28,8 @@ struct Square(u64, u64);
 
 /// There is no further end in a bucket.
 const NONE: u32 = u32::MAX;
+/// Buckets for each segment: with half as many, more than a few would hold what is elsewhere.
+const BUCKETS: usize = 4;
 /// Squares in a mm.
 const SQUARES: f64 = 100.0;
 /// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
@@ -37,18 +40,26 @@ const REACH: f64 = 0.01;
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
-    pub(super) fn new(path: &Path) -> Self {
-        let mut buckets = vec![NONE; (2 * path.segments.len()).next_power_of_two()];
-        let ends_of = |(number, segment): (u32, &Segment)| {
+    /// Takes those of a path for any that there were before.
+    pub(super) fn fill(&mut self, path: &Path) {
+        let Self { segments, buckets } = self;
+        let count = (BUCKETS * path.segments.len()).next_power_of_two();
+        buckets.clear();
+        buckets.resize(count, NONE);
+        segments.clear();
+        segments.extend((0_u32..).zip(&path.segments).map(|(number, segment)| {
             let drawn = path.ends(segment);
             let mut enter = |end: u32| {
-                let bucket = bucket_of(square(drawn[end as usize]), buckets.len());
+                let bucket = bucket_of(square(drawn[end as usize]), count);
                 std::mem::replace(&mut buckets[bucket], 2 * number + end)
             };
             SegmentEnds { drawn, next: [enter(0), enter(1)] }
-        };
-        let segments = (0_u32..).zip(&path.segments).map(ends_of).collect();
-        Self { segments, buckets }
+        }));
+    }
+
+    /// For how many segments there is room.
+    pub(super) fn room(&self) -> usize {
+        self.segments.capacity()
     }
 
     /// Where a segment starts and where it ends, as drawn.
@@ -56,19 +67,16 @@ impl Ends {
         self.segments[segment].drawn
     }
 
-    /// Takes those of the wanted segments that have an end at a point, in any order; one may be named several times.
-    pub(super) fn each_near(
-        &self,
-        point: Xy,
-        is_wanted: impl Fn(usize) -> bool,
-        mut take: impl FnMut(usize),
-    ) {
+    /// Finds the wanted segments that have an end at a point, in any order; one may be named several times.
+    pub(super) fn find_near(&self, point: Xy, is_wanted: impl Fn(usize) -> bool, found: &mut Vec<usize>) {
+        found.clear();
         for column in around(point.x) {
             for row in around(point.y) {
                 self.each_in(Square(column, row), |segment, end| {
-                    if is_wanted(segment) && coincide(self.segments[segment].drawn[end], point) {
-                        take(segment);
-                    }
+                    let is_found = is_wanted(segment) & coincide(self.segments[segment].drawn[end], point);
+                    // No branch: which of those in a bucket it is can not be foreseen.
+                    found.push(segment);
+                    found.truncate(found.len() - usize::from(!is_found));
                 });
             }
         }

@@ -74,10 +74,9 @@ impl Walk<'_> {
     /// A segment drawn twice is left over, and looks just like the one that was traversed.
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
         let duplicate = self.open().find(|open| {
-            let ([start, _], mut is_found) = (self.ends.of(*open), false);
-            let is_traversed = |other: usize| self.is_traversed[other];
-            self.ends.each_near(start, is_traversed, |other| is_found |= self.is_same_curve(*open, other));
-            is_found
+            let ([start, _], mut others) = (self.ends.of(*open), Vec::new());
+            self.ends.find_near(start, |other| self.is_traversed[other], &mut others);
+            others.into_iter().any(|other| self.is_same_curve(*open, other))
         });
         let Some(segment) = duplicate else { return problem };
         let [start, _] = self.ends.of(segment);

@@ -22,8 +22,14 @@ impl Passage {
 
     /// The other way. A subpath is then embedded the other way round: its start comes to lie where the walk comes from.
     pub(super) fn turned_round(self) -> Self {
-        let moved = self.moved.map(|curve| Box::new(curve.reversed()));
-        Self { start: self.end, end: self.start, is_turned: !self.is_turned, moved }
+        self.turned_if(true)
+    }
+
+    /// The other way if so. Ends are chosen by number: which way segments are drawn can not be foreseen.
+    pub(super) fn turned_if(self, is_turned: bool) -> Self {
+        let (ends, first) = ([self.start, self.end], usize::from(is_turned));
+        let moved = self.moved.map(|curve| Box::new(if is_turned { curve.reversed() } else { *curve }));
+        Self { start: ends[first], end: ends[1 - first], is_turned: self.is_turned ^ is_turned, moved }
     }
 
     /// The same from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its own.

@@ -57,6 +57,24 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%u%%"), "Q%%u%%");
 }
 
+/// Of long and short ones, of the last few and of those before them, in a path of more elements than are looked at together.
+#[test]
+fn each_element_has_the_text_that_is_drawn_beside_it() {
+    let same = |length: usize| "a".repeat(length);
+    let texts: Vec<String> = (0..25)
+        .flat_map(|length| ["x", "y", "x"].map(|last| format!("Q{}{last}", same(length))))
+        .chain([0, 24].map(|length| format!("Q{}x", same(length))))
+        .collect();
+    let line = |(number, text): (usize, &String)| {
+        let from = 50 * number;
+        format!("mill {from},0 {},0 \"{text}\"\n", from + 50)
+    };
+    let lines: String = texts.iter().enumerate().map(line).collect();
+    let raw = raw(&path("T5 O3 I1 B0", &format!("{lines}end {},0", 50 * texts.len())));
+    let text = |element: &pathbuild_path::Element| raw.drawn.text(element.text).unwrap().as_str();
+    assert_eq!(raw.drawn.elements.iter().map(text).collect::<Vec<_>>(), texts);
+}
+
 fn problems_of(text: &str, class: ElementClass) -> Vec<pathbuild_diagnostic::Diagnostic> {
     ParameterTexts::from(text).get(0).unwrap().problems(class)
 }
