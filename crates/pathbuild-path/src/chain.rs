@@ -88,9 +88,7 @@ impl Room {
 }
 
 impl<'a> Grouped<'a> {
-    pub(crate) fn new(path: &'a Path, mut room: Room) -> Self {
-        room.items.clear();
-        room.chain.clear();
+    pub(crate) fn new(path: &'a Path, room: Room) -> Self {
         Self { path, room, diagnostics: Vec::new() }
     }
 
@@ -113,7 +111,10 @@ impl<'a> Grouped<'a> {
 
     /// Where it was collected, for the next path.
     pub(crate) fn into_room(self) -> Room {
-        self.room
+        let Room { mut items, mut chain } = self.room;
+        items.clear();
+        chain.clear();
+        Room { items, chain }
     }
 
     /// What is done along a segment that is in no chain. Going back over it is a sweep.
