@@ -28,9 +28,8 @@ pub(crate) struct LayerRecord<'a> {
     /// With whatever prefix it has.
     name: Name<'a>,
     line_type: Option<Cow<'a, [u8]>>,
-    /// Of the colour and the flags, the bytes of their numbers.
-    colour: Option<&'a [u8]>,
-    flags: Option<&'a [u8]>,
+    /// Frozen or off.
+    pub(crate) is_hidden: bool,
 }
 
 /// A name that a record is found by.
@@ -88,8 +87,7 @@ impl<'a> LayerRecord<'a> {
         Some(Self {
             name: Name::decoded(name.bytes, name.line, decoder),
             line_type: groups.get(6).map(|it| decoder.decode_bytes(it.bytes, it.line)),
-            colour: groups.get(62).map(|it| it.bytes),
-            flags: groups.get(70).map(|it| it.bytes),
+            is_hidden: is_off(groups) || is_frozen(groups),
         })
     }
 
@@ -98,11 +96,13 @@ impl<'a> LayerRecord<'a> {
         let name = String::from_utf8_lossy(self.line_type.as_deref()?);
         Some(line_type_name(&name)).filter(|name| !name.is_empty())
     }
+}
 
-    /// Whether it is frozen or off.
-    pub(crate) fn is_hidden(&self) -> bool {
-        let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
-        let is_frozen = self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0));
-        is_off || is_frozen
-    }
+fn is_off(groups: &Fields<'_>) -> bool {
+    let is_negative = |colour: &[u8]| colour.contains(&b'-') && real(colour).is_ok_and(|number| number < 0.0);
+    groups.get(62).is_some_and(|colour| is_negative(colour.bytes))
+}
+
+fn is_frozen(groups: &Fields<'_>) -> bool {
+    groups.get(70).is_some_and(|flags| whole(flags.bytes).is_ok_and(|bits| bits & 1 != 0))
 }

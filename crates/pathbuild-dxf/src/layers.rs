@@ -34,7 +34,7 @@ struct FoundLayer<'a> {
     is_kept: bool,
     /// Whether it is layer `0`.
     is_inheriting: bool,
-    used: OnceCell<UsedLayer>,
+    used: OnceCell<Box<UsedLayer>>,
 }
 
 /// A layer that something wanted is on.
@@ -51,7 +51,7 @@ pub(crate) struct UsedLayer {
 }
 
 /// How many layers the entities of a drawing of paths usually are on.
-const USUAL: usize = 8;
+const USUAL: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
     /// No layer is used yet, and nothing said of any.
@@ -83,7 +83,7 @@ impl<'a, 'o> Layers<'a, 'o> {
     #[inline]
     pub(crate) fn get(&self, id: LayerId) -> &UsedLayer {
         let layer = self.found(id);
-        layer.used.get_or_init(|| self.used(&layer.full_name))
+        layer.used.get_or_init(|| Box::new(self.used(&layer.full_name)))
     }
 
     /// Whether entities on it are wanted.
@@ -126,7 +126,7 @@ impl<'a, 'o> Layers<'a, 'o> {
             name: name.into(),
             folded: folded(name),
             line_type: line_type.unwrap_or(CONTINUOUS),
-            hidden: record.is_some_and(LayerRecord::is_hidden),
+            hidden: record.is_some_and(|record| record.is_hidden),
         }
     }
 }

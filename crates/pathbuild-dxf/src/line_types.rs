@@ -21,19 +21,26 @@ pub(crate) enum LineType {
     Named(u32),
 }
 
+/// How many line types the entities of a drawing usually have at most.
+const USUAL: usize = 8;
+
 /// The names of line types found on entities.
 #[derive(Debug)]
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
     last: Option<(&'a [u8], LineType)>,
-    /// Most drawings know three or four.
     names: Vec<SmolStr>,
     continuous: SmolStr,
 }
 
 impl Default for LineTypes<'_> {
     fn default() -> Self {
-        Self { by_spelling: Spellings::default(), last: None, names: Vec::new(), continuous: CONTINUOUS }
+        Self {
+            by_spelling: Spellings::default(),
+            last: None,
+            names: Vec::with_capacity(USUAL),
+            continuous: CONTINUOUS,
+        }
     }
 }
 

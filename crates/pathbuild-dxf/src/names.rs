@@ -9,47 +9,48 @@ use crate::encoding::{Decoder, is_plain};
 
 /// A name without blanks around it that is compared without regard to case.
 #[derive(Clone, Debug)]
-pub(crate) struct Name<'a> {
-    /// UTF-8, upper case unless it is ASCII.
-    bytes: Cow<'a, [u8]>,
+pub(crate) enum Name<'a> {
+    /// One of ASCII, as it is spelt, or a part of any other name.
+    Spelt(&'a [u8]),
+    /// Any other: upper case.
+    Folded(SmolStr),
 }
 
 impl<'a> Name<'a> {
     /// That of this text.
     pub(crate) fn new(text: Cow<'a, str>) -> Self {
-        let bytes = match text {
-            Cow::Borrowed(text) if text.is_ascii() => Cow::Borrowed(trimmed(text).as_bytes()),
-            text => Cow::Owned(folded(text.trim()).as_bytes().to_vec()),
-        };
-        Self { bytes }
+        match text {
+            Cow::Borrowed(text) if text.is_ascii() => Self::Spelt(trimmed(text).as_bytes()),
+            text => Self::Folded(folded(text.trim())),
+        }
     }
 
     /// That of a string that begins on this line.
     pub(crate) fn decoded(bytes: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> Self {
         if is_plain(bytes) && has_graphic_ends(bytes) {
-            return Self { bytes: bytes.into() };
+            return Self::Spelt(bytes);
         }
         Self::new(decoder.decode(bytes, line))
     }
 
     /// How much of it is the prefix of an external reference.
     pub(crate) fn xref_prefix(&self) -> usize {
-        if !has_xref_sign(&self.bytes) {
+        if !has_xref_sign(self.bytes()) {
             return 0;
         }
-        let text = String::from_utf8_lossy(&self.bytes);
+        let text = String::from_utf8_lossy(self.bytes());
         text.len() - without_xref(&text).len()
     }
 
     /// What it is from this byte on.
     pub(crate) fn from(&self, begin: usize) -> Name<'_> {
-        Name { bytes: self.bytes[begin..].into() }
+        Name::Spelt(&self.bytes()[begin..])
     }
 
     /// A number that equal names have in common.
     pub(crate) fn hash(&self) -> u64 {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
-        let (words, rest) = self.bytes.as_chunks();
+        let (words, rest) = self.bytes().as_chunks();
         let rest = rest.iter().fold(0, |word, byte| word << 8 | u64::from(*byte));
         let words = words.iter().map(|word| u64::from_le_bytes(*word)).chain([rest]);
         // Without the bit that upper and lower case differ in.
@@ -58,8 +59,16 @@ impl<'a> Name<'a> {
         words.fold(0, add)
     }
 
+    /// UTF-8.
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Spelt(bytes) => bytes,
+            Self::Folded(text) => text.as_bytes(),
+        }
+    }
+
     fn upper_case(&self) -> impl Iterator<Item = u8> {
-        self.bytes.iter().map(u8::to_ascii_uppercase)
+        self.bytes().iter().map(u8::to_ascii_uppercase)
     }
 }
 
@@ -80,7 +89,7 @@ impl PartialOrd for Name<'_> {
 
 impl PartialEq for Name<'_> {
     fn eq(&self, other: &Self) -> bool {
-        self.bytes.eq_ignore_ascii_case(&other.bytes)
+        self.bytes().eq_ignore_ascii_case(other.bytes())
     }
 }
 
