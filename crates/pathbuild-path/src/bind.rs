@@ -19,7 +19,7 @@ use crate::text::ParameterText;
 use crate::values::Values;
 use crate::variables::{Bindings, Interpolation};
 
-use cuts::KnownCut;
+use cuts::KnownCuts;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -40,7 +40,7 @@ struct Binder<'a> {
     /// The path's own values.
     values: Values<'a>,
     cuts: Vec<CutParameters>,
-    known_cuts: Vec<KnownCut>,
+    known_cuts: KnownCuts,
     problems: Vec<Diagnostic>,
     /// How often something was reported, also where it had been before.
     reported: usize,
@@ -62,8 +62,8 @@ impl<'a> Binder<'a> {
             language,
             interpolation,
             values,
-            cuts: Vec::with_capacity(cuts::FEW),
-            known_cuts: Vec::with_capacity(cuts::FEW),
+            cuts: Vec::with_capacity(4),
+            known_cuts: KnownCuts::new(),
             problems: Vec::new(),
             reported: 0,
         }

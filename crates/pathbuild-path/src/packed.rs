@@ -21,10 +21,11 @@ pub(crate) fn packed(text: &str) -> Option<u128> {
 /// Longest text that has a number.
 const MOST: usize = 15;
 
-/// What the last few short texts stand for. All are compared, since it is hard to foresee which it will be.
+/// What the last few of some keys stand for, which are short texts or other numbers that are not 0. All are compared, since it is hard to
+/// foresee which it will be.
 pub(crate) struct Recent<T> {
     /// 0 where there is none yet.
-    texts: [u128; RECENT],
+    keys: [u128; RECENT],
     values: [T; RECENT],
     next: usize,
 }
@@ -34,17 +35,17 @@ const RECENT: usize = 8;
 
 impl<T: Copy + Default> Recent<T> {
     pub(crate) fn new() -> Self {
-        Self { texts: [0; RECENT], values: [T::default(); RECENT], next: 0 }
+        Self { keys: [0; RECENT], values: [T::default(); RECENT], next: 0 }
     }
 
-    pub(crate) fn get(&self, text: u128) -> Option<T> {
-        let numbered = self.texts.iter().enumerate();
-        let found = numbered.fold(RECENT, |found, (at, it)| if *it == text { at } else { found });
+    pub(crate) fn get(&self, key: u128) -> Option<T> {
+        let numbered = self.keys.iter().enumerate();
+        let found = numbered.fold(RECENT, |found, (at, it)| if *it == key { at } else { found });
         self.values.get(found).copied()
     }
 
-    pub(crate) fn insert(&mut self, text: u128, value: T) {
-        self.texts[self.next] = text;
+    pub(crate) fn insert(&mut self, key: u128, value: T) {
+        self.keys[self.next] = key;
         self.values[self.next] = value;
         self.next = (self.next + 1) % RECENT;
     }

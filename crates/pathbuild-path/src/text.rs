@@ -74,7 +74,7 @@ impl ParameterTexts {
     pub(crate) fn reserve(&mut self, texts: usize) {
         let wordings = texts.min(MOST_EXPECTED);
         self.string.reserve(16 * wordings);
-        self.pieces.reserve(2 * wordings);
+        self.pieces.reserve(3 * wordings);
         self.wordings.reserve(wordings);
         self.texts.reserve(texts);
     }

@@ -9,23 +9,18 @@ use crate::approx::at_least;
 use crate::element::{Cut, Element};
 use crate::geometry::Curve;
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
+use crate::packed::Recent;
 use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
 
-/// A way in which segments are milled, so that what says the same shares it. Only those are known with which nothing was wrong.
-pub(super) struct KnownCut {
-    /// What the segments say, by its number; `None` where they have no text.
-    wording: Option<u32>,
-    cut: Cut,
-    order: f64,
-    /// Index into the path's cuts.
-    number: u32,
+/// How segments are milled that say the same: their order at a star, and the index into the path's cuts. Only what nothing was wrong with
+/// is known.
+pub(super) type KnownCuts = Recent<(f64, u32)>;
+
+/// What a segment says, as a number.
+fn key(wording: Option<u32>, cut: Cut) -> u128 {
+    let wording = wording.map_or(0, |wording| u128::from(wording) + 1);
+    wording << 2 | (cut as u128 + 1)
 }
-
-/// So many ways are expected.
-pub(super) const FEW: usize = 4;
-
-/// More are not looked through for each segment.
-const MOST_KNOWN: usize = 16;
 
 impl Binder<'_> {
     /// A segment of a milling chain, with its order at a star.
@@ -37,9 +32,8 @@ impl Binder<'_> {
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
         let wording = element.text.and_then(|text| self.raw.drawn.texts.wording_of(text));
-        let is_same = |known: &&KnownCut| known.wording == wording && known.cut == cut;
-        if let Some(KnownCut { order, number, .. }) = self.known_cuts.iter().find(is_same) {
-            let (order, number) = (*order, *number);
+        let key = key(wording, cut);
+        if let Some((order, number)) = self.known_cuts.get(key) {
             if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
                 self.check_room(element, &bars, curve.length(), tool);
             }
@@ -54,8 +48,8 @@ impl Binder<'_> {
         let number = u32::try_from(self.cuts.len()).unwrap_or(u32::MAX);
         self.cuts.push(parameters);
         let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
-        if self.reported == reported && self.known_cuts.len() < MOST_KNOWN {
-            self.known_cuts.push(KnownCut { wording, cut, order, number });
+        if self.reported == reported {
+            self.known_cuts.insert(key, (order, number));
         }
         Some((order, SegmentKind::Cut(number)))
     }
