@@ -1,12 +1,10 @@
 //! Diagnostics in every format: the same findings, shown by the library. (spec/05-command-line.md)
 
-use std::time::Duration;
-
 use camino::Utf8Path;
 use insta::assert_snapshot;
 use pathbuild::args::Format;
 use pathbuild::render::{View, render};
-use pathbuild::report::{CheckedFile, CheckedPath, Findings};
+use pathbuild::report::{CheckedFile, Findings};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep};
 
@@ -37,12 +35,11 @@ fn findings() -> Findings {
         .at_line(12, Some(8))
         .with_text(TextFault::new("feed = \u{1b}x", 7..9));
     config.severity = pathbuild_diagnostic::Severity::Warning;
-    let path = |name: &str| CheckedPath { name: name.into(), time: Some(Duration::from_millis(1500)) };
     Findings {
         checked: vec![
             CheckedFile {
                 file: "/work/parts/2913 Ph.dxf".into(),
-                paths: vec![path("2913.1P"), path("2913.2P")],
+                paths: vec!["2913.1P".into(), "2913.2P".into()],
             },
             CheckedFile { file: "/work/parts/2914.dxf".into(), paths: vec![] },
         ],
@@ -219,11 +216,11 @@ fn junit_is_xml_with_counts_that_are_right() {
     {
         assert_eq!(number(node, "tests"), named(node, "testcase"));
         assert_eq!(number(node, "failures"), named(node, "failure"));
-        assert!(node.attribute("name").is_some() && number(node, "time") >= 0.0);
+        assert!(node.attribute("name").is_some());
     }
     for case in root.descendants().filter(|node| node.has_tag_name("testcase")) {
         assert!(case.parent().unwrap().has_tag_name("testsuite"));
-        assert!(case.attribute("name").is_some() && case.attribute("classname").is_some());
+        assert!(["name", "classname", "time"].iter().all(|name| case.attribute(*name).is_some()));
         let children: Vec<_> =
             case.children().filter(roxmltree::Node::is_element).map(|it| it.tag_name().name()).collect();
         assert!(

@@ -6,7 +6,7 @@ use std::time::Duration;
 use camino::Utf8Path;
 use pathbuild::args::{CommonArgs, Inputs};
 use pathbuild::config;
-use pathbuild::report::{CheckedFile, CheckedPath, Findings, Fingerprint, judge, summary};
+use pathbuild::report::{CheckedFile, Findings, Fingerprint, judge, summary};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
@@ -142,7 +142,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
 
 #[test]
 fn the_summary_counts_and_agrees_in_number() {
-    let path = || CheckedPath { name: "1234.1P".into(), time: None };
+    let path = || "1234.1P".into();
     let file = |paths: usize| CheckedFile {
         file: "a.dxf".into(),
         paths: std::iter::repeat_with(path).take(paths).collect(),

@@ -1,5 +1,3 @@
-use std::time::Duration;
-
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
@@ -17,17 +15,8 @@ pub struct Findings {
 pub struct CheckedFile {
     /// The drawing.
     pub file: Utf8PathBuf,
-    /// Its paths, in file order.
-    pub paths: Vec<CheckedPath>,
-}
-
-/// A path that was checked.
-#[derive(Clone, Debug)]
-pub struct CheckedPath {
-    /// The name, as the drawing spells it.
-    pub name: Box<str>,
-    /// What the check took, where it was measured.
-    pub time: Option<Duration>,
+    /// The names of its paths, as the drawing spells them, in file order.
+    pub paths: Vec<Box<str>>,
 }
 
 impl Findings {

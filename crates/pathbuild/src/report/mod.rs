@@ -10,7 +10,7 @@ mod summary;
 
 pub use baseline::Baseline;
 pub use conclude::{Checked, conclude};
-pub use findings::{CheckedFile, CheckedPath, Findings};
+pub use findings::{CheckedFile, Findings};
 pub use fingerprint::Fingerprint;
 pub use judge::judge;
 pub use summary::summary;

@@ -11,7 +11,7 @@ use super::since::Changed;
 use super::{leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
-use crate::report::{Checked, CheckedFile, CheckedPath};
+use crate::report::{Checked, CheckedFile};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
 
@@ -55,8 +55,7 @@ pub(super) fn check(
         if !concerned.contains(drawing.as_str()) {
             continue;
         }
-        let paths = result.names.into_iter().map(|name| CheckedPath { name, time: None });
-        checked.files.push(CheckedFile { file: drawing, paths: paths.collect() });
+        checked.files.push(CheckedFile { file: drawing, paths: result.names });
         checked.diagnostics.extend(result.diagnostics);
     }
     let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));

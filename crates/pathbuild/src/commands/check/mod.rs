@@ -16,7 +16,7 @@ use self::drawings::{Asked, check_library, check_paths};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::{Checked, CheckedFile, CheckedPath, conclude};
+use crate::report::{Checked, CheckedFile, conclude};
 use crate::session::timings::FINDING;
 use crate::session::{DrawingResult, Session, Wanted, WantedPath, by_place};
 
@@ -97,8 +97,7 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
     checked.files.reserve(found.len());
     for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
-        let paths = names.into_iter().map(|name| CheckedPath { name, time: None }).collect();
-        checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths });
+        checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths: names });
         checked.diagnostics.extend(diagnostics);
     }
     checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
