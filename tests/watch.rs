@@ -47,6 +47,8 @@ struct Watch<'a> {
     place: &'a Place,
     child: Child,
     lines: Receiver<String>,
+    /// What was said until it watched.
+    beginning: Vec<String>,
 }
 
 impl<'a> Watch<'a> {
@@ -59,8 +61,8 @@ impl<'a> Watch<'a> {
         std::thread::spawn(move || {
             stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
         });
-        let watch = Self { place, child, lines };
-        watch.until("watching ");
+        let mut watch = Self { place, child, lines, beginning: Vec::new() };
+        watch.beginning = watch.until("watching ");
         watch
     }
 
@@ -114,6 +116,19 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     let said = watch.until("1002.dxf: changed");
     assert!(said.iter().any(|line| line.contains("8002_Milling.gcode: written")), "{said:#?}");
     assert_ne!(place.read("library/projects/8002_Milling.gcode"), other);
+}
+
+/// Names of drawings and directories are none of paths: who writes them there would wait for programs in vain.
+#[test]
+fn targets_that_mean_no_path_are_told_at_the_beginning() {
+    let unmet = |targets: &str, arguments: &str| {
+        let place = library().file("pathbuild.toml", CONFIGURATION.replace("\"8*\"", targets));
+        let watch = Watch::begin(&place, arguments);
+        watch.beginning.iter().filter(|line| line.contains("matches the target")).count()
+    };
+    assert_eq!(unmet("\"8*\", \"projects\", \"800?.dxf\"", "watch --emit --format concise"), 2);
+    assert_eq!(unmet("\"8001*\", \"*2.1P\"", "watch --emit --format concise"), 0);
+    assert_eq!(unmet("\"projects\"", "watch --format concise"), 0);
 }
 
 #[test]

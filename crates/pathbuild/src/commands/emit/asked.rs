@@ -6,8 +6,8 @@ use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
+use super::configured::Configured;
 use crate::args::Inputs;
-use crate::config::Origin;
 use crate::context::Context;
 use crate::session::{Session, Wanted};
 
@@ -76,35 +76,20 @@ struct Asking<'a> {
 }
 
 impl Asking<'_> {
-    /// The paths whose names match a target's pattern. A pattern that nothing matches is a mistake in the configuration.
+    /// The paths whose names match a target's pattern.
     fn configured(&mut self, library: &[SourceFile]) {
         let db = self.session.db();
-        let targets = &self.context.settings.emit.targets;
-        let mut is_met = vec![false; targets.value.len()];
+        let mut configured = Configured::new(&self.context.settings);
         for file in library {
             // A drawing that cannot be read may hold a target.
             self.diagnostics.extend(check_file(db, *file).iter().filter(|found| found.is_error()).cloned());
             for name in path_names(db, *file) {
-                let mut is_target = false;
-                for (pattern, is_met) in targets.value.iter().zip(&mut is_met) {
-                    let matches = pattern.matches(name.as_str());
-                    is_target |= matches;
-                    *is_met |= matches;
-                }
-                if is_target {
+                if configured.means(name.as_str()) {
                     self.add(*file, name);
                 }
             }
         }
-        let unmet = targets.value.iter().zip(is_met).filter(|(_, is_met)| !is_met);
-        let problems = unmet.map(|(pattern, _)| {
-            let problem = Diagnostic::new(&messages::NO_TARGET).with("pattern", pattern.text());
-            match (&self.context.settings.file, targets.origin) {
-                (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
-                _ => problem,
-            }
-        });
-        self.diagnostics.extend(problems);
+        self.diagnostics.extend(configured.unmet());
     }
 
     /// A drawing must hold just one path, unless it lies in a directory that was named.

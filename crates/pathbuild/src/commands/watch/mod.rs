@@ -58,7 +58,7 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
     let begun = Instant::now();
     let mut library = Library::new(context, session, &args.inputs);
     let update = library.begin();
-    let written = writer.write(library.session(), &update.asked);
+    let written = writer.begin(library.session(), &update.asked);
     show::begun(context, &library, update, written, begun.elapsed());
     let mut revision = 0;
     loop {

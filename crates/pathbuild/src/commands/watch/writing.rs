@@ -6,7 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
-use crate::commands::emit::{self, Owners};
+use crate::commands::emit::{self, Configured, Owners};
 use crate::context::Context;
 use crate::posting::{Poster, Wishes};
 use crate::session::Session;
@@ -54,17 +54,31 @@ impl<'a> Writer<'a> {
         self.owners.retain(|_, owner| !released.contains(&owner.file(db)));
     }
 
+    /// Writes the targets among all paths; what is wrong with them as programs, and targets that mean none.
+    pub(super) fn begin(&mut self, session: &Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
+        let mut configured = Configured::new(&self.context.settings);
+        let mut problems = self.write_some(session, all, &mut configured);
+        problems.extend(configured.unmet().filter(|_| self.is_on));
+        problems
+    }
+
     /// Writes the targets among the paths of drawings that were asked again; what is wrong with them as programs.
     pub(super) fn write(&mut self, session: &Session<'_>, asked: &[SourceFile]) -> Vec<Diagnostic> {
+        self.write_some(session, asked, &mut Configured::new(&self.context.settings))
+    }
+
+    fn write_some(
+        &mut self,
+        session: &Session<'_>,
+        files: &[SourceFile],
+        configured: &mut Configured<'_>,
+    ) -> Vec<Diagnostic> {
         if !self.is_on {
             return Vec::new();
         }
-        let db = session.db();
-        let patterns = &self.context.settings.emit.targets.value;
-        let is_target = |name: &str| patterns.iter().any(|pattern| pattern.matches(name));
         let mut targets = Vec::new();
-        for file in asked {
-            let names = path_names(db, *file).iter().filter(|name| is_target(name.as_str()));
+        for file in files {
+            let names = path_names(session.db(), *file).iter().filter(|name| configured.means(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
         emit::write(self.context, session, self.poster.as_ref(), &targets, &mut self.owners)

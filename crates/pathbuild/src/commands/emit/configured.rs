@@ -1,0 +1,44 @@
+//! The paths that `[emit] targets` means. (spec/06-configuration.md)
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs as messages;
+
+use crate::config::{Origin, Settings};
+
+/// What paths are held against, one after the other.
+pub(in crate::commands) struct Configured<'a> {
+    settings: &'a Settings,
+    /// For each pattern whether a path matched it.
+    is_met: Vec<bool>,
+}
+
+impl<'a> Configured<'a> {
+    /// No path was seen yet.
+    pub(in crate::commands) fn new(settings: &'a Settings) -> Self {
+        Self { settings, is_met: vec![false; settings.emit.targets.value.len()] }
+    }
+
+    /// Whether the path of this name is meant.
+    pub(in crate::commands) fn means(&mut self, name: &str) -> bool {
+        let mut is_target = false;
+        for (pattern, is_met) in self.settings.emit.targets.value.iter().zip(&mut self.is_met) {
+            let matches = pattern.matches(name);
+            is_target |= matches;
+            *is_met |= matches;
+        }
+        is_target
+    }
+
+    /// A pattern that nothing matched is a mistake in the configuration.
+    pub(in crate::commands) fn unmet(&self) -> impl Iterator<Item = Diagnostic> {
+        let targets = &self.settings.emit.targets;
+        let unmet = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);
+        unmet.map(|(pattern, _)| {
+            let problem = Diagnostic::new(&messages::NO_TARGET).with("pattern", pattern.text());
+            match (&self.settings.file, targets.origin) {
+                (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
+                _ => problem,
+            }
+        })
+    }
+}
