@@ -56,12 +56,9 @@ impl<'a> LayerTable<'a> {
     fn find(&self, name: &Name<'_>) -> Option<&LayerRecord<'a>> {
         let hash = name.hash();
         let keys = self.keys.get_or_init(|| self.sorted_keys());
-        let from = keys.partition_point(|key| key.hash < hash);
-        let alike = keys[from..].iter().take_while(|key| key.hash == hash);
-        let same = alike.filter(|key| self.name(key) == *name);
-        // Of records with the same name the first counts, and one of exactly the name before one with a prefix.
-        let key = same.min_by_key(|key| (key.begin > 0, key.record))?;
-        Some(&self.records[key.record])
+        let place = |key: &Key| key.hash.cmp(&hash).then_with(|| self.name(key).cmp(name));
+        let first = keys.get(keys.partition_point(|key| place(key).is_lt()))?;
+        place(first).is_eq().then(|| &self.records[first.record])
     }
 
     fn sorted_keys(&self) -> Vec<Key> {
@@ -71,7 +68,12 @@ impl<'a> LayerTable<'a> {
             keys.push(Key { hash: name.hash(), record, begin: 0 });
             keys.extend((begin > 0).then(|| Key { hash: name.from(begin).hash(), record, begin }));
         }
-        keys.sort_unstable_by_key(|key| key.hash);
+        // Names are compared only where hashes are the same. Of records with the same name the first counts, and one of exactly the name
+        // before one with a prefix.
+        keys.sort_unstable_by(|a, b| {
+            let same_name = || (a.begin > 0, a.record).cmp(&(b.begin > 0, b.record));
+            a.hash.cmp(&b.hash).then_with(|| self.name(a).cmp(&self.name(b))).then_with(same_name)
+        });
         keys
     }
 

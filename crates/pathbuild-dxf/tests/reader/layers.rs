@@ -106,6 +106,22 @@ fn a_record_is_found_by_a_name_of_any_length_and_not_by_one_that_is_almost_the_s
     }
 }
 
+/// As many as anybody may put into a file.
+#[test]
+fn records_are_found_among_thousands_that_are_almost_the_same() {
+    const BITS: usize = 11;
+    let name = |number: usize| -> String {
+        (0..BITS).map(|bit| if number >> bit & 1 == 0 { '~' } else { '^' }).collect()
+    };
+    let names: Vec<_> = (0..1 << BITS).map(name).collect();
+    let records: Vec<_> = (0..).zip(&names).map(|(number, name)| format!("2 {name}\n6 T{number}")).collect();
+    let records: Vec<_> = records.iter().map(String::as_str).collect();
+    let layers: Vec<_> = names.iter().map(String::as_str).collect();
+    let drawing = circles(&layers, &table(&records));
+    let found: Vec<_> = drawing.entities.iter().map(|entity| entity.line_type.to_string()).collect();
+    assert_eq!(found, (0..1 << BITS).map(|number| format!("T{number}")).collect::<Vec<_>>());
+}
+
 #[test]
 fn records_of_names_that_are_not_plain_are_found() {
     for (record, layer) in [
