@@ -156,6 +156,8 @@ impl Directory {
         if listed.is_err() && found.listing.names.is_empty() && found.count == 0 {
             return Ok(None);
         }
+        // Who looks for a path must not miss what was not told.
+        found.listing.is_doubtful |= listed.is_err();
         found.listing.names.sort_unstable();
         let drawings = found.listing.names.iter().filter(|name| !is_hidden(name));
         found.drawings = drawings.map(|name| joined(directory, name)).collect();

@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{Database, Db, program};
+use pathbuild_db::{Database, Db};
 use pathbuild_toolpath::Program;
 
 use super::asked::Asked;
-use super::deliver::{Delivered, Made, Means, Task, finish, make};
+use super::deliver::{Delivered, Made, Means, Task, finish, make, programs};
 use super::job::{Job, Maker};
 use crate::args::EmitArgs;
 use crate::session::Session;
@@ -16,7 +16,7 @@ use crate::session::Session;
 pub(super) struct Ahead {
     job: Job,
     /// That of each of its paths.
-    programs: Vec<Option<Arc<Program>>>,
+    programs: Vec<Arc<Program>>,
     /// Not read back yet, or only on a thread of its own: meanwhile one looks whether it was made from the right drawings.
     made: Made,
 }
@@ -30,10 +30,10 @@ impl Ahead {
         let mut jobs = maker.jobs(&checked, &mut Vec::new());
         let job = jobs.pop().filter(|_| jobs.is_empty())?;
         let means = Means { is_followed: true, ..*means };
-        let make = |db: &Database, job: &&Job| (programs(db, job), make(db, job, &means));
+        let make = |db: &Database, job: &&Job| Some((programs(db, job)?, make(db, job, &means)));
         let made = session.guarded(&[&job], make).pop()?;
         // What went wrong goes wrong again when it counts.
-        let (programs, made) = made.ok()?;
+        let (programs, made) = made.ok()??;
         Some(Self { job, programs, made })
     }
 
@@ -46,22 +46,15 @@ impl Ahead {
         means: &Means<'_>,
     ) -> Option<Delivered> {
         let [job] = jobs else { return None };
-        if *job != self.job || !is_same(&self.programs, &programs(session.db(), job)) {
+        let now = programs(session.db(), job)?;
+        // Nobody had to make them again.
+        let is_same = now.len() == self.programs.len()
+            && now.iter().zip(&self.programs).all(|(now, before)| Arc::ptr_eq(now, before));
+        if *job != self.job || !is_same {
             return None;
         }
         let Made { mut delivered, outputs, .. } = self.made.read_back();
         finish(session.db().system(), outputs, task, means.poster, &mut delivered);
         Some(delivered)
     }
-}
-
-fn programs(db: &Database, job: &Job) -> Vec<Option<Arc<Program>>> {
-    job.targets.iter().map(|target| program(db, *target).clone()).collect()
-}
-
-/// Whether nobody had to make them again.
-fn is_same(before: &[Option<Arc<Program>>], now: &[Option<Arc<Program>>]) -> bool {
-    type Pair<'p> = (&'p Option<Arc<Program>>, &'p Option<Arc<Program>>);
-    let is_same = |pair: Pair<'_>| matches!(pair, (Some(before), Some(now)) if Arc::ptr_eq(before, now));
-    before.len() == now.len() && before.iter().zip(now).all(is_same)
 }

@@ -142,12 +142,14 @@ impl Made {
     }
 }
 
+/// That of each path of a job, if all have one.
+pub(super) fn programs(db: &Database, job: &Job) -> Option<Vec<Arc<Program>>> {
+    job.targets.iter().map(|target| program(db, *target).clone()).collect()
+}
+
 /// The files of a job; native ones must be [read back](Made::read_back) before anybody uses them.
 pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
-    let programs = job.targets.iter().map(|target| program(db, *target).clone());
-    let Some(programs) = programs.collect::<Option<Vec<Arc<Program>>>>() else {
-        return Made::default();
-    };
+    let Some(programs) = programs(db, job) else { return Made::default() };
     let mut delivered = Delivered::default();
     let mut time = Total::default();
     for program in &programs {
