@@ -16,7 +16,7 @@ use crate::facts::{DirectoryFact, ListingKind};
 pub struct Listing {
     /// The names, sorted once all are there.
     pub names: Vec<Box<str>>,
-    /// Whether there are links among them.
+    /// Whether there are links among them, or some may be missing.
     pub is_doubtful: bool,
 }
 
