@@ -23,10 +23,10 @@ pub use guard::Underway;
 pub use inputs::{Directory, Insight, Role, SourceFile, Target};
 pub use queries::{
     Brief, Clear, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey,
-    Outcome, PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Trace, assigned_texts, chains,
-    check_file, check_target, clear, closure, combinations, content_hash, drawing_names, embeds, find_path,
-    has_subpaths, head, holders, likely_file, locate, name_table, path, path_names, path_place, program,
-    q_project, q_project_findings, raw_file, raw_path, search_directories, summary, trace,
+    Outcome, PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Survey, Trace, assigned_texts,
+    chains, check_file, check_target, clear, closure, combinations, content_hash, drawing_names, embeds,
+    find_path, has_subpaths, head, holders, likely_file, locate, name_table, path, path_names, path_place,
+    program, q_project, q_project_findings, raw_file, raw_path, search_directories, summary, survey, trace,
 };
 pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
 pub use system::System;

@@ -24,7 +24,7 @@ mod raw;
 mod reach;
 mod reading;
 mod report;
-mod survey;
+mod surveys;
 mod texts;
 mod traces;
 
@@ -43,6 +43,7 @@ pub use q_projects::{QProject, QProjectLine, q_project, q_project_findings};
 pub use raw::{NameKey, PathPlace, content_hash, has_subpaths, path_names, path_place, raw_file, raw_path};
 pub use reach::{Closure, MissingOption, Reached, closure};
 pub use report::{check_file, check_target, locate};
+pub use surveys::{Survey, survey};
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
 

@@ -8,7 +8,7 @@ use pathbuild_toolpath::own_moves;
 use super::hints::with_other_layers;
 use super::instance::{BoundPath, Instance, bind_raw, chains, path, walk};
 use super::raw::NameKey;
-use super::survey::surveyed;
+use super::surveys::surveyed;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 

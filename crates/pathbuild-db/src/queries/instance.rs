@@ -7,7 +7,7 @@ use pathbuild_path::{Bindings, Path, RawPath, Walked};
 
 use super::raw::{NameKey, raw_path};
 use super::reading::internal_error;
-use super::survey::surveyed;
+use super::surveys::surveyed;
 use crate::database::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;

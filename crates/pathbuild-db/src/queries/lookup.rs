@@ -28,7 +28,7 @@ pub struct Found {
 pub fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Cow<'db, Found> {
     if db.is_surveying() {
         // What is asked once need not be kept.
-        Cow::Owned(Search::new(db, from).find(&name.name(db)))
+        Cow::Owned(Search::new(db, from, path_names(db, from)).find(&name.name(db)))
     } else {
         Cow::Borrowed(query::find_path(db, from, name))
     }
@@ -39,12 +39,12 @@ mod query {
     use super::{Found, Place, Search, files_of};
     use crate::database::Db;
     use crate::inputs::{Directory, SourceFile};
-    use crate::queries::raw::NameKey;
+    use crate::queries::raw::{NameKey, path_names};
 
     #[salsa::tracked]
     pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Found {
         let files = |place: &Place<'_>| files_for(db, place.directory, name).clone();
-        Search::new(db, from).find_among(&name.name(db), files)
+        Search::new(db, from, path_names(db, from)).find_among(&name.name(db), files)
     }
 
     /// The files of a directory that may hold a path by their names: unchanged by files that cannot.
@@ -71,10 +71,11 @@ struct Place<'db> {
 }
 
 impl<'db> Search<'db> {
-    pub(super) fn new(db: &'db dyn Db, from: SourceFile) -> Self {
+    /// `own`: the paths of that drawing.
+    pub(super) fn new(db: &'db dyn Db, from: SourceFile, own: &'db [PathName]) -> Self {
         let directories = search_directories(db, from);
         let place = |path: &Utf8PathBuf| Place { directory: db.directory(path), names: OnceCell::new() };
-        Self { db, from, own: path_names(db, from), places: directories.iter().map(place).collect() }
+        Self { db, from, own, places: directories.iter().map(place).collect() }
     }
 
     /// Where a path is; nothing of it is kept.

@@ -67,10 +67,11 @@ impl NameTable {
 
     /// The files that may hold a path, in order of name.
     pub(super) fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
-        let files = self.ranges.files(key).into_iter();
-        let mut names: Vec<&str> = files.filter_map(|file| self.names.get(file as usize)).collect();
-        names.sort_unstable();
-        names.into_iter().map(|name| db.file(&joined(directory.path(db), name))).collect()
+        let name = |file: &u32| self.names.get(*file as usize);
+        let mut files = self.ranges.files(key);
+        files.sort_unstable_by_key(name);
+        let file = |name| db.file(&joined(directory.path(db), name));
+        files.iter().filter_map(name).map(file).collect()
     }
 }
 
@@ -104,5 +105,9 @@ fn is_drawing(name: &str) -> bool {
 
 /// A file in a directory, whose path is normalised.
 pub(super) fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
-    if directory.as_str().is_empty() { Utf8PathBuf::from(name) } else { directory.join(name) }
+    // At once in the memory that it needs.
+    let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.len());
+    path.push(directory);
+    path.push(name);
+    path
 }

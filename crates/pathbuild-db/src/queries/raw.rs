@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_path::{PathName, Position, RawPath, SourceMap};
 
 use super::reading::read;
-use super::survey::{SurveyedPath, surveyed};
+use super::surveys::{SurveyedPath, surveyed};
 use crate::database::Db;
 use crate::inputs::SourceFile;
 

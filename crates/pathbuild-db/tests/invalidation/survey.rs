@@ -1,7 +1,11 @@
 //! Surveyed drawings: what is known of them at once, and that it is what would be found path by path.
 
-use pathbuild_db::{Limits, Role, Settings, Target, check_target, clear, locate, path_names, trace};
+use pathbuild_db::{
+    Clear, Limits, Role, Settings, SourceFile, Target, check_file, check_target, clear, locate, path_names,
+    survey, trace,
+};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
 use salsa::Setter;
 
 use crate::embedding::component;
@@ -65,11 +69,19 @@ fn findings(world: &World) -> Vec<(String, Vec<Diagnostic>)> {
     found
 }
 
+fn traced(world: &World, file: SourceFile, name: &PathName) -> Option<Clear> {
+    clear(&world.db, file, survey(&world.db, file), name, true)
+}
+
+fn clear_without_trace(world: &World, file: SourceFile, name: &PathName) -> Option<Clear> {
+    clear(&world.db, file, survey(&world.db, file), name, false)
+}
+
 fn clear_paths(world: &World) -> Vec<&'static str> {
     let paths = DRAWINGS.iter().flat_map(|(file, paths)| paths.iter().map(move |path| (*file, *path)));
     let is_clear = |(file, path): &(&str, &str)| {
         let (file, name) = world.path(file, path);
-        clear(&world.db, file, &name).is_some()
+        traced(world, file, &name).is_some()
     };
     paths.filter(is_clear).map(|(_, path)| path).collect()
 }
@@ -91,10 +103,9 @@ fn what_is_found_in_surveyed_drawings_is_what_is_found_in_others() {
 #[test]
 fn a_path_is_clear_if_nothing_is_found_in_it_or_what_it_embeds() {
     assert_eq!(clear_paths(&world(true)), ["1111.1P", "1114.1P", "1114.2P", "8001.1P", "8005.1P"]);
-    assert!(clear_paths(&world(false)).is_empty());
     let surveyed = world(true);
     let (file, name) = surveyed.path("lib/1111.1P.dxf", "1119.1P");
-    assert!(clear(&surveyed.db, file, &name).is_none());
+    assert!(traced(&surveyed, file, &name).is_none());
 }
 
 #[test]
@@ -103,11 +114,24 @@ fn a_clear_path_has_the_trace_that_it_would_have_else() {
     for file in ["lib/1111.1P.dxf", "lib/8001.1P.dxf", "lib/8005.1P.dxf"] {
         let (file, name) = world.path(file, file.strip_prefix("lib/").unwrap().strip_suffix(".dxf").unwrap());
         let target = Target::new(&world.db, file, name.as_str().into(), Role::Checked);
-        let clear = clear(&world.db, file, &name).unwrap();
-        assert_eq!(clear.trace(&world.db, file), *trace(&world.db, target));
-        let reached: Vec<_> = std::iter::once(file).chain(clear.files()).collect();
-        assert_eq!(reached, trace(&world.db, target).files);
+        let clear = traced(&world, file, &name).unwrap();
+        assert_eq!(clear.trace.as_ref(), Some(trace(&world.db, target)));
+        let untraced = clear_without_trace(&world, file, &name);
+        assert_eq!(untraced, Some(Clear { trace: None, ..clear }));
     }
+}
+
+#[test]
+fn a_clear_path_knows_the_drawings_of_what_it_embeds_that_have_something_wrong_as_a_whole() {
+    let mut world = world(true);
+    let (project, name) = world.path("lib/8001.1P.dxf", "8001.1P");
+    assert_eq!(clear_without_trace(&world, project, &name).unwrap().faulty, []);
+    let mut bytes = world.bytes("lib/1111.1P.dxf");
+    bytes.truncate(bytes.trim_ascii_end().len() - "EOF".len());
+    world.put("lib/1111.1P.dxf", bytes);
+    let (component, _) = world.path("lib/1111.1P.dxf", "");
+    assert!(!check_file(&world.db, component).is_empty());
+    assert_eq!(clear_without_trace(&world, project, &name).unwrap().faulty, [component]);
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod settings;
 pub mod timings;
 mod watchdog;
 mod work;
+mod workers;
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -22,10 +23,10 @@ use std::sync::{Arc, OnceLock};
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
 use pathbuild_db::{Database, Db, Role, SourceFile, Target};
-use rayon::ThreadPool;
 
 use self::timings::Timings;
 use self::watchdog::Watchdog;
+use self::workers::Workers;
 use crate::context::Context;
 use crate::progress::Progress;
 
@@ -50,7 +51,7 @@ pub struct Session<'a> {
     /// Of drawings that are worked through batch by batch; else each piece of work shows its own.
     progress: Option<Progress>,
     /// Worker threads.
-    pool: OnceLock<Option<ThreadPool>>,
+    workers: OnceLock<Option<Workers>>,
     /// The targets that were asked for, in a session that asks for the same again: each is an input of the database, which stays for ever.
     targets: Option<RefCell<Targets>>,
     /// Where the time went.
@@ -117,7 +118,7 @@ impl<'a> Session<'a> {
             is_traced: false,
             watchdog: OnceLock::new(),
             progress: None,
-            pool: OnceLock::new(),
+            workers: OnceLock::new(),
             targets: None,
             timings: Timings::default(),
         }

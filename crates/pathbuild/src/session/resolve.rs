@@ -194,6 +194,7 @@ impl Session<'_> {
     }
 
     fn add_directory(&self, directory: Utf8PathBuf, wanted: &mut Wanted) {
+        self.rouse_workers();
         let walked = self.walked(&directory);
         wanted.problems.extend(walked.problem.as_deref().cloned());
         for drawing in walked.drawings {

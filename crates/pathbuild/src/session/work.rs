@@ -1,6 +1,5 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
-use std::hint::black_box;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
@@ -11,10 +10,10 @@ use pathbuild_db::{
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::timings::{CHECKING, READING};
 use super::watchdog::Watchdog;
+use super::workers::Workers;
 use super::{Session, WantedPath};
 
 /// What came of a target.
@@ -57,9 +56,6 @@ pub struct Asking<'a> {
 /// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at some 15 KB
 /// each no burden.
 const BATCH: usize = 2048;
-
-/// Stacks of worker threads: queries call each other once for each level of embedding.
-const STACK_SIZE: usize = 16 << 20;
 
 impl Session<'_> {
     /// A target for each path of a file.
@@ -190,7 +186,9 @@ impl Session<'_> {
         if items.len() <= 1 || self.context.jobs == Some(1) {
             return items.iter().map(|item| work(&self.db, item)).collect();
         }
-        let Some(pool) = self.pool() else { return items.iter().map(|item| work(&self.db, item)).collect() };
+        let Some(workers) = self.workers() else {
+            return items.iter().map(|item| work(&self.db, item)).collect();
+        };
         let db = self.db.clone();
         let progress = self.progress.is_none().then(|| self.context.printer.progress(items.len()));
         let work = |db: &mut Database, item| {
@@ -198,29 +196,19 @@ impl Session<'_> {
             progress.as_ref().inspect(|progress| progress.advance());
             result
         };
-        pool.install(|| items.par_iter().map_with(db, work).collect())
+        workers.work(|| items.par_iter().map_with(db, work).collect())
+    }
+
+    /// Starts the worker threads while there is something else to do before there is work for them.
+    pub(super) fn rouse_workers(&self) {
+        if self.context.jobs != Some(1) {
+            self.workers();
+        }
     }
 
     /// The worker threads, started when they are first wanted; `None` where the system gives none.
-    fn pool(&self) -> Option<&ThreadPool> {
-        let start = || {
-            let threads = usize::from(self.context.jobs.unwrap_or(0));
-            let pool = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE);
-            pool.start_handler(|_| reserve_memory()).build().ok()
-        };
-        self.pool.get_or_init(start).as_ref()
-    }
-}
-
-/// Takes at one go what a thread will need, and gives it back at once, so that it is at hand. glibc asks the system for a thread's memory page by
-/// page as it is used, each time while all other threads wait, unless there was more than that; and it keeps no more than twice the largest piece
-/// that was given back to the system itself, as the first one here is. Nothing is used of it before it is needed.
-fn reserve_memory() {
-    const RESERVED: usize = 16 << 20;
-    for _ in 0..2 {
-        let mut memory = Vec::<u8>::new();
-        // Where there is not as much, it comes as it is needed.
-        _ = black_box(&mut memory).try_reserve_exact(RESERVED);
+    fn workers(&self) -> Option<&Workers> {
+        self.workers.get_or_init(|| Workers::start(self.context.jobs)).as_ref()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, clear, path_names};
+use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, clear, path_names, survey};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
@@ -45,13 +45,15 @@ pub(super) fn check_library(
 /// What is found in a drawing that is surveyed: only of paths that are not clear more is asked.
 fn check_surveyed(asking: &Asking<'_>, file: SourceFile) -> (DrawingResult, Vec<Trace>) {
     let db = asking.db();
-    let names = path_names(db, file);
-    let (mut diagnostics, mut reached) = (Vec::new(), vec![file]);
+    let survey = survey(db, file);
+    let mut diagnostics = Vec::new();
+    let mut reached: Vec<SourceFile> =
+        (!survey.diagnostics().is_empty()).then_some(file).into_iter().collect();
     let mut traces = own_trace(asking.is_traced(), file);
-    for name in names {
-        if let Some(clear) = clear(db, file, name) {
-            reached.extend(clear.files());
-            traces.extend(asking.is_traced().then(|| clear.trace(db, file)));
+    for name in survey.names() {
+        if let Some(clear) = clear(db, file, survey, name, asking.is_traced()) {
+            reached.extend(clear.faulty);
+            traces.extend(clear.trace);
         } else {
             let checked = asking.check(Target::new(db, file, name.as_str().into(), Role::Checked));
             diagnostics.extend(checked.diagnostics);
@@ -59,7 +61,7 @@ fn check_surveyed(asking: &Asking<'_>, file: SourceFile) -> (DrawingResult, Vec<
             traces.extend(checked.trace);
         }
     }
-    (result(db, names, diagnostics, reached), traces)
+    (result(db, survey.names(), diagnostics, reached), traces)
 }
 
 /// What is found in paths of drawings, and in the drawings.

@@ -4,6 +4,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Path, PathName, RawPath, SourceMap};
 
 use super::brief::{Head, Summary, new_summary};
@@ -14,7 +15,7 @@ use crate::inputs::SourceFile;
 
 /// What is known of a drawing.
 #[derive(Clone, Debug)]
-pub(super) struct Survey {
+pub struct Survey {
     report: FileReport,
     /// In order of first appearance.
     names: Vec<PathName>,
@@ -43,8 +44,9 @@ pub(super) fn surveyed(db: &dyn Db, file: SourceFile) -> Option<&Survey> {
     db.is_surveying().then(|| survey(db, file))
 }
 
+/// Surveys a drawing.
 #[salsa::tracked(no_eq)]
-fn survey(db: &dyn Db, file: SourceFile) -> Survey {
+pub fn survey(db: &dyn Db, file: SourceFile) -> Survey {
     let (paths, report) = read(db, file);
     let names = paths.iter().map(|(raw, _)| raw.name.clone()).collect();
     let mut paths: Vec<SurveyedPath> =
@@ -55,8 +57,13 @@ fn survey(db: &dyn Db, file: SourceFile) -> Survey {
 
 impl Survey {
     /// The names of its paths, in order of first appearance.
-    pub(super) fn names(&self) -> &[PathName] {
+    pub fn names(&self) -> &[PathName] {
         &self.names
+    }
+
+    /// What is wrong with the drawing as a whole.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.report.diagnostics
     }
 
     /// What is known of the drawing as a whole.
