@@ -23,13 +23,18 @@ pub trait System: Debug + Send + Sync {
     /// When there is no such regular file, it cannot be read, or it has more bytes than `limit`.
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
 
-    /// The same in memory that is there already: what was in `bytes` is replaced. After an error they may be anything.
+    /// The same in memory that is there already; `room` is what was read before, and then whatever else there was.
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
-        *bytes = self.read(path, limit)?;
-        Ok(())
+    fn read_into<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<&'r [u8], ReadError> {
+        *room = self.read(path, limit)?;
+        Ok(room)
     }
 
     /// The first bytes of a file, at most so many.

@@ -24,12 +24,41 @@ fn a_file_may_have_as_many_bytes_as_the_limit() {
 /// What was read before is not seen again, whether that was longer or shorter.
 #[test]
 fn drawings_are_read_into_the_same_memory() {
-    let mut bytes = b"x".repeat(50);
-    for size in [100, 1000, 10, 0, 70] {
+    let mut room = b"x".repeat(50);
+    for size in [100, 1000, 10, 0, 70, 65_530, 65_540, 200_000, 20] {
         let (_directory, path) = file(size);
-        OsSystem.read_into(&path, 1000, &mut bytes).unwrap();
-        assert_eq!(bytes, b"0123456789".repeat(size / 10));
+        let read = OsSystem.read_into(&path, 1_000_000, &mut room).unwrap();
+        assert_eq!(read, b"0123456789".repeat(size / 10));
     }
+}
+
+/// A file is not taken for whole because a part of it ends as a drawing does.
+#[test]
+fn what_follows_the_end_of_a_drawing_is_read() {
+    let (_directory, path) = file(0);
+    let ended = b"  0\nEOF\n".repeat(10_000);
+    for size in [8, 16, 65_536, 80_000] {
+        OsSystem.write(&path, &ended[..size]).unwrap();
+        assert_eq!(OsSystem.read(&path, 1_000_000).map(|bytes| bytes.len()), Ok(size));
+    }
+}
+
+/// Reading from a pipe would wait for whoever writes into it, perhaps for ever.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_no_regular_file_is_refused() {
+    use std::process::{Command, Stdio};
+
+    let read = |path: &str| OsSystem.read(Utf8Path::new(path), 1_000_000);
+    let refused = Err(ReadError::Other("it is not a regular file".into()));
+    assert_eq!(read("/dev/zero"), refused);
+    assert_eq!(read("/dev/null"), refused);
+    assert_eq!(read("/dev"), Err(ReadError::IsDirectory));
+    let mut sleeper = Command::new("sleep").arg("600").stdout(Stdio::piped()).spawn().unwrap();
+    let pipe = read(&format!("/proc/{}/fd/1", sleeper.id()));
+    sleeper.kill().unwrap();
+    sleeper.wait().unwrap();
+    assert_eq!(pipe, refused);
 }
 
 /// The entries of a directory, in order of name.

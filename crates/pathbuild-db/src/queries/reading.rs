@@ -36,7 +36,7 @@ pub(super) fn read(db: &dyn Db, file: SourceFile) -> (Vec<(RawPath, SourceMap)>,
 
 thread_local! {
     /// Where drawings are read into, one after the other.
-    static BYTES: Cell<Vec<u8>> = const { Cell::new(Vec::new()) };
+    static ROOM: Cell<Vec<u8>> = const { Cell::new(Vec::new()) };
 }
 
 /// As much memory is kept for the next drawing; few have more bytes.
@@ -49,10 +49,11 @@ fn with_bytes<R>(
     limit: u64,
     work: impl FnOnce(&[u8]) -> R,
 ) -> Result<R, ReadError> {
-    let mut bytes = BYTES.take();
-    let result = db.system().read_into(file.path(db), limit, &mut bytes).map(|()| work(&bytes));
-    if bytes.capacity() <= KEPT {
-        BYTES.set(bytes);
+    let mut room = ROOM.take();
+    let read = db.system().read_into(file.path(db), limit, &mut room);
+    let result = read.map(work);
+    if room.len() <= KEPT {
+        ROOM.set(room);
     }
     result
 }

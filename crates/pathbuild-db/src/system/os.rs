@@ -2,8 +2,9 @@
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
 mod directory;
+mod whole;
 
-use std::fs::{self, File, Metadata, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::ops::ControlFlow;
 use std::time::SystemTime;
@@ -32,30 +33,25 @@ impl OsSystem {
 
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        let mut bytes = Vec::new();
-        self.read_into(path, limit, &mut bytes)?;
-        Ok(bytes)
+        let mut room = Vec::new();
+        let length = self.read_into(path, limit, &mut room)?.len();
+        room.truncate(length);
+        Ok(room)
     }
 
-    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
-        let mut file = File::open(path)?;
-        let size = regular_size(&file.metadata()?)?;
-        if size > limit {
-            return Err(ReadError::TooLarge { size });
-        }
-        // One byte more than there should be: a file may grow between the question for its size and the last byte.
-        bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).saturating_add(1), 0);
-        let mut read = fill(&mut file, bytes, size)?;
-        if read == bytes.len() {
-            read += Read::by_ref(&mut file).take(limit.saturating_sub(size)).read_to_end(bytes)?;
-        }
-        bytes.truncate(read);
-        if read as u64 > limit { Err(ReadError::TooLarge { size: read as u64 }) } else { Ok(()) }
+    fn read_into<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<&'r [u8], ReadError> {
+        let length = whole::read(&File::open(path)?, limit, room)?;
+        Ok(&room[..length])
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         let file = File::open(path)?;
-        regular_size(&file.metadata()?)?;
+        whole::regular_size(&file)?;
         let mut bytes = Vec::new();
         file.take(length as u64).read_to_end(&mut bytes)?;
         Ok(bytes)
@@ -119,34 +115,6 @@ impl From<io::Error> for ReadError {
             _ => Self::Other(reason(&error)),
         }
     }
-}
-
-/// Reads until there is no more, or no more room; how much was read. Nobody asks once more who got just as much as there should be.
-fn fill(file: &mut File, bytes: &mut [u8], size: u64) -> io::Result<usize> {
-    let mut filled = 0;
-    while filled < bytes.len() {
-        match file.read(&mut bytes[filled..]) {
-            Ok(0) => break,
-            Ok(read) => filled += read,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-        if filled as u64 == size {
-            break;
-        }
-    }
-    Ok(filled)
-}
-
-/// The size of a regular file. Pipes and devices are refused: reading them may never end.
-fn regular_size(data: &Metadata) -> Result<u64, ReadError> {
-    if data.is_dir() {
-        return Err(ReadError::IsDirectory);
-    }
-    if !data.is_file() {
-        return Err(ReadError::Other("it is not a regular file".into()));
-    }
-    Ok(data.len())
 }
 
 /// Writes a temporary file in the same directory and renames it, so that nobody ever sees half a program.

@@ -36,12 +36,17 @@ impl System for Overlay {
         }
     }
 
-    fn read_into(&self, path: &Utf8Path, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
+    fn read_into<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<&'r [u8], ReadError> {
         if path != self.path {
-            return self.below.read_into(path, limit, bytes);
+            return self.below.read_into(path, limit, room);
         }
-        *bytes = self.read(path, limit)?;
-        Ok(())
+        *room = self.read(path, limit)?;
+        Ok(room)
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
