@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::Point3;
+use crate::by_name::ByName;
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, not_ended, stopped};
@@ -21,7 +22,7 @@ use crate::trouble::Trouble;
 /// The blocks of a file.
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
-    by_name: BTreeMap<Name<'a>, BlockId>,
+    by_name: ByName<'a, BlockId>,
     all: Vec<Block<'a>>,
     /// The layers that blocks name, side by side.
     named: Vec<Value<'a>>,
@@ -88,7 +89,7 @@ impl<'a> Blocks<'a> {
 
     /// The block of this name, without regard to case.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
-        self.by_name.get(&Name::new(name.into())).copied()
+        self.by_name.find(&Name::new(name.into())).copied()
     }
 
     /// Its base point.
@@ -211,8 +212,8 @@ impl<'a> Blocks<'a> {
 
     fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
         if let Some(name) = fields.get(2) {
-            let name = Name::new(decoder.decode(name.bytes, name.line));
-            self.by_name.entry(name).or_insert(BlockId(self.all.len()));
+            let name = Name::decoded(name.bytes, name.line, decoder);
+            self.by_name.push(name, BlockId(self.all.len()));
         }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
         self.all.push(Block {

@@ -126,7 +126,7 @@ impl<'a, 'o> Layers<'a, 'o> {
             name: name.into(),
             folded: folded(name),
             line_type: line_type.unwrap_or(CONTINUOUS),
-            hidden: record.is_some_and(|record| record.is_hidden),
+            hidden: record.is_some_and(LayerRecord::is_hidden),
         }
     }
 }

@@ -8,6 +8,7 @@
 mod angle;
 mod binary;
 mod blocks;
+mod by_name;
 mod code;
 mod collect;
 mod curves;

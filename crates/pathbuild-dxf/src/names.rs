@@ -10,7 +10,7 @@ use crate::encoding::{Decoder, is_plain};
 /// A name without blanks around it that is compared without regard to case.
 #[derive(Clone, Debug)]
 pub(crate) enum Name<'a> {
-    /// One of ASCII, as it is spelt, or a part of any other name.
+    /// One of ASCII, as it is spelt.
     Spelt(&'a [u8]),
     /// Any other: upper case.
     Folded(SmolStr),
@@ -33,18 +33,14 @@ impl<'a> Name<'a> {
         Self::new(decoder.decode(bytes, line))
     }
 
-    /// How much of it is the prefix of an external reference.
-    pub(crate) fn xref_prefix(&self) -> usize {
+    /// What follows the prefix of an external reference, if it has one.
+    pub(crate) fn behind_xref(&self) -> Option<Self> {
         if !has_xref_sign(self.bytes()) {
-            return 0;
+            return None;
         }
         let text = String::from_utf8_lossy(self.bytes());
-        text.len() - without_xref(&text).len()
-    }
-
-    /// What it is from this byte on.
-    pub(crate) fn from(&self, begin: usize) -> Name<'_> {
-        Name::Spelt(&self.bytes()[begin..])
+        let behind = without_xref(&text);
+        (behind.len() < text.len()).then(|| Self::Folded(folded(behind)))
     }
 
     /// A number that equal names have in common.
