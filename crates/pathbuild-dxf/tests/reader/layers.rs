@@ -100,9 +100,25 @@ fn a_record_is_found_by_a_name_of_any_length_and_not_by_one_that_is_almost_the_s
             (layer.replacen('~', "^", 1), "CONTINUOUS".into()),
             (format!("{layer}x"), "CONTINUOUS".into()),
         ] {
-            let drawing = circles(&[&layer], &table(&records));
-            assert_eq!(&*drawing.entities[0].line_type, line_type, "{layer}");
+            for records in [&records[..], &records[length - 1..length]] {
+                let drawing = circles(&[&layer], &table(records));
+                assert_eq!(&*drawing.entities[0].line_type, line_type, "{layer}");
+            }
         }
+    }
+}
+
+#[test]
+fn of_several_records_of_a_name_the_first_counts() {
+    for others in [0, 100] {
+        let mut records: Vec<_> = (0..others).map(|number| format!("2 L{number}")).collect();
+        records.extend(
+            ["2 A\n6 DASHED", "2 a\n6 DOT", "2 x$0$B\n6 DOT", "2 y$0$b\n6 DASHED"].map(str::to_owned),
+        );
+        let records: Vec<_> = records.iter().map(String::as_str).collect();
+        let drawing = circles(&["a", "B"], &table(&records));
+        let line_types: Vec<_> = drawing.entities.iter().map(|entity| &*entity.line_type).collect();
+        assert_eq!(line_types, ["DASHED", "DOT"]);
     }
 }
 
