@@ -2,7 +2,9 @@
 
 mod support;
 
-use clap::CommandFactory;
+use std::ffi::OsString;
+
+use clap::{CommandFactory, Parser};
 use insta::assert_snapshot;
 use pathbuild::args::Cli;
 use support::{Place, Run, program, runs};
@@ -134,4 +136,49 @@ fn a_full_disk_is_an_error() {
     let output = program().arg("--help").stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: cannot write to standard output"));
+}
+
+/// Only the command that comes first is defined, if nothing is wrong with the line.
+#[test]
+fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
+    let lines = [
+        "",
+        "check",
+        "check a.dxf b -j 2 --no-cache -qq --report json=x",
+        "-qq check a.dxf",
+        "--feed 100 check --feed 200",
+        "check --feed -1 --search a --search b --lang de --color never",
+        "check -q -v",
+        "check --nonsense",
+        "check --jobs 0",
+        "check --update-baseline",
+        "check --help",
+        "check -- --feed",
+        "chek",
+        "emit 8001.1P --sweep-height 40",
+        "emit emit",
+        "init",
+        "init -v",
+        "init x",
+        "man",
+        "cache size",
+        "cache",
+        "config show a.dxf",
+        "post",
+        "help",
+        "help check",
+        "--help",
+        "--version",
+        "check --version",
+        "compat --print -- -x 1",
+    ];
+    for line in lines {
+        let line = ["pathbuild"].into_iter().chain(line.split_whitespace());
+        let line: Vec<OsString> = line.map(OsString::from).collect();
+        let said = |read: Result<Cli, clap::Error>| match read {
+            Ok(cli) => format!("{cli:?}"),
+            Err(error) => format!("{:?} {}", error.kind(), error.render()),
+        };
+        assert_eq!(said(Cli::read(&line)), said(Cli::try_parse_from(&line)), "{line:?}");
+    }
 }

@@ -18,7 +18,6 @@ mod usage;
 use std::ffi::OsString;
 
 use camino::Utf8PathBuf;
-use clap::Parser;
 use pathbuild_diagnostic::Diagnostic;
 
 pub use context::Context;
@@ -32,7 +31,7 @@ use printer::{ColorChoice, Printer};
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    match Cli::try_parse_from(&arguments) {
+    match Cli::read(&arguments) {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
         Ok(cli) => execute(&cli),
         Err(error) => print(|printer| usage::answer(&error, printer)),

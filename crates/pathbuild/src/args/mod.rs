@@ -10,6 +10,7 @@ mod gcode;
 mod graph;
 mod inputs;
 mod misc;
+mod reading;
 mod unbuilt;
 mod watch;
 
