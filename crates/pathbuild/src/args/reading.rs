@@ -16,7 +16,7 @@ impl Cli {
     }
 
     /// The same where the command comes first, as it nearly always does, and nothing else is to be said: without all other commands, each of which
-    /// would get the common options for itself. To define them takes a fifth of the time of a short run.
+    /// would get the common options for itself. To define them takes a quarter of the time of a short run.
     fn read_command(arguments: &[OsString]) -> Option<Self> {
         let commands = Command::augment_subcommands(Definition::new("pathbuild"));
         let command = commands.find_subcommand(arguments.get(1)?)?.clone();
