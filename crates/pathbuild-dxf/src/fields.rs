@@ -219,10 +219,29 @@ impl<'a> Fields<'a> {
         if digits.is_empty() || digits.len() > 16 {
             return None;
         }
-        let nibble =
-            |number: u64, digit: &u8| Some(number << 4 | u64::from(char::from(*digit).to_digit(16)?));
-        digits.iter().try_fold(0, nibble).map(Handle)
+        // Which of the digits are letters is nothing to branch on.
+        let (mut number, mut any) = (0, 0);
+        for digit in digits {
+            let value = DIGITS[usize::from(*digit)];
+            (number, any) = (number << 4 | u64::from(value), any | value);
+        }
+        (any < 16).then_some(Handle(number))
     }
+}
+
+/// The hexadecimal digits, and [`u8::MAX`] for what is none.
+static DIGITS: [u8; 256] = digits();
+
+const fn digits() -> [u8; 256] {
+    let mut digits = [u8::MAX; 256];
+    let mut value = 0;
+    while value < 16 {
+        let digit = b"0123456789ABCDEF"[value as usize];
+        digits[digit as usize] = value;
+        digits[digit.to_ascii_lowercase() as usize] = value;
+        value += 1;
+    }
+    digits
 }
 
 /// Skips `102/{NAME` up to `102/}`, whose codes an application chose. Gives back a `0` if that comes first.

@@ -16,7 +16,10 @@ pub(crate) enum NotANumber {
 /// Reads a real number; blanks around it and a `D` exponent are fine.
 #[inline]
 pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
-    plain_decimal(value).map_or_else(|| unusual(value.trim_ascii()), Ok)
+    match plain_decimal(value) {
+        Some(number) => Ok(number),
+        None => unusual(value),
+    }
 }
 
 /// Reads a whole number; one written as a real (`5.0`) is fine.
@@ -34,7 +37,10 @@ pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
     is_whole.then_some(number as i64).ok_or(NotANumber::Invalid)
 }
 
+#[cold]
+#[inline(never)]
 fn unusual(value: &[u8]) -> Result<f64, NotANumber> {
+    let value = value.trim_ascii();
     plain_decimal(value).map_or_else(|| general(value), Ok)
 }
 

@@ -50,8 +50,23 @@ fn origins_hold_line_and_handle() {
 
 #[test]
 fn a_handle_that_is_not_hexadecimal_is_none() {
-    let drawing = read_all(entities("0 CIRCLE\n5 xyz\n8 A\n10 0\n20 0\n40 1"));
-    assert_eq!(drawing.origins, [Origin { line: 5, handle: None }]);
+    for (handle, expected) in [
+        ("09", Some(0x09)),
+        ("aFAf", Some(0xAFAF)),
+        ("fedcba9876543210", Some(0xFEDC_BA98_7654_3210)),
+        ("0fedcba9876543210", None),
+        ("/", None),
+        (":", None),
+        ("1G", None),
+        ("@1", None),
+        ("g1", None),
+        ("`", None),
+        ("1 2", None),
+        ("é", None),
+    ] {
+        let drawing = read_all(entities(&format!("0 CIRCLE\n5 {handle}\n8 A\n10 0\n20 0\n40 1")));
+        assert_eq!(drawing.origins, [Origin { line: 5, handle: expected.map(Handle) }], "{handle}");
+    }
 }
 
 #[test]
