@@ -4,7 +4,7 @@ use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
 use crate::fields::Value;
-use crate::names::{folded, is_same, without_xref};
+use crate::names::{folded, without_xref};
 use crate::spellings::Spellings;
 
 /// What is taken where nothing is said.
@@ -28,19 +28,13 @@ const USUAL: usize = 8;
 #[derive(Debug)]
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
-    last: Option<(&'a [u8], LineType)>,
     names: Vec<SmolStr>,
     continuous: SmolStr,
 }
 
 impl Default for LineTypes<'_> {
     fn default() -> Self {
-        Self {
-            by_spelling: Spellings::default(),
-            last: None,
-            names: Vec::with_capacity(USUAL),
-            continuous: CONTINUOUS,
-        }
+        Self { by_spelling: Spellings::default(), names: Vec::with_capacity(USUAL), continuous: CONTINUOUS }
     }
 }
 
@@ -49,15 +43,7 @@ impl<'a> LineTypes<'a> {
     #[inline]
     pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
         let Some(value) = value else { return LineType::ByLayer };
-        if let Some((last, line_type)) = self.last
-            && is_same(last, value.bytes)
-        {
-            return line_type;
-        }
-        let known = self.by_spelling.get(value.bytes);
-        let line_type = known.unwrap_or_else(|| self.first_use(value, decoder));
-        self.last = Some((value.bytes, line_type));
-        line_type
+        self.by_spelling.get(value.bytes).unwrap_or_else(|| self.first_use(value, decoder))
     }
 
     /// The name of this number: upper case, without xref prefix.

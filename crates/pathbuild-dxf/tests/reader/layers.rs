@@ -178,3 +178,21 @@ fn each_spelling_of_a_layer_is_asked_for_once() {
     assert_eq!(drawing.entities.len(), 3);
     assert_eq!(*asked.borrow(), ["A", "B", "B", "B"]);
 }
+
+#[test]
+fn layers_that_differ_in_one_character_are_not_the_same() {
+    let with_other = |length: usize, place: usize| -> String {
+        (0..length).map(|index| if index == place { 'b' } else { 'a' }).collect()
+    };
+    let of_length = |length: usize| (0..=length).map(move |place| with_other(length, place));
+    for lengths in (1..=18).map(|length| length..=length).chain([1..=18]) {
+        let layers: Vec<_> = lengths.flat_map(of_length).collect();
+        // Each a second time, when all are known.
+        let twice: Vec<_> = layers.iter().chain(&layers).map(String::as_str).collect();
+        let drawing = circles(&twice, "");
+        assert_eq!(names(&drawing), layers.iter().map(|layer| (layer.as_str(), false)).collect::<Vec<_>>());
+        let expected: Vec<_> = (0..).take(layers.len()).collect();
+        let on: Vec<_> = drawing.entities.iter().map(|entity| entity.layer).collect();
+        assert_eq!(on, [&expected[..], &expected[..]].concat());
+    }
+}
