@@ -1,6 +1,7 @@
 //! From a raw path and values of its variables to a [`Path`]: every parameter found, inherited and checked.
 //! (spec/30-parameters.md, spec/40-variables.md)
 
+mod circles;
 mod cuts;
 mod segments;
 
@@ -13,13 +14,13 @@ use regex::Regex;
 use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::limits;
-use crate::path::{CutParameters, Path, Probe, Turn};
+use crate::path::{CutParameters, Helix, Hole, Path, Probe, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
 use crate::values::Values;
 use crate::variables::{Bindings, Interpolation};
 
-use cuts::KnownCuts;
+use cuts::Known;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -40,7 +41,9 @@ struct Binder<'a> {
     /// The path's own values.
     values: Values<'a>,
     cuts: Vec<CutParameters>,
-    known_cuts: KnownCuts,
+    holes: Vec<Hole>,
+    helices: Vec<Helix>,
+    known: Known,
     problems: Vec<Diagnostic>,
     /// How often something was reported, also where it had been before.
     reported: usize,
@@ -63,7 +66,9 @@ impl<'a> Binder<'a> {
             interpolation,
             values,
             cuts: Vec::with_capacity(4),
-            known_cuts: KnownCuts::new(),
+            holes: Vec::new(),
+            helices: Vec::new(),
+            known: Known::new(),
             problems: Vec::new(),
             reported: 0,
         }
@@ -89,20 +94,27 @@ impl<'a> Binder<'a> {
             drawn: Arc::clone(&self.raw.drawn),
             segments,
             cuts: std::mem::take(&mut self.cuts),
+            holes: std::mem::take(&mut self.holes),
+            helices: std::mem::take(&mut self.helices),
             probes: Vec::new(),
-            surfaces: Vec::new(),
+            surface: self.surface(start, thickness),
+            other_surfaces: Vec::new(),
             start_origin: start.origin.clone(),
             end_origin: end.origin.clone(),
             left_out: self.raw.left_out.clone(),
         };
-        path.add_surface(self.parameters_origin(start), path.thickness, self.raw.parameters);
         self.add_probes(&mut path);
         Self::add_subpath_surfaces(&mut path);
         (tool.is_some() && thickness.is_some()).then_some(path)
     }
 
-    fn parameters_origin(&self, start: &Marker) -> Origin {
-        self.raw.borrowed_from.as_ref().map_or(&start.origin, |(_, origin)| origin).clone()
+    /// The upper face that S must be above, where it is not its own.
+    fn surface(&self, start: &Marker, thickness: Option<f64>) -> Option<Surface> {
+        if self.path_number(Letter::S).is_some() {
+            return None;
+        }
+        let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |(_, origin)| origin).clone();
+        Some(Surface { origin, thickness: thickness.unwrap_or_default(), text: self.raw.parameters })
     }
 
     fn check_path_values(&mut self) {

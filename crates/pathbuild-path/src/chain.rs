@@ -1,14 +1,12 @@
 //! What is done along a path, in order, with consecutive cuts grouped into milling chains. (spec/50-path-building.md, "Chains")
 
-use std::sync::Arc;
-
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
-use crate::path::{CutParameters, Helix, Hole, Path, SegmentKind};
+use crate::path::{CutParameters, Path, SegmentKind};
 use crate::walk::{Passage, curve};
 
 /// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
@@ -16,8 +14,16 @@ use crate::walk::{Passage, curve};
 #[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
 pub enum Item {
     Chain(Chain),
-    Hole { segment: usize, hole: Arc<Hole> },
-    Helix { segment: usize, helix: Arc<Helix> },
+    /// The hole as an index into [`Path::holes`].
+    Hole {
+        segment: usize,
+        hole: u32,
+    },
+    /// The circle as an index into [`Path::helices`].
+    Helix {
+        segment: usize,
+        helix: u32,
+    },
     Sweep(Sweep),
     Subpath(PlacedSubpath),
 }
@@ -93,6 +99,7 @@ impl<'a> Grouped<'a> {
     }
 
     /// Takes the next segment that is gone along.
+    #[inline]
     pub(crate) fn add(&mut self, segment: usize, passage: Passage, is_return: bool) {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
             let segment = u32::try_from(segment).unwrap_or(u32::MAX);
@@ -124,8 +131,8 @@ impl<'a> Grouped<'a> {
             SegmentKind::Cut(_) => return None,
             SegmentKind::Sweep { height } => Item::Sweep(Sweep { start, end, height: *height }),
             _ if is_return => Item::Sweep(Sweep { start, end, height: None }),
-            SegmentKind::Hole(hole) => Item::Hole { segment, hole: Arc::clone(hole) },
-            SegmentKind::Helix(helix) => Item::Helix { segment, helix: Arc::clone(helix) },
+            SegmentKind::Hole(hole) => Item::Hole { segment, hole: *hole },
+            SegmentKind::Helix(helix) => Item::Helix { segment, helix: *helix },
             SegmentKind::Subpath(_) => Item::Subpath(PlacedSubpath { segment, start, end }),
         })
     }

@@ -19,15 +19,17 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 /// element with support bars.
 pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, has_bars: bool) -> Vec<Diagnostic> {
     let mut limits = Limits { own, path, problems: Vec::new() };
-    // Most texts have none of these letters.
+    // Most texts have none of these letters, or of those.
     if own.letters().has_any(const { Letters::of(&POSITIVE) }) {
         for letter in POSITIVE {
             limits.check_positive(letter);
         }
     }
-    limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
-    limits.check_above(Letter::T, Letter::B, &messages::NOT_BELOW);
-    limits.check_above(Letter::T, Letter::D, &messages::NOT_BELOW);
+    if own.letters().has_any(const { Letters::of(&[Letter::S, Letter::T, Letter::B, Letter::D]) }) {
+        limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
+        limits.check_above(Letter::T, Letter::B, &messages::NOT_BELOW);
+        limits.check_above(Letter::T, Letter::D, &messages::NOT_BELOW);
+    }
     if has_bars {
         limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
         for letter in POSITIVE_BARS {

@@ -43,11 +43,16 @@ pub struct Path {
     pub segments: Vec<Segment>,
     /// How its milling, marking and support segments are milled. Those that are milled alike share what they say.
     pub cuts: Vec<CutParameters>,
+    /// How its drilled holes and marks are drilled, shared likewise.
+    pub holes: Vec<Hole>,
+    /// Its helical circles.
+    pub helices: Vec<Helix>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
-    /// The upper faces that S must be above, its own and those of its elements that have their own T. None where S is its own, which is
-    /// checked with its other values.
-    pub(crate) surfaces: Vec<Surface>,
+    /// The upper face that S must be above, and those of its elements that have their own T. None where S is its own, which is checked with
+    /// its other values.
+    pub(crate) surface: Option<Surface>,
+    pub(crate) other_surfaces: Vec<Surface>,
     /// The start marker.
     pub start_origin: Origin,
     /// The end marker.
@@ -107,8 +112,10 @@ pub struct Segment {
 pub enum SegmentKind {
     /// Member of a milling chain: index into [`Path::cuts`].
     Cut(u32),
-    Hole(Arc<Hole>),
-    Helix(Arc<Helix>),
+    /// Index into [`Path::holes`].
+    Hole(u32),
+    /// Index into [`Path::helices`].
+    Helix(u32),
     /// Its own S in mm; else the path's.
     Sweep {
         height: Option<f64>,
@@ -157,11 +164,10 @@ pub struct Bars {
     pub distance: f64,
 }
 
-/// A drilled hole or mark.
+/// How a hole or mark is drilled.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "as in CutParameters; peck is C")]
 pub struct Hole {
-    pub centre: Xy,
     pub bottom: f64,
     pub feed: Option<f64>,
     pub peck: Option<f64>,
@@ -255,8 +261,8 @@ impl Path {
             && self.segments.iter().any(|segment| match &segment.kind {
                 // Coming down to a chain's edge is reckoned with the path's feed, whatever its segments say.
                 SegmentKind::Cut(_) => true,
-                SegmentKind::Hole(hole) => hole.feed.is_none(),
-                SegmentKind::Helix(helix) => helix.feed.is_none(),
+                SegmentKind::Hole(hole) => self.holes[*hole as usize].feed.is_none(),
+                SegmentKind::Helix(helix) => self.helices[*helix as usize].feed.is_none(),
                 SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => false,
             })
     }
@@ -294,7 +300,8 @@ impl Path {
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
     /// its other values.
     pub fn check_sweep_height(&self, height: f64) -> Vec<Diagnostic> {
-        let too_high = self.surfaces.iter().filter(|surface| !above(height, surface.thickness));
+        let surfaces = self.surface.iter().chain(&self.other_surfaces);
+        let too_high = surfaces.filter(|surface| !above(height, surface.thickness));
         let report = |surface: &Surface| {
             let mut problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
                 .with("value", height)
@@ -308,7 +315,7 @@ impl Path {
 
     pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<u32>) {
         if self.sweep_height.is_none() {
-            self.surfaces.push(Surface { origin, thickness, text });
+            self.other_surfaces.push(Surface { origin, thickness, text });
         }
     }
 }

@@ -28,14 +28,19 @@ struct Wording {
     string: Range<usize>,
     pieces: Range<usize>,
     letters: Letters,
+    firsts: Firsts,
     is_plain: bool,
 }
+
+/// For each letter that a text has, where its first piece is among its pieces.
+type Firsts = [u32; Letter::COUNT];
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParameterText<'t> {
     string: &'t str,
     pieces: &'t [Piece],
+    firsts: Option<&'t Firsts>,
     /// All that it has.
     pub(crate) letters: Letters,
     /// Whether each of its pieces has another letter and its value is what it should be, without a reference to a variable.
@@ -110,25 +115,30 @@ impl ParameterTexts {
     fn wording(&mut self, text: &str) -> u32 {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
-        let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
+        let (mut letters, mut firsts) = (Letters::default(), [0; Letter::COUNT]);
+        let (mut is_plain, mut end) = (true, 0);
         while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
+            if let Some(letter) = piece.letter.filter(|_| is_new) {
+                firsts[letter as usize] = number(self.pieces.len() - first);
+            }
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
         let (string, pieces) = (start..self.string.len(), first..self.pieces.len());
-        self.wordings.push(Wording { string, pieces, letters, is_plain });
+        self.wordings.push(Wording { string, pieces, letters, firsts, is_plain });
         number(self.wordings.len() - 1)
     }
 
     /// A text by its number.
     pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
-        let Wording { string, pieces, letters, is_plain, .. } =
+        let Wording { string, pieces, letters, firsts, is_plain } =
             &self.wordings[self.wording_of(number)? as usize];
         Some(ParameterText {
             string: &self.string[string.clone()],
             pieces: &self.pieces[pieces.clone()],
+            firsts: Some(firsts),
             letters: *letters,
             is_plain: *is_plain,
         })
@@ -172,7 +182,13 @@ impl<'t> ParameterText<'t> {
 
     /// The first piece of a letter.
     pub fn piece(self, letter: Letter) -> Option<&'t Piece> {
-        self.pieces.iter().find(|piece| piece.letter == Some(letter))
+        self.pieces.get(self.index(letter)?)
+    }
+
+    /// Which of the pieces is the first of a letter.
+    pub(crate) fn index(self, letter: Letter) -> Option<usize> {
+        let firsts = self.firsts.filter(|_| self.letters.contains(letter))?;
+        Some(firsts[letter as usize] as usize)
     }
 
     /// A piece's value as written.

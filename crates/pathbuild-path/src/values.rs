@@ -100,7 +100,7 @@ impl<'t> Values<'t> {
 
     /// A letter's number. Of several of a letter, which are reported, the first counts.
     pub(crate) fn number(&self, letter: Letter) -> Given {
-        let Some(index) = self.index(letter) else { return Given::Absent };
+        let Some(index) = self.text.index(letter) else { return Given::Absent };
         let written = match self.filled.get(index) {
             None => self.text.pieces()[index].written,
             Some(Filled::Value(written, _)) => *written,
@@ -115,7 +115,7 @@ impl<'t> Values<'t> {
 
     /// A letter's text; `None` where it says nothing or something that was reported.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
-        self.value(self.index(letter)?)
+        self.value(self.text.index(letter)?)
     }
 
     /// Values of variables in the order written, with the piece they stand in.
@@ -131,13 +131,6 @@ impl<'t> Values<'t> {
             Some(Filled::Value(_, value)) => Some(value),
             Some(Filled::Nothing) => None,
         }
-    }
-
-    fn index(&self, letter: Letter) -> Option<usize> {
-        if !self.has(letter) {
-            return None;
-        }
-        self.text.pieces().iter().position(|piece| piece.letter == Some(letter))
     }
 
     /// Whether the text has the letter at all.

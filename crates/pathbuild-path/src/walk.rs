@@ -180,20 +180,26 @@ impl<'a> Walk<'a> {
         self.follow(segment, passage, false);
     }
 
+    #[inline]
     fn follow(&mut self, segment: usize, passage: Passage, is_return: bool) {
         self.at = passage.end;
         self.last = Some(segment);
         self.grouped.add(segment, passage, is_return);
     }
 
-    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined. Holes and circles stay
-    /// where they are.
+    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined.
+    #[inline]
     fn as_met_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
         let is_end_here = coincide(passage.end, self.at);
-        let is_joined = !is_end_here && !coincide(passage.start, self.at);
-        if !is_joined {
-            return passage.turned_if(is_end_here);
+        if is_end_here || coincide(passage.start, self.at) {
+            passage.turned_if(is_end_here)
+        } else {
+            self.as_joined_here(segment, passage, is_return)
         }
+    }
+
+    /// The same of one that is near. Holes and circles stay where they are.
+    fn as_joined_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[segment];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
         let passage = if is_nearer_at_end { passage.turned_round() } else { passage };

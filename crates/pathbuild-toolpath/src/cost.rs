@@ -12,7 +12,7 @@ pub fn own_moves(path: &Path, items: &[Item]) -> u64 {
 fn moves(path: &Path, item: &Item) -> u64 {
     match item {
         Item::Chain(chain) => chain_moves(path, chain),
-        Item::Helix { helix, .. } => helix_moves(path, helix),
+        Item::Helix { helix, .. } => helix_moves(path, &path.helices[*helix as usize]),
         Item::Hole { .. } | Item::Sweep(_) | Item::Subpath(_) => 4,
     }
 }

@@ -135,8 +135,12 @@ impl<'a, P: Parts> Fold<'a, P> {
         for item in self.parts.items(id) {
             match item {
                 Item::Chain(chain) => self.chain(&place, chain),
-                Item::Hole { segment, hole } => self.hole(&place, &origin(*segment), hole),
-                Item::Helix { segment, helix } => self.helix(&place, &origin(*segment), helix),
+                Item::Hole { segment, hole } => {
+                    self.hole(&place, &origin(*segment), &path.holes[*hole as usize]);
+                }
+                Item::Helix { segment, helix } => {
+                    self.helix(&place, &origin(*segment), &path.helices[*helix as usize]);
+                }
                 Item::Sweep(sweep) => self.sweep_along(&place, sweep),
                 Item::Subpath(subpath) => self.subpath(&place, id, subpath),
             }

@@ -6,39 +6,52 @@ use pathbuild_diagnostic::messages::walk;
 use super::segments::{Scope, UNNUMBERED};
 use super::{At, Binder};
 use crate::approx::at_least;
-use crate::element::{Cut, Element};
+use crate::element::{Cut, Element, Shape};
 use crate::geometry::Curve;
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::packed::Recent;
-use crate::path::{Bars, ChainParameters, CutParameters, SegmentKind};
+use crate::path::{Bars, ChainParameters, CutParameters};
+use crate::raw::RawPath;
 
-/// How segments are milled that say the same: their order at a star, and the index into the path's cuts. Only what nothing was wrong with
-/// is known.
-pub(super) type KnownCuts = Recent<(f64, u32)>;
+/// How segments are milled, or holes drilled, that say the same: their order at a star, and the index into the path's cuts or holes. Only
+/// what nothing was wrong with is known.
+pub(super) type Known = Recent<(f64, u32)>;
 
-/// What a segment says, as a number.
-fn key(wording: Option<u32>, cut: Cut) -> u128 {
+/// What an element says, as a number.
+pub(super) fn key(raw: &RawPath, element: &Element, cut: Cut) -> u128 {
+    let wording = element.text.and_then(|text| raw.drawn.texts.wording_of(text));
     let wording = wording.map_or(0, |wording| u128::from(wording) + 1);
-    wording << 2 | (cut as u128 + 1)
+    let is_circle = matches!(element.shape, Shape::Circle { .. });
+    (wording << 1 | u128::from(is_circle)) << 2 | (cut as u128 + 1)
 }
 
 impl Binder<'_> {
-    /// A segment of a milling chain, with its order at a star.
+    /// How a segment of a milling chain is milled, after its order at a star: index into the path's cuts.
     pub(super) fn cut(
         &mut self,
         element: &Element,
         cut: Cut,
         curve: &Curve,
         tool: Option<f64>,
-    ) -> Option<(f64, SegmentKind)> {
-        let wording = element.text.and_then(|text| self.raw.drawn.texts.wording_of(text));
-        let key = key(wording, cut);
-        if let Some((order, number)) = self.known_cuts.get(key) {
-            if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
-                self.check_room(element, &bars, curve.length(), tool);
-            }
-            return Some((order, SegmentKind::Cut(number)));
+    ) -> Option<(f64, u32)> {
+        let key = key(self.raw, element, cut);
+        let Some((order, number)) = self.known.get(key) else {
+            return self.new_cut(element, cut, curve, tool, key);
+        };
+        if let (Some(bars), Some(tool)) = (self.cuts[number as usize].bars, tool) {
+            self.check_room(element, &bars, curve.length(), tool);
         }
+        Some((order, number))
+    }
+
+    fn new_cut(
+        &mut self,
+        element: &Element,
+        cut: Cut,
+        curve: &Curve,
+        tool: Option<f64>,
+        key: u128,
+    ) -> Option<(f64, u32)> {
         let reported = self.reported;
         let class = element.class(tool);
         let text = self.raw.drawn.text(element.text);
@@ -49,9 +62,9 @@ impl Binder<'_> {
         self.cuts.push(parameters);
         let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
         if self.reported == reported {
-            self.known_cuts.insert(key, (order, number));
+            self.known.insert(key, (order, number));
         }
-        Some((order, SegmentKind::Cut(number)))
+        Some((order, number))
     }
 
     fn cut_parameters(&mut self, scope: &Scope<'_>, cut: Cut, curve: &Curve) -> Option<CutParameters> {

@@ -26,10 +26,15 @@ impl Passage {
     }
 
     /// The other way if so. Ends are chosen by number: which way segments are drawn can not be foreseen.
-    pub(super) fn turned_if(self, is_turned: bool) -> Self {
+    #[inline]
+    pub(super) fn turned_if(mut self, is_turned: bool) -> Self {
         let (ends, first) = ([self.start, self.end], usize::from(is_turned));
-        let moved = self.moved.map(|curve| Box::new(if is_turned { curve.reversed() } else { *curve }));
-        Self { start: ends[first], end: ends[1 - first], is_turned: self.is_turned ^ is_turned, moved }
+        (self.start, self.end) = (ends[first], ends[1 - first]);
+        self.is_turned ^= is_turned;
+        if let Some(moved) = self.moved.as_mut().filter(|_| is_turned) {
+            **moved = moved.reversed();
+        }
+        self
     }
 
     /// The same from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its own.

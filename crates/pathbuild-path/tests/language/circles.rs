@@ -132,3 +132,30 @@ fn a_helical_circle_is_no_larger_than_a() {
 fn holes_are_of_the_paths_o() {
     assert_eq!(wrong(&path("T5 O=X I1 B0 :X1~3", "sweep 0,0 20,0\ncircle 20,0 d 3\nend 20,0")), ["PB206 O"]);
 }
+
+/// A row of three holes and a milled line, each with its text.
+fn row(texts: [&str; 4]) -> String {
+    let [first, second, third, line] = texts.map(|text| format!("\"{text}\""));
+    let statements = format!(
+        "sweep 0,0 20,0\ncircle 20,0 d 3 {first}\nsweep 20,0 40,0\ncircle 40,0 d 3 {second}\nsweep 40,0 60,0\n\
+         circle 60,0 d 3 {third}\nmill 60,0 90,0 {line}\nend 90,0"
+    );
+    path("T5 O3 I1 B0 F100", &statements)
+}
+
+#[test]
+fn holes_that_say_the_same_share_how_they_are_drilled() {
+    let compiled = compile(&row(["B1", "B2", "B1", "B1"]));
+    let path = compiled.path.unwrap();
+    let holes = path.segments.iter().filter_map(|segment| match segment.kind {
+        SegmentKind::Hole(hole) => Some((hole, path.holes[hole as usize].bottom)),
+        _ => None,
+    });
+    assert_eq!(holes.collect::<Vec<_>>(), [(0, 1.0), (1, 2.0), (0, 1.0)]);
+    assert_eq!(path.holes.len(), 2);
+}
+
+#[test]
+fn what_is_wrong_with_a_hole_is_said_of_each() {
+    assert_eq!(wrong(&row(["B6", "B6", "B1", "B1"])), ["PB203 B", "PB203 B"]);
+}

@@ -57,7 +57,9 @@ fn known(parameters: &str, statements: &str) -> String {
         SegmentKind::Subpath(subpath) => {
             format!("{} {} {:?}", subpath.thickness, subpath.tool, subpath.material)
         }
-        kind => format!("{kind:?}"),
+        SegmentKind::Hole(hole) => format!("{:?}", path.holes[hole as usize]),
+        SegmentKind::Helix(helix) => format!("{:?}", path.helices[helix as usize]),
+        SegmentKind::Sweep { height } => format!("{height:?}"),
     };
     let probe = path.probes.first().map(|probe| (probe.height, probe.feed));
     format!("{segment} {probe:?}")

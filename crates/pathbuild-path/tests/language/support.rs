@@ -120,8 +120,11 @@ fn item(path: &Path, item: &Item) -> String {
             };
             format!("[{}]", chain.segments.iter().map(member).collect::<Vec<_>>().join(", "))
         }
-        Item::Hole { hole, .. } => format!("hole {}", point(hole.centre)),
-        Item::Helix { helix, .. } => format!("helix {} r{}", point(helix.centre), helix.radius),
+        Item::Hole { segment, .. } => format!("hole {}", point(path.ends(&path.segments[*segment])[0])),
+        Item::Helix { helix, .. } => {
+            let helix = &path.helices[*helix as usize];
+            format!("helix {} r{}", point(helix.centre), helix.radius)
+        }
         Item::Sweep(sweep) => format!("sweep {}", ends(sweep.start, sweep.end)),
         Item::Subpath(subpath) => format!("subpath {}", ends(subpath.start, subpath.end)),
     }
