@@ -16,7 +16,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use camino::Utf8PathBuf;
-use pathbuild::session::by_place;
+use pathbuild::session::{by_name, by_place};
 use pathbuild_draw::Sheet;
 use support::{Place, Run};
 
@@ -362,6 +362,31 @@ fn paths_are_ordered_part_by_part() {
     for (index, a) in paths.iter().enumerate() {
         for (other, b) in paths.iter().enumerate() {
             assert_eq!(by_place(a, b), index.cmp(&other), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn names_are_ordered_as_texts() {
+    let mut names = [
+        "",
+        "a",
+        "1000.1P",
+        "1000.1P.",
+        "1000.1P.dxf",
+        "1000.11P",
+        "1000.11P.dxf",
+        "1000.1p.dxf",
+        "1000.1Pä",
+        "1000.1P\u{1}",
+        "ä",
+        "Ä1234567",
+        "\u{ffff}1234567",
+    ];
+    names.sort_unstable();
+    for (index, a) in names.iter().enumerate() {
+        for (other, b) in names.iter().enumerate() {
+            assert_eq!(by_name(a, b), index.cmp(&other), "{a} {b}");
         }
     }
 }

@@ -32,7 +32,7 @@ use crate::progress::Progress;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Keeper, Made, Programs, is_passing};
-pub use library::by_place;
+pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};

@@ -167,6 +167,9 @@ impl Session<'_> {
         items: &[T],
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<Result<R, Box<Diagnostic>>> {
+        if items.is_empty() {
+            return Vec::new();
+        }
         let limit = self.limit();
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(limit));
         let work = |db: &Database, item: &T| {

@@ -89,6 +89,7 @@ fn finish(
 
 fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
     session.know_names(&wanted.listings);
+    leave(wanted.listings);
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
     let single = single_paths(wanted.paths, &whole);
     let mut found = check_library(session, &whole, with_all_values);
