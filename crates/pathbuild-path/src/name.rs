@@ -57,7 +57,7 @@ impl PathPattern {
 
     /// Whether a layer belongs to a path.
     pub fn is_layer(&self, layer: &str) -> bool {
-        self.0.matches(&with_points(without_tilde(layer)))
+        self.0.may_begin(layer) && self.0.matches(&with_points(without_tilde(layer)))
     }
 
     /// Whether a name is a path's.

@@ -76,6 +76,14 @@ impl Pattern {
         }
     }
 
+    /// Whether a name begins as one that matches may: nearly all layers do not.
+    pub(crate) fn may_begin(&self, name: &str) -> bool {
+        match self {
+            Self::Default(_) => name.as_bytes().first().is_some_and(u8::is_ascii_digit),
+            Self::Regex(_) => true,
+        }
+    }
+
     pub(crate) fn matches(&self, name: &str) -> bool {
         match self {
             Self::Default(pattern) => pattern.whole(name).is_some(),

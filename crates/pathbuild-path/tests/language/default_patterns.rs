@@ -42,6 +42,7 @@ proptest! {
         for name in [&text, &near, &format!("{near}{letter}")] {
             prop_assert_eq!(pattern.matches(name), regex.matches(name), "{}", name);
             prop_assert_eq!(pattern.layer(name), regex.layer(name), "{}", name);
+            prop_assert_eq!(pattern.is_layer(name), regex.layer(name).is_some(), "{}", name);
             prop_assert_eq!(PathKey::new(name, &pattern), PathKey::new(name, regex), "{}", name);
         }
     }
