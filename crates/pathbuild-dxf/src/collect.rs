@@ -21,8 +21,8 @@ use crate::trouble::Trouble;
 use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 
 /// Gathers a drawing.
-pub(crate) struct Collector {
-    drawing: Drawing,
+pub(crate) struct Collector<'d> {
+    pub(crate) drawing: &'d mut Drawing,
     /// Numbers of [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
     /// Those of them on which an invisible entity was found.
@@ -72,15 +72,13 @@ impl Placed<'_> {
     }
 }
 
-impl Collector {
-    /// Nothing is gathered yet.
-    pub(crate) fn new(limits: Limits) -> Self {
+impl<'d> Collector<'d> {
+    /// Gathers into an empty drawing.
+    pub(crate) fn new(drawing: &'d mut Drawing, limits: Limits) -> Self {
+        drawing.entities.reserve(USUAL);
+        drawing.origins.reserve(USUAL);
         Self {
-            drawing: Drawing {
-                entities: Vec::with_capacity(USUAL),
-                origins: Vec::with_capacity(USUAL),
-                ..Drawing::default()
-            },
+            drawing,
             layers: BTreeMap::new(),
             with_invisible: BTreeSet::new(),
             last: None,
@@ -88,11 +86,6 @@ impl Collector {
             groups: 0,
             limits,
         }
-    }
-
-    /// What was gathered.
-    pub(crate) fn finish(self) -> Drawing {
-        self.drawing
     }
 
     /// Adds an entity.

@@ -45,6 +45,18 @@ pub struct Drawing {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+impl Drawing {
+    /// Nothing is in it any more.
+    pub(crate) fn clear(&mut self) {
+        self.entities.clear();
+        self.origins.clear();
+        self.layers.clear();
+        self.faults.clear();
+        self.left_out.clear();
+        self.diagnostics.clear();
+    }
+}
+
 /// A layer as the entities on it see it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {

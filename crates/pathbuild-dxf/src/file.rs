@@ -21,24 +21,24 @@ use crate::units::millimetres;
 use crate::{Drawing, Options};
 
 /// Reads a file; an error is one that concerns it as a whole.
-pub(crate) fn read_file(bytes: &[u8], options: &Options<'_>) -> Result<Drawing, Fatal> {
+pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'_>) -> Result<(), Fatal> {
     if bytes.is_empty() {
         return Err(Box::new(Diagnostic::new(&EMPTY_FILE)));
     }
     if let Some(text) = to_ascii(bytes) {
-        return read_text(&text, false, options);
+        return read_text(drawing, &text, false, options);
     }
     match bytes.strip_prefix(BYTE_ORDER_MARK) {
-        Some(text) => read_text(text, true, options),
-        None => read_text(bytes, false, options),
+        Some(text) => read_text(drawing, text, true, options),
+        None => read_text(drawing, bytes, false, options),
     }
 }
 
-fn read_text(text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<Drawing, Fatal> {
+fn read_text(drawing: &mut Drawing, text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<(), Fatal> {
     let mut file = File::new(text, has_bom);
     match file.find_entities()? {
-        Found::Entities => file.read_entities(options),
-        Found::EndOfFile => Ok(Drawing::default()),
+        Found::Entities => file.read_entities(drawing, options),
+        Found::EndOfFile => Ok(()),
     }
 }
 
@@ -137,7 +137,7 @@ impl<'a> File<'a> {
         Ok(())
     }
 
-    fn read_entities(self, options: &Options<'_>) -> Result<Drawing, Fatal> {
+    fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), Fatal> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
         let layers = Layers::new(options.keep_layer);
@@ -150,18 +150,17 @@ impl<'a> File<'a> {
             text: options.max_text,
             curves: options.approximate_curves,
         };
-        let mut model = Model::new(&mut reader, Collector::new(limits), self.blocks);
+        let mut model = Model::new(&mut reader, Collector::new(drawing, limits), self.blocks);
         let mut records = Records::new(self.pairs).map_err(|stop| stopped(stop, "ENTITIES"))?;
         model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {
             return Err(not_ended("ENTITIES", &records.head));
         }
-        let mut drawing = model.collector.finish();
         drawing.diagnostics.extend(reader.decoder.into_doubt());
         drawing
             .diagnostics
             .extend((!ends_with_eof(&records.groups.pairs())).then(|| Diagnostic::new(&NO_END_OF_FILE)));
-        Ok(drawing)
+        Ok(())
     }
 }
 

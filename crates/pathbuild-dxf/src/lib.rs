@@ -48,6 +48,16 @@ pub use drawing::{
 
 /// Reads a drawing.
 pub fn read(bytes: &[u8], options: &Options<'_>) -> Drawing {
-    file::read_file(bytes, options)
-        .unwrap_or_else(|diagnostic| Drawing { diagnostics: vec![*diagnostic], ..Drawing::default() })
+    let mut drawing = Drawing::default();
+    read_into(&mut drawing, bytes, options);
+    drawing
+}
+
+/// The same in the place of another drawing, whose memory is used.
+pub fn read_into(drawing: &mut Drawing, bytes: &[u8], options: &Options<'_>) {
+    drawing.clear();
+    if let Err(diagnostic) = file::read_file(drawing, bytes, options) {
+        drawing.clear();
+        drawing.diagnostics.push(*diagnostic);
+    }
 }

@@ -24,7 +24,7 @@ use crate::trouble::Trouble;
 /// Reads a drawing's model space.
 pub(crate) struct Model<'r, 'a, 'o> {
     reader: &'r mut EntityReader<'a, 'o>,
-    pub(crate) collector: Collector,
+    collector: Collector<'r>,
     /// Where the BLOCKS section begins, until its index is made.
     section: Option<Pairs<'a>>,
     blocks: Blocks<'a>,
@@ -59,7 +59,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// A model without entities.
     pub(crate) fn new(
         reader: &'r mut EntityReader<'a, 'o>,
-        collector: Collector,
+        collector: Collector<'r>,
         blocks: Option<Pairs<'a>>,
     ) -> Self {
         let steps = reader.options.max_entities.saturating_mul(STEPS_AN_ENTITY);

@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_dxf::{Drawing, Geometry, Options, Point3, Units, read};
+use pathbuild_dxf::{Drawing, Geometry, Options, Point3, Units, read, read_into};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -179,6 +179,19 @@ fn every_beginning_of_a_file_is_read() {
     let file = everything();
     for length in 0..file.len() {
         check_with(&file[..length], 0.01);
+    }
+}
+
+/// Nothing of the other drawing stays, whatever came of either.
+#[test]
+fn a_drawing_is_read_in_the_place_of_another() {
+    let whole = everything();
+    let file = |length: usize| whole.get(..length).unwrap_or(&whole);
+    let mut drawing = Drawing::default();
+    for length in [whole.len(), whole.len() / 2, 0, whole.len(), 3, whole.len() - 9, whole.len()] {
+        let options = Options { max_entities: 10_000, ..options(&|name| name == "A", 0.01) };
+        read_into(&mut drawing, file(length), &options);
+        assert!(drawing == read(file(length), &options), "{length}");
     }
 }
 

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
-use pathbuild_dxf::Options;
+use pathbuild_dxf::{Drawing, Options};
 use pathbuild_path::{RawPath, SourceMap};
 
 use super::raw::FileReport;
@@ -21,10 +21,10 @@ pub(super) fn read(db: &dyn Db, file: SourceFile) -> (Vec<(RawPath, SourceMap)>,
     let settings = Settings::get(db);
     let reading = settings.reading(db);
     let mut hash = None;
-    let read = with_bytes(db, file, reading.file_size, |bytes| {
+    let read = with_bytes(db, file, reading.file_size, |bytes, drawing| {
         // Of these bytes, not of what a second look would find: they are what is compiled.
         hash = reading.is_hashed.then(|| *blake3::hash(bytes).as_bytes());
-        parse(bytes, reading, settings.language(db))
+        parse(bytes, drawing, reading, settings.language(db))
     });
     let read = read.unwrap_or_else(|error| Err(Box::new(unreadable(error, reading))));
     let raw = read
@@ -35,25 +35,33 @@ pub(super) fn read(db: &dyn Db, file: SourceFile) -> (Vec<(RawPath, SourceMap)>,
 }
 
 thread_local! {
-    /// Where drawings are read into, one after the other.
-    static ROOM: Cell<Vec<u8>> = const { Cell::new(Vec::new()) };
+    /// What one drawing after the other is read into.
+    static ROOM: Cell<Room> = Cell::default();
 }
 
-/// As much memory is kept for the next drawing; few have more bytes.
-const KEPT: usize = 1 << 20;
+/// Memory for a drawing.
+#[derive(Default)]
+struct Room {
+    bytes: Vec<u8>,
+    drawing: Drawing,
+}
 
-/// Works on the bytes of a drawing.
+/// Memory for so many bytes, and for so many entities, is kept for the next drawing; few have more.
+const KEPT: usize = 1 << 20;
+const KEPT_ENTITIES: usize = 1 << 12;
+
+/// Works on the bytes of a drawing, with room for what is drawn.
 fn with_bytes<R>(
     db: &dyn Db,
     file: SourceFile,
     limit: u64,
-    work: impl FnOnce(&[u8]) -> R,
+    work: impl FnOnce(&[u8], &mut Drawing) -> R,
 ) -> Result<R, ReadError> {
-    let mut room = ROOM.take();
-    let read = db.system().read_into(file.path(db), limit, &mut room);
-    let result = read.map(work);
-    if room.len() <= KEPT {
-        ROOM.set(room);
+    let Room { mut bytes, mut drawing } = ROOM.take();
+    let read = db.system().read_into(file.path(db), limit, &mut bytes);
+    let result = read.map(|bytes| work(bytes, &mut drawing));
+    if bytes.len() <= KEPT && drawing.entities.capacity() <= KEPT_ENTITIES {
+        ROOM.set(Room { bytes, drawing });
     }
     result
 }
@@ -61,6 +69,7 @@ fn with_bytes<R>(
 /// A panic in here is a bug that one file shows: it must not keep the others from being read.
 fn parse(
     bytes: &[u8],
+    drawing: &mut Drawing,
     reading: &Reading,
     language: &pathbuild_path::Language,
 ) -> Result<pathbuild_path::RawFile, Box<Diagnostic>> {
@@ -72,7 +81,8 @@ fn parse(
             max_entities: reading.entities,
             max_text: reading.text_length,
         };
-        pathbuild_path::raw_file(&pathbuild_dxf::read(bytes, &options), language)
+        pathbuild_dxf::read_into(drawing, bytes, &options);
+        pathbuild_path::raw_file(drawing, language)
     };
     catch_unwind(AssertUnwindSafe(read)).map_err(|payload| Box::new(internal_error(&*payload)))
 }
