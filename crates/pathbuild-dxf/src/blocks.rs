@@ -1,8 +1,7 @@
-//! The BLOCKS section: indexed when the first INSERT is met, each block read when its first INSERT is, unless it showed at a glance that
-//! nothing in it is wanted. Most drawings need none of it.
+//! The BLOCKS section: indexed when the first INSERT is met that may bring something wanted, each block read when its first such INSERT is.
+//! Most drawings need none of it.
 
 use std::collections::{BTreeMap, HashSet};
-use std::ops::Range;
 use std::rc::Rc;
 
 use crate::Point3;
@@ -10,8 +9,7 @@ use crate::by_name::ByName;
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, not_ended, stopped};
-use crate::fields::{Fields, Value, Want};
-use crate::glance::layers_named;
+use crate::fields::{Fields, Want};
 use crate::groups::Groups;
 use crate::item::{Item, Shape};
 use crate::layers::LayerId;
@@ -24,8 +22,6 @@ use crate::trouble::Trouble;
 pub(crate) struct Blocks<'a> {
     by_name: ByName<'a, BlockId>,
     all: Vec<Block<'a>>,
-    /// The layers that blocks name, side by side.
-    named: Vec<Value<'a>>,
     /// The wanted layers that the insertion of a block on a layer touches.
     wanted: BTreeMap<(BlockId, LayerId), Rc<[LayerId]>>,
 }
@@ -39,8 +35,6 @@ struct Block<'a> {
     /// The pairs behind its own, and the first of its records.
     pairs: Pairs<'a>,
     head: Pair<'a>,
-    /// Where in [`Blocks::named`] all layers are that it names, if that is known.
-    named: Option<Range<usize>>,
     items: Option<Rc<[Item<'a>]>>,
     layers: LayersOf,
 }
@@ -79,7 +73,6 @@ impl<'a> Blocks<'a> {
             if head.is("BLOCK") {
                 (head, _) = fields.fill(&mut groups, head.line, 0, |_| Want::Keep)?;
                 blocks.add(fields, groups.pairs(), head, decoder);
-                head = blocks.pass(&mut groups, head)?;
             } else {
                 head = groups.next_zero()?;
             }
@@ -130,29 +123,9 @@ impl<'a> Blocks<'a> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
-        let wanted: Rc<[LayerId]> = if self.names_none_wanted(block, layer, reader) {
-            Rc::default()
-        } else {
-            self.look_for_wanted(block, layer, reader)?.into()
-        };
+        let wanted: Rc<[LayerId]> = self.look_for_wanted(block, layer, reader)?.into();
         self.wanted.insert((block, layer), Rc::clone(&wanted));
         Ok(wanted)
-    }
-
-    /// Whether none of the layers that a block names is wanted. It may be without that having shown.
-    fn names_none_wanted(
-        &self,
-        block: BlockId,
-        inherited: LayerId,
-        reader: &mut EntityReader<'a, '_>,
-    ) -> bool {
-        let EntityReader { layers, decoder, .. } = reader;
-        let mut is_wanted = |named: &Value<'a>| {
-            let layer = layers.id(named.bytes, named.line, decoder);
-            layers.is_kept(layers.inherited(layer, inherited))
-        };
-        let named = &self.all[block.0].named;
-        named.clone().is_some_and(|named| !self.named[named].iter().any(&mut is_wanted))
     }
 
     /// Goes through a block, and those that are inserted in it, for wanted layers.
@@ -220,19 +193,8 @@ impl<'a> Blocks<'a> {
             base: base.map_err(Trouble::from),
             pairs,
             head,
-            named: None,
             items: None,
             layers: LayersOf::Unknown,
         });
-    }
-
-    /// Passes over the records of a block, of which this is the first, and notes what shows. Gives back the record that ends it.
-    fn pass(&mut self, groups: &mut Groups<'a>, head: Pair<'a>) -> Result<Pair<'a>, Stop<'a>> {
-        let begin = self.named.len();
-        let (end, are_all) = layers_named(groups, head, &mut self.named)?;
-        if let Some(block) = self.all.last_mut() {
-            block.named = are_all.then_some(begin..self.named.len());
-        }
-        Ok(end)
     }
 }

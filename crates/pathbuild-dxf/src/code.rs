@@ -46,8 +46,6 @@ impl Role {
     pub(crate) const OTHER: Self = Self(83);
     /// It begins an entity: 0.
     pub(crate) const BEGIN: Self = Self(84);
-    /// The entity's line type: 6.
-    pub(crate) const LINE_TYPE: Self = Self(6);
     /// The entity's layer: 8.
     pub(crate) const LAYER: Self = Self(85);
     /// It begins an embedded object: 101.

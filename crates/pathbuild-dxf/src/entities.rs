@@ -166,7 +166,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if self.is_in_paper_space() {
             return Ok(None);
         }
-        let layer = layer.unwrap_or_else(|| self.layers.id(b"0", line, &mut self.decoder));
+        let layer = layer.unwrap_or_else(|| self.layers.id(b"0", || line, &mut self.decoder));
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
@@ -190,7 +190,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let Self { layers, decoder, fields, .. } = self;
         let mut found = None;
         let want = |layer: Value<'a>| {
-            let id = layers.id(layer.bytes, layer.line, decoder);
+            let id = layers.id(layer.bytes, || layer.line, decoder);
             found = Some(id);
             want(layers, id, kind, space)
         };

@@ -1,61 +1,80 @@
-//! The layers of a block, as far as they show while its end is looked for.
+//! Whether blocks matter at all: a look at all the layers that anything in them can be on, much faster than to find the blocks.
 
-use crate::code::Role;
-use crate::encoding::is_plain;
-use crate::entities::is_end;
-use crate::fields::Value;
-use crate::groups::{Group, Groups};
-use crate::kind::Kind;
-use crate::names::is_same;
-use crate::pairs::{Pair, Stop};
+use std::iter;
 
-/// Passes over the records of a block, of which this is the first, and adds the layers that its entities name, each once in a row.
-/// Gives back the record that ends it, and whether these are all the layers that anything in it can be on, and all there is to be
-/// decoded: so not if something is inserted or written in it, or out of the ordinary.
-pub(crate) fn layers_named<'a>(
-    groups: &mut Groups<'a>,
-    mut head: Pair<'a>,
-    layers: &mut Vec<Value<'a>>,
-) -> Result<(Pair<'a>, bool), Stop<'a>> {
-    let begin = layers.len();
-    let mut are_all = true;
-    loop {
-        let next = match Kind::of(head.value) {
-            None if is_end(&head) => return Ok((head, are_all && head.is("ENDBLK"))),
-            Some(Kind::Insert | Kind::Text | Kind::MText) => None,
-            Some(kind) if are_all && !kind.is_part() => {
-                let (next, layer) = layer_named(groups, head.line)?;
-                let is_another = |layer: &Value<'_>| {
-                    layers[begin..].last().is_none_or(|last| !is_same(last.bytes, layer.bytes))
-                };
-                are_all = layer.is_some();
-                layers.extend(layer.filter(is_another));
-                Some(next)
+use memchr::memchr;
+use wide::u8x16;
+
+use crate::entities::EntityReader;
+use crate::pairs::{Pairs, without_cr};
+
+/// Whether anything of these blocks may be on a wanted layer without being inserted on one. If it says no, that is certain, however codes
+/// are written and whatever may be wrong in the section: each line behind one that may be the code 8 is taken for the name of a layer.
+pub(crate) fn may_hold_wanted<'a>(blocks: &Pairs<'a>, reader: &mut EntityReader<'a, '_>) -> bool {
+    let EntityReader { layers, decoder, .. } = reader;
+    let (line_end, begin) = (blocks.line_end(), blocks.consumed());
+    let bytes = &blocks.bytes()[begin..];
+    any_eight(bytes, |eight| {
+        let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
+        let name = line_from(&bytes[at..], line_end);
+        let layer = layers.id(name, || blocks.line_of(begin + at), decoder);
+        layers.is_kept(layer)
+    })
+}
+
+/// Whether it is so for any of the eights that may be a code, or for some other.
+fn any_eight(bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
+    let mut begin = 0;
+    while let Some(window) = bytes.get(begin..).and_then(<[u8]>::first_chunk) {
+        let mut places = eights(window);
+        while places != 0 {
+            if is(begin + 1 + places.trailing_zeros() as usize) {
+                return true;
             }
-            _ => Some(groups.next_zero()?),
-        };
-        are_all &= next.is_some();
-        head = next.map_or_else(|| groups.next_zero(), Ok)?;
-    }
-}
-
-/// The layer of an entity that has begun on this line, and the record behind it. No layer if it is named twice, or if there is anything
-/// that decides what counts or that has to be decoded.
-fn layer_named<'a>(groups: &mut Groups<'a>, line: u32) -> Result<(Pair<'a>, Option<Value<'a>>), Stop<'a>> {
-    const UNNAMED: &[u8] = b"0";
-    let is_of_interest = |role: Role| !role.is_plain() || role == Role::LINE_TYPE;
-    let mut layer = None;
-    loop {
-        let group = groups.pass_until(is_of_interest, |_| {})?;
-        match group.role {
-            Role::BEGIN => return Ok((group.pair(), Some(layer.unwrap_or(Value::new(UNNAMED, line))))),
-            Role::LAYER if layer.is_none() => layer = Some(value(&group)),
-            Role::LINE_TYPE if is_plain(group.raw) => {}
-            _ => return Ok((groups.next_zero()?, None)),
+            places &= places - 1;
         }
+        begin += VECTOR;
     }
+    let mut others = iter::once(0).chain(begin + 1..bytes.len());
+    others.any(|at| bytes.get(at) == Some(&b'8') && is(at))
 }
 
-fn value<'a>(group: &Group<'a>) -> Value<'a> {
-    Value::new(group.value(), group.line())
+/// How many bytes are looked at together.
+const VECTOR: usize = 16;
+
+/// Which of the bytes between the first and the last are eights with such neighbours as a code has: bit n for byte n + 1.
+#[inline]
+fn eights(window: &[u8; VECTOR + 2]) -> u32 {
+    let bytes =
+        |begin: usize| window[begin..].first_chunk().map_or(u8x16::splat(0), |bytes| u8x16::from(*bytes));
+    let is = |bytes: u8x16, byte: u8| bytes.simd_eq(u8x16::splat(byte));
+    let is_blank = |bytes: u8x16| bytes.simd_le(u8x16::splat(b' '));
+    let before = bytes(0);
+    let is_padding = is_blank(before) | is(before, b'0') | is(before, b'+');
+    (is_padding & is(bytes(1), b'8') & is_blank(bytes(2))).to_bitmask()
+}
+
+/// Where the line begins that follows the one with this eight, if that has a code and nothing else.
+fn line_behind_code(bytes: &[u8], eight: usize, line_end: u8) -> Option<usize> {
+    let length = rest_of_code(&bytes[eight + 1..], line_end)?;
+    is_begin_of_code(&bytes[..eight], line_end).then_some(eight + 1 + length)
+}
+
+/// How much it is to the next line, if a code ends before these bytes.
+#[inline]
+fn rest_of_code(behind: &[u8], line_end: u8) -> Option<usize> {
+    let length = behind.iter().position(|byte| *byte == line_end || *byte > b' ')?;
+    (behind[length] == line_end).then_some(length + 1)
+}
+
+/// Whether a line that ends with these bytes and a digit may be a code of one digit.
+#[inline]
+fn is_begin_of_code(before: &[u8], line_end: u8) -> bool {
+    let is_padding = |byte: u8| byte <= b' ' || matches!(byte, b'0' | b'+');
+    let other = before.iter().rev().find(|byte| **byte == line_end || !is_padding(**byte));
+    other.is_none_or(|byte| *byte == line_end)
+}
+
+fn line_from(bytes: &[u8], line_end: u8) -> &[u8] {
+    without_cr(&bytes[..memchr(line_end, bytes).unwrap_or(bytes.len())])
 }

@@ -60,16 +60,21 @@ impl<'a, 'o> Layers<'a, 'o> {
         Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
     }
 
-    /// The layer of an entity that names it so.
+    /// The layer of an entity that names it so, on a line that is asked for when that is done for the first time.
     #[inline]
-    pub(crate) fn id(&mut self, spelling: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> LayerId {
+    pub(crate) fn id(
+        &mut self,
+        spelling: &'a [u8],
+        line: impl FnOnce() -> u32,
+        decoder: &mut Decoder<'_>,
+    ) -> LayerId {
         if let Some((last, id)) = self.last
             && is_same(last, spelling)
         {
             return id;
         }
         let known = self.by_spelling.get(spelling);
-        let id = known.unwrap_or_else(|| self.first_use(spelling, line, decoder));
+        let id = known.unwrap_or_else(|| self.first_use(spelling, line(), decoder));
         self.last = Some((spelling, id));
         id
     }

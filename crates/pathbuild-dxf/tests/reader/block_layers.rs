@@ -1,9 +1,10 @@
 //! Which insertions matter: those that put something on a wanted layer. Of all others nothing is said. (spec/10-drawing.md, "More
 //! entities")
 
+use pathbuild_diagnostic::Code;
 use pathbuild_dxf::{Options, read};
 
-use crate::support::{file, options};
+use crate::support::{file, file_codes, options};
 
 /// How many entities are on layer P, and how many are left out there, when this block is inserted on a layer at another scale in x than
 /// in y, so that it is left out if it matters.
@@ -87,4 +88,46 @@ fn of_two_blocks_of_a_name_the_first_counts() {
     let [wanted, other] = [block("2 B", &line("8 P")), block("2 b", &line("8 X"))];
     assert_eq!(left_out(&(wanted.clone() + &other), "X"), 1);
     assert_eq!(left_out(&(other + &wanted), "X"), 0);
+}
+
+/// The drawing with this block content inserted on layer X, where layers P are wanted.
+fn drawing(content: &str) -> String {
+    file("", "", &block("2 B", content), "0 INSERT\n8 X\n2 B\n10 0\n20 0\n41 2\n42 3")
+}
+
+/// How many are left out, and the codes of what is wrong with the file.
+fn found(drawing: impl AsRef<[u8]>) -> (usize, Vec<Code>) {
+    let drawing = read(drawing.as_ref(), &Options { keep_layer: &|name| name == "P", ..options() });
+    (drawing.left_out.len(), file_codes(&drawing))
+}
+
+#[test]
+fn a_layer_counts_however_its_code_and_lines_are_written() {
+    // At each place among the bytes that are looked at together.
+    for before in 0..20 {
+        let drawing = drawing(&(line(&format!("999 {:before$}\n8 X", "")) + &line("8 P")));
+        for code in ["8", " 8", "  8", "   8", "8 ", "\t8\t", "008", " 08", "+8"] {
+            let drawing = drawing.replace("  8\nP\n", &format!("{code}\nP\n"));
+            for line_end in ["\n", "\r\n", "\r\r\n", "\r"] {
+                assert_eq!(found(drawing.replace('\n', line_end)), (1, vec![]), "{code:?} {line_end:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_layer_that_has_to_be_decoded_counts() {
+    assert_eq!(found(drawing(&line("8 \\U+0050"))), (1, vec![]));
+    assert_eq!(found(drawing(&line("8 X|P"))), (1, vec![]));
+}
+
+/// Else nobody needs them, as other sections that are not read.
+#[test]
+fn what_is_broken_in_blocks_is_told_if_they_may_hold_something_wanted() {
+    let broken = |content: &str| drawing(content).replace(" 62\n1\n", " 6x\n1\n");
+    assert_eq!(found(broken(&line("8 X\n62 1"))), (0, vec![]));
+    assert_eq!(found(broken(&(line("8 X\n62 1") + &line("8 P")))), (0, vec![Code::InvalidDxf]));
+    // A line that is missing makes a value of each code.
+    let shifted = |content: &str| drawing(content).replace(" 62\n1\n", " 62\n");
+    assert_eq!(found(shifted(&(line("8 X\n62 1") + &line("8 P")))), (0, vec![Code::InvalidDxf]));
 }
