@@ -10,6 +10,7 @@ use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 use crate::code::Role;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
+use crate::glance::may_hold_wanted;
 use crate::groups::Groups;
 use crate::item::{Item, Shape, Traits};
 use crate::kind::Kind;
@@ -28,6 +29,10 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) layers: Layers<'a, 'o>,
     pub(crate) line_types: LineTypes<'a>,
     pub(crate) fields: Fields<'a>,
+    /// The BLOCKS section, until it is known whether it matters.
+    unseen_blocks: Option<Pairs<'a>>,
+    /// Whether it does where blocks are inserted on unwanted layers.
+    blocks_matter: bool,
 }
 
 /// What the entities are in.
@@ -82,14 +87,16 @@ pub(crate) fn most_repeated(options: &Options<'_>) -> usize {
 const GROUPS_AN_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
-    /// Knows no entity yet.
+    /// Knows no entity yet. `blocks` is the BLOCKS section.
     pub(crate) fn new(
         options: &'o Options<'o>,
         decoder: Decoder<'a>,
         layers: Layers<'a, 'o>,
         fields: Fields<'a>,
+        blocks: Option<Pairs<'a>>,
     ) -> Self {
-        Self { options, decoder, layers, line_types: LineTypes::default(), fields }
+        let line_types = LineTypes::default();
+        Self { options, decoder, layers, line_types, fields, unseen_blocks: blocks, blocks_matter: false }
     }
 
     /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
@@ -170,6 +177,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
+        if kind == Kind::Insert && !self.insertion_matters(layer, space) {
+            return Ok(None);
+        }
         Ok(Some(Traits {
             layer,
             line_type: self.line_types.get(self.fields.get(6), &mut self.decoder),
@@ -198,6 +208,17 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
         Ok((want, found))
+    }
+
+    /// Whether the insertion of a block on a layer may bring something wanted.
+    fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
+        if self.layers.is_kept(layer) || (space == Space::Block && self.layers.is_inheriting(layer)) {
+            return true;
+        }
+        if let Some(blocks) = self.unseen_blocks.take() {
+            self.blocks_matter = may_hold_wanted(&blocks, &mut self.layers, &mut self.decoder);
+        }
+        self.blocks_matter
     }
 
     fn is_in_paper_space(&self) -> bool {

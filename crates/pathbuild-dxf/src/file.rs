@@ -141,7 +141,8 @@ impl<'a> File<'a> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
         let layers = Layers::new(options.keep_layer);
-        let mut reader = EntityReader::new(options, decoder, layers, Fields::new(most_repeated(options)));
+        let mut reader =
+            EntityReader::new(options, decoder, layers, Fields::new(most_repeated(options)), self.blocks);
         if let Some(tables) = self.tables {
             reader.layers.table = read_layers(tables, &mut reader.fields, &mut reader.decoder)?;
         }

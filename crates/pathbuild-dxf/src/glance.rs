@@ -5,13 +5,17 @@ use std::iter;
 use memchr::memchr;
 use wide::u8x16;
 
-use crate::entities::EntityReader;
+use crate::encoding::Decoder;
+use crate::layers::Layers;
 use crate::pairs::{Pairs, without_cr};
 
 /// Whether anything of these blocks may be on a wanted layer without being inserted on one. If it says no, that is certain, however codes
 /// are written and whatever may be wrong in the section: each line behind one that may be the code 8 is taken for the name of a layer.
-pub(crate) fn may_hold_wanted<'a>(blocks: &Pairs<'a>, reader: &mut EntityReader<'a, '_>) -> bool {
-    let EntityReader { layers, decoder, .. } = reader;
+pub(crate) fn may_hold_wanted<'a>(
+    blocks: &Pairs<'a>,
+    layers: &mut Layers<'a, '_>,
+    decoder: &mut Decoder<'_>,
+) -> bool {
     let (line_end, begin) = (blocks.line_end(), blocks.consumed());
     let bytes = &blocks.bytes()[begin..];
     any_eight(bytes, |eight| {

@@ -13,7 +13,6 @@ use crate::blocks::{BlockId, Blocks};
 use crate::collect::{Collector, Placed};
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, stopped};
-use crate::glance::may_hold_wanted;
 use crate::item::{Item, Shape, Traits};
 use crate::layers::LayerId;
 use crate::line_types::LineType;
@@ -26,11 +25,7 @@ use crate::trouble::Trouble;
 pub(crate) struct Model<'r, 'a, 'o> {
     reader: &'r mut EntityReader<'a, 'o>,
     collector: Collector<'r>,
-    /// The BLOCKS section, until it is known whether it matters.
-    unseen: Option<Pairs<'a>>,
-    /// Whether it does where blocks are inserted on unwanted layers.
-    blocks_matter: bool,
-    /// The section, until its index is made.
+    /// The BLOCKS section, until its index is made.
     section: Option<Pairs<'a>>,
     blocks: Blocks<'a>,
     /// The blocks that are being inserted, outermost first.
@@ -68,16 +63,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         blocks: Option<Pairs<'a>>,
     ) -> Self {
         let steps = reader.options.max_entities.saturating_mul(STEPS_AN_ENTITY);
-        Self {
-            reader,
-            collector,
-            unseen: blocks,
-            blocks_matter: false,
-            section: blocks,
-            blocks: Blocks::default(),
-            open: Vec::new(),
-            steps,
-        }
+        Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
     }
 
     /// Adds all entities up to the end of the section. `placement` is that of model space: its unit.
@@ -118,9 +104,6 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         insert: Insert<'a>,
         around: &Around,
     ) -> Result<(), Fatal> {
-        if !self.reader.layers.is_kept(layer) && !self.blocks_matter() {
-            return Ok(());
-        }
         if let Some(section) = self.section.take() {
             let blocks = Blocks::index(section, self.reader);
             self.blocks = blocks.map_err(|stop| stopped(stop, "BLOCKS"))?;
@@ -145,14 +128,6 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             Ok(copies) => self.copy(traits, layer, block, copies, around),
             Err(trouble) => self.refuse(traits, &wanted, &trouble, around),
         }
-    }
-
-    /// Whether a block may have something wanted in it where it is not inserted on a wanted layer.
-    fn blocks_matter(&mut self) -> bool {
-        if let Some(section) = self.unseen.take() {
-            self.blocks_matter = may_hold_wanted(&section, self.reader);
-        }
-        self.blocks_matter
     }
 
     /// Places the contents of a block at each of these places.
