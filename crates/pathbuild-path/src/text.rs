@@ -32,8 +32,8 @@ struct Wording {
     is_plain: bool,
 }
 
-/// For each letter that a text has, where its first piece is among its pieces.
-type Firsts = [u32; Letter::COUNT];
+/// For each letter that a text has, where its first piece is among its pieces, or, in an endless text, some piece before.
+type Firsts = [u16; Letter::COUNT];
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -120,7 +120,7 @@ impl ParameterTexts {
         while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
             if let Some(letter) = piece.letter.filter(|_| is_new) {
-                firsts[letter as usize] = number(self.pieces.len() - first);
+                firsts[letter as usize] = u16::try_from(self.pieces.len() - first).unwrap_or(u16::MAX);
             }
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end as usize;
@@ -188,7 +188,9 @@ impl<'t> ParameterText<'t> {
     /// Which of the pieces is the first of a letter.
     pub(crate) fn index(self, letter: Letter) -> Option<usize> {
         let firsts = self.firsts.filter(|_| self.letters.contains(letter))?;
-        Some(firsts[letter as usize] as usize)
+        let from = usize::from(firsts[letter as usize]);
+        let is_it = |piece: &Piece| piece.letter == Some(letter);
+        self.pieces.get(from..)?.iter().position(is_it).map(|behind| from + behind)
     }
 
     /// A piece's value as written.

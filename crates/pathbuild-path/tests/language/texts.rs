@@ -15,6 +15,21 @@ fn pieces(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn the_first_piece_of_a_letter_is_found_however_many_come_before() {
+    for before in [0, 1, 65_534, 65_535, 65_536, 70_000] {
+        let texts = ParameterTexts::from(&*("F1 ".repeat(before) + "B2 B3 T4"));
+        let text = texts.get(0).unwrap();
+        let first = |letter| text.piece(letter).map(|piece| text.value(piece));
+        assert_eq!(
+            (first(Letter::B), first(Letter::T), first(Letter::D)),
+            (Some("2"), Some("4"), None),
+            "{before}"
+        );
+        assert_eq!(first(Letter::F).is_some(), before > 0);
+    }
+}
+
+#[test]
 fn pieces_are_separated_by_blanks_and_line_breaks() {
     for blank in [" ", "   ", "\t", "\n", "\r\n", " \n\t "] {
         assert_eq!(pieces(&format!("{blank}B-0,3{blank}Qa.b{blank}")), ["B=-0,3", "Q=a.b"]);
