@@ -22,7 +22,7 @@ use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 
 /// Gathers a drawing.
 pub(crate) struct Collector<'d> {
-    pub(crate) drawing: &'d mut Drawing,
+    drawing: &'d mut Drawing,
     /// Numbers of [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
     /// Those of them on which an invisible entity was found.

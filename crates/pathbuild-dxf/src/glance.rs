@@ -18,10 +18,16 @@ pub(crate) fn may_hold_wanted<'a>(
 ) -> bool {
     let (line_end, begin) = (blocks.line_end(), blocks.consumed());
     let bytes = &blocks.bytes()[begin..];
+    // Lines are counted on from the last that was asked for: a file may name a million layers.
+    let mut counted = *blocks;
     any_eight(bytes, |eight| {
         let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
         let name = line_from(&bytes[at..], line_end);
-        let layer = layers.id(name, || blocks.line_of(begin + at), decoder);
+        let line = || {
+            counted.jump_to(begin + at);
+            counted.line()
+        };
+        let layer = layers.id(name, line, decoder);
         layers.is_kept(layer)
     })
 }

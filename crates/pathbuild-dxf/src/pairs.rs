@@ -118,13 +118,6 @@ impl<'a> Pairs<'a> {
         self.at = at;
     }
 
-    /// The line that begins at a later place.
-    pub(crate) fn line_of(&self, at: usize) -> u32 {
-        let mut pairs = *self;
-        pairs.jump_to(at);
-        pairs.line
-    }
-
     /// The line of the next pair, counted from the beginning of the file.
     pub(crate) fn counted_line(&self) -> u32 {
         let mut pairs = Self { at: 0, line: 1, ..*self };

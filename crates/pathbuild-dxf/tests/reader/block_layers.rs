@@ -1,6 +1,8 @@
 //! Which insertions matter: those that put something on a wanted layer. Of all others nothing is said. (spec/10-drawing.md, "More
 //! entities")
 
+use std::time::{Duration, Instant};
+
 use pathbuild_diagnostic::Code;
 use pathbuild_dxf::{Options, read};
 
@@ -119,6 +121,16 @@ fn a_layer_counts_however_its_code_and_lines_are_written() {
 fn a_layer_that_has_to_be_decoded_counts() {
     assert_eq!(found(drawing(&line("8 \\U+0050"))), (1, vec![]));
     assert_eq!(found(drawing(&line("8 X|P"))), (1, vec![]));
+}
+
+/// As many as anybody may put into a file: their lines are not counted from the beginning for each.
+#[test]
+fn blocks_that_name_very_many_layers_are_looked_at_in_time() {
+    let many: String = (0..60_000).map(|number| line(&format!("8 L{number}\u{e4}"))).collect();
+    let start = Instant::now();
+    assert_eq!(found(drawing(&many)), (0, vec![]));
+    assert_eq!(found(drawing(&(many + &line("8 P")))), (1, vec![]));
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
 
 /// Else nobody needs them, as other sections that are not read.
