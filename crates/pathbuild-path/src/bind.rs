@@ -77,13 +77,14 @@ impl<'a> Binder<'a> {
     fn path(&mut self, start: &Marker, end: &Marker) -> Option<Path> {
         self.check_path_values();
         let (tool, thickness) = (self.path_number(Letter::O), self.path_number(Letter::T));
+        let sweep_height = self.path_number(Letter::S);
         let segments = self.segments(tool);
         let turns = self.raw.turns.iter();
         let mut path = Path {
             name: self.raw.name.clone(),
             tool: tool.unwrap_or_default(),
             thickness: thickness.unwrap_or_default(),
-            sweep_height: self.path_number(Letter::S),
+            sweep_height,
             material: self.path_text(Letter::M),
             feed: self.path_number(Letter::F),
             output_suffix: self.path_text(Letter::R).unwrap_or_default(),
@@ -97,7 +98,7 @@ impl<'a> Binder<'a> {
             holes: std::mem::take(&mut self.holes),
             helices: std::mem::take(&mut self.helices),
             probes: Vec::new(),
-            surface: self.surface(start, thickness),
+            surface: sweep_height.is_none().then(|| self.surface(start, thickness.unwrap_or_default())),
             other_surfaces: Vec::new(),
             start_origin: start.origin.clone(),
             end_origin: end.origin.clone(),
@@ -108,13 +109,10 @@ impl<'a> Binder<'a> {
         (tool.is_some() && thickness.is_some()).then_some(path)
     }
 
-    /// The upper face that S must be above, where it is not its own.
-    fn surface(&self, start: &Marker, thickness: Option<f64>) -> Option<Surface> {
-        if self.path_number(Letter::S).is_some() {
-            return None;
-        }
+    /// The upper face that a path without an S of its own must sweep above.
+    fn surface(&self, start: &Marker, thickness: f64) -> Surface {
         let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |(_, origin)| origin).clone();
-        Some(Surface { origin, thickness: thickness.unwrap_or_default(), text: self.raw.parameters })
+        Surface { origin, thickness, text: self.raw.parameters }
     }
 
     fn check_path_values(&mut self) {
