@@ -10,6 +10,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
 use regex::Regex;
+use smol_str::SmolStr;
 
 use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
@@ -138,7 +139,7 @@ impl<'a> Binder<'a> {
         self.values.number(letter).number()
     }
 
-    fn path_text(&self, letter: Letter) -> Option<Box<str>> {
+    fn path_text(&self, letter: Letter) -> Option<SmolStr> {
         self.values.text(letter).map(Into::into)
     }
 

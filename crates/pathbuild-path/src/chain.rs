@@ -1,5 +1,7 @@
 //! What is done along a path, in order, with consecutive cuts grouped into milling chains. (spec/50-path-building.md, "Chains")
 
+use std::ops::Range;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 
@@ -7,7 +9,7 @@ use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
 use crate::path::{CutParameters, Path, SegmentKind};
-use crate::walk::{Passage, curve};
+use crate::walk::{Passage, Walked, curve};
 
 /// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +37,8 @@ pub struct Chain {
     pub infeed: f64,
     /// W in mm: sweepless milling from this depth on.
     pub first_depth: Option<f64>,
-    /// In walking order, each from where the tool comes from; at least one.
-    pub segments: Box<[ChainSegment]>,
+    /// At least one, see [`Walked::members`](crate::Walked::members).
+    pub(crate) members: Range<usize>,
 }
 
 /// A member of a chain.
@@ -79,17 +81,19 @@ pub(crate) struct Grouped<'a> {
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Where the items are collected, and the members of the chain that is not yet one of them.
+/// Where the items and the members of chains are collected.
 #[derive(Default)]
 pub(crate) struct Room {
     items: Vec<Item>,
-    chain: Vec<ChainSegment>,
+    members: Vec<ChainSegment>,
+    /// How many members belong to chains that are items. The others are of the chain that is not yet one.
+    chained: usize,
 }
 
 impl Room {
     /// For how many segments there is room.
     pub(crate) fn size(&self) -> usize {
-        self.items.capacity().max(self.chain.capacity())
+        self.items.capacity().max(self.members.capacity())
     }
 }
 
@@ -104,24 +108,29 @@ impl<'a> Grouped<'a> {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
             let segment = u32::try_from(segment).unwrap_or(u32::MAX);
             let Passage { is_turned, moved, .. } = passage;
-            return self.room.chain.push(ChainSegment { segment, cut, is_return, is_turned, moved });
+            return self.room.members.push(ChainSegment { segment, cut, is_return, is_turned, moved });
         }
         self.finish_chain();
         self.room.items.extend(self.single(segment, &passage, is_return));
     }
 
     /// All that was gone along, and what is wrong with it.
-    pub(crate) fn finish(&mut self) -> (Vec<Item>, Vec<Diagnostic>) {
+    pub(crate) fn finish(&mut self) -> Walked {
         self.finish_chain();
-        (self.room.items.drain(..).collect(), std::mem::take(&mut self.diagnostics))
+        let Room { items, members, .. } = &mut self.room;
+        Walked {
+            items: items.drain(..).collect(),
+            members: members.drain(..).collect(),
+            diagnostics: std::mem::take(&mut self.diagnostics),
+        }
     }
 
     /// Where it was collected, for the next path.
     pub(crate) fn into_room(self) -> Room {
-        let Room { mut items, mut chain } = self.room;
+        let Room { mut items, mut members, .. } = self.room;
         items.clear();
-        chain.clear();
-        Room { items, chain }
+        members.clear();
+        Room { items, members, chained: 0 }
     }
 
     /// What is done along a segment that is in no chain. Going back over it is a sweep.
@@ -139,8 +148,8 @@ impl<'a> Grouped<'a> {
 
     /// Ends the chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
-        let Room { items, chain } = &mut self.room;
-        let [first, others @ ..] = &**chain else { return };
+        let Room { items, members, chained } = &mut self.room;
+        let [first, others @ ..] = &members[*chained..] else { return };
         let has_letters = |member: &ChainSegment| member.cut(self.path).chain_letters.is_some();
         for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {
             self.diagnostics.extend(member.letters_without_effect(self.path));
@@ -150,11 +159,11 @@ impl<'a> Grouped<'a> {
             Some(infeed) => items.push(Item::Chain(Chain {
                 infeed,
                 first_depth: parameters.first_depth,
-                segments: chain.drain(..).collect(),
+                members: *chained..members.len(),
             })),
             None => self.diagnostics.push(first.without_infeed(self.path)),
         }
-        chain.clear();
+        *chained = members.len();
     }
 }
 

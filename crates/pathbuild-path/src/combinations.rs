@@ -2,6 +2,8 @@
 
 use std::collections::HashSet;
 
+use smol_str::SmolStr;
+
 use crate::definition::Definition;
 use crate::variables::Bindings;
 
@@ -18,7 +20,7 @@ pub struct Combinations {
 impl Combinations {
     /// Combines all values of lists and both ends of ranges.
     pub fn new(definitions: &[Definition], limit: usize) -> Self {
-        let values: Vec<(char, Vec<Box<str>>)> =
+        let values: Vec<(char, Vec<SmolStr>)> =
             definitions.iter().map(|definition| (definition.name, corners(definition))).collect();
         let counts = || values.iter().map(|(_, values)| values.len());
         let all = counts().fold(1_u64, |all, count| all.saturating_mul(count as u64));
@@ -40,19 +42,19 @@ impl Combinations {
 }
 
 /// The values of a definition, each once.
-fn corners(definition: &Definition) -> Vec<Box<str>> {
-    let mut values: Vec<Box<str>> = Vec::new();
+fn corners(definition: &Definition) -> Vec<SmolStr> {
+    let mut values: Vec<SmolStr> = Vec::new();
     for value in definition.corner_values() {
-        if !values.iter().any(|known| **known == *value) {
-            values.push(value.into());
+        if !values.contains(&value) {
+            values.push(value);
         }
     }
     values
 }
 
 /// The combination that takes of each variable the value that `choose` says, asked with the variable's number and its count of values.
-fn at(values: &[(char, Vec<Box<str>>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
-    let value = |(index, (name, values)): (usize, &(char, Vec<Box<str>>))| {
+fn at(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
+    let value = |(index, (name, values)): (usize, &(char, Vec<SmolStr>))| {
         (*name, values[choose(index, values.len())].clone())
     };
     Bindings::new(values.iter().enumerate().map(value))

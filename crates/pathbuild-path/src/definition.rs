@@ -4,6 +4,7 @@ use std::fmt;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::variables as messages;
+use smol_str::{SmolStr, ToSmolStr};
 
 use crate::approx::at_least;
 use crate::number::parse_number;
@@ -15,7 +16,7 @@ pub struct Definition {
     pub name: char,
     /// What it may be.
     pub values: Allowed,
-    written: Box<str>,
+    written: SmolStr,
 }
 
 /// The values that a definition allows.
@@ -23,9 +24,9 @@ pub struct Definition {
 #[expect(missing_docs, reason = "the ends as written and as numbers")]
 pub enum Allowed {
     /// `-0.5~1,2`: numbers, both ends included.
-    Range { from: f64, to: f64, from_text: Box<str>, to_text: Box<str> },
+    Range { from: f64, to: f64, from_text: SmolStr, to_text: SmolStr },
     /// `P1,P2,P3`: exactly these texts.
-    List(Vec<Box<str>>),
+    List(Vec<SmolStr>),
     /// `?PQRS`: exactly one of these characters.
     Characters(Vec<char>),
 }
@@ -48,7 +49,7 @@ impl Definition {
             Allowed::Range { from, to, .. } => {
                 parse_number(value).is_some_and(|number| at_least(number, *from) && at_least(*to, number))
             }
-            Allowed::List(values) => values.iter().any(|allowed| **allowed == *value),
+            Allowed::List(values) => values.iter().any(|allowed| allowed == value),
             Allowed::Characters(characters) => {
                 let mut value = value.chars();
                 value.next().is_some_and(|character| characters.contains(&character))
@@ -58,26 +59,21 @@ impl Definition {
     }
 
     /// The example value that the variable with index `k` of its path is checked with.
-    pub fn check_value(&self, k: usize) -> String {
+    pub fn check_value(&self, k: usize) -> SmolStr {
         match &self.values {
-            Allowed::Range { from_text, to_text, .. } => {
-                if k.is_multiple_of(2) {
-                    from_text.to_string()
-                } else {
-                    to_text.to_string()
-                }
-            }
-            Allowed::List(values) => values[k % values.len()].to_string(),
-            Allowed::Characters(characters) => characters[k % characters.len()].to_string(),
+            Allowed::Range { from_text, .. } if k.is_multiple_of(2) => from_text.clone(),
+            Allowed::Range { to_text, .. } => to_text.clone(),
+            Allowed::List(values) => values[k % values.len()].clone(),
+            Allowed::Characters(characters) => characters[k % characters.len()].to_smolstr(),
         }
     }
 
     /// The values that `check --all-bindings` goes through: all of a list, both ends of a range.
-    pub fn corner_values(&self) -> Vec<String> {
+    pub fn corner_values(&self) -> Vec<SmolStr> {
         match &self.values {
             Allowed::Range { .. } => vec![self.check_value(0), self.check_value(1)],
-            Allowed::List(values) => values.iter().map(ToString::to_string).collect(),
-            Allowed::Characters(characters) => characters.iter().map(ToString::to_string).collect(),
+            Allowed::List(values) => values.clone(),
+            Allowed::Characters(characters) => characters.iter().map(ToSmolStr::to_smolstr).collect(),
         }
     }
 }
@@ -96,7 +92,7 @@ fn allowed(written: &str) -> Result<Allowed, Box<Diagnostic>> {
     }
     if written.contains(',') {
         let clean = written.replace('?', "");
-        let values: Vec<Box<str>> = clean.split(',').map(|value| value.trim().into()).collect();
+        let values: Vec<SmolStr> = clean.split(',').map(|value| value.trim().into()).collect();
         if values.iter().any(|value| value.is_empty()) {
             return Err(invalid(&messages::EMPTY_ELEMENT, written));
         }

@@ -1,9 +1,8 @@
 //! Elements of a path: what is drawn, and what it means. (spec/10-drawing.md, "Line types", "Special circles")
 
-use std::sync::Arc;
-
 use pathbuild_diagnostic::words;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
+use smol_str::SmolStr;
 
 use crate::approx::near;
 use crate::geometry::{Curve, Xy};
@@ -51,7 +50,7 @@ pub struct Origin {
     /// Its type in the file.
     pub entity: EntityKind,
     /// Its layer.
-    pub layer: Arc<str>,
+    pub layer: SmolStr,
     /// Its beginning, or centre.
     pub point: Point,
 }
@@ -105,9 +104,9 @@ pub(crate) enum CircleMeaning {
 
 impl Origin {
     /// Where an entity is that begins, or has its centre, at a point.
-    pub(crate) fn new(source: Source, layer: &Arc<str>, point: Xy) -> Self {
+    pub(crate) fn new(source: Source, layer: &SmolStr, point: Xy) -> Self {
         let Source { id, entity, .. } = source;
-        Self { id, entity, layer: Arc::clone(layer), point: shown(point) }
+        Self { id, entity, layer: layer.clone(), point: shown(point) }
     }
 
     /// A diagnostic at this element.

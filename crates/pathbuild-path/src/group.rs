@@ -3,17 +3,21 @@
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
-/// What the groups of a pattern took of a name. Two need no memory of their own: a directory of ten thousand drawings has as many.
+use smol_str::SmolStr;
+
+/// What the groups of a pattern took of a name. Two and three need no memory of their own: those of names are asked for each path that is
+/// embedded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Groups(List);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum List {
     Two([Group; 2]),
+    Three([Group; 3]),
     Any(Box<[Group]>),
 }
 
-/// One of them. Short integers, as most are, need no memory of their own either.
+/// One of them. Short integers and short texts, as most are, need no memory of their own either.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     /// Digits that make a number below 2^64.
@@ -24,13 +28,15 @@ pub(crate) enum Group {
         digits: usize,
     },
     /// Anything else: longer integers, texts, nothing.
-    Other(Box<str>),
+    Other(SmolStr),
 }
 
 impl<'t> FromIterator<&'t str> for Groups {
     fn from_iter<I: IntoIterator<Item = &'t str>>(groups: I) -> Self {
         let groups: Vec<Group> = groups.into_iter().map(Group::new).collect();
-        Self(<[Group; 2]>::try_from(groups).map_or_else(|groups| List::Any(groups.into()), List::Two))
+        let few = <[Group; 2]>::try_from(groups).map(List::Two);
+        let few = few.or_else(|groups| <[Group; 3]>::try_from(groups).map(List::Three));
+        Self(few.unwrap_or_else(|groups| List::Any(groups.into())))
     }
 }
 
@@ -42,13 +48,13 @@ impl From<[&str; 2]> for Groups {
 
 impl From<[Option<Group>; 2]> for Groups {
     fn from(groups: [Option<Group>; 2]) -> Self {
-        Self(List::Two(groups.map(|group| group.unwrap_or(Group::Other("".into())))))
+        Self(List::Two(groups.map(|group| group.unwrap_or(Group::Other(SmolStr::default())))))
     }
 }
 
 impl From<[&str; 3]> for Groups {
     fn from(groups: [&str; 3]) -> Self {
-        Self(List::Any(Box::new(groups.map(Group::new))))
+        Self(List::Three(groups.map(Group::new)))
     }
 }
 
@@ -58,6 +64,7 @@ impl std::ops::Deref for Groups {
     fn deref(&self) -> &[Group] {
         match &self.0 {
             List::Two(groups) => groups,
+            List::Three(groups) => groups,
             List::Any(groups) => groups,
         }
     }

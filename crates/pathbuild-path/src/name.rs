@@ -3,17 +3,18 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
 
 use regex::Regex;
+use smol_str::SmolStr;
 
 use crate::default_pattern::DefaultPattern;
 use crate::group::Groups;
 use crate::pattern::{Pattern, PatternError};
 
-/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt. Shared, since every stage hands it on.
+/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt. Every stage hands it on: a short
+/// one, as all are, needs no memory of its own.
 #[derive(Clone)]
-pub struct PathName(Arc<str>);
+pub struct PathName(SmolStr);
 
 /// What makes a layer a path layer: its name matches as a whole, without regard to case.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault, Word, words};
+use smol_str::SmolStr;
 
 use crate::approx::above;
 use crate::element::{Cut, Element, Origin, Shape};
@@ -24,13 +25,13 @@ pub struct Path {
     /// S in mm, where the path gives one; what holds else depends on its role: [`Path::embedded_sweep_height`].
     pub sweep_height: Option<f64>,
     /// M.
-    pub material: Option<Box<str>>,
+    pub material: Option<SmolStr>,
     /// F in mm/min.
     pub feed: Option<f64>,
     /// R.
-    pub output_suffix: Box<str>,
+    pub output_suffix: SmolStr,
     /// E: the regular expression that names of embedded paths must match.
-    pub embeds_only: Option<Box<str>>,
+    pub embeds_only: Option<SmolStr>,
     /// Where it starts.
     pub start: Xy,
     /// Where it ends.
@@ -139,7 +140,7 @@ pub struct CutParameters {
     /// Its own text, where that gives I, C or W: its number in [`Drawn::texts`].
     pub chain_letters: Option<u32>,
     /// Q.
-    pub comment: Option<Box<str>>,
+    pub comment: Option<SmolStr>,
 }
 
 /// Parameters of a whole chain.
@@ -171,7 +172,7 @@ pub struct Hole {
     pub bottom: f64,
     pub feed: Option<f64>,
     pub peck: Option<f64>,
-    pub comment: Option<Box<str>>,
+    pub comment: Option<SmolStr>,
 }
 
 /// A helical circle, mark or circle with bars.
@@ -190,7 +191,7 @@ pub struct Helix {
     /// I.
     pub infeed: f64,
     /// Q.
-    pub comment: Option<Box<str>>,
+    pub comment: Option<SmolStr>,
 }
 
 /// A path to embed.
@@ -207,7 +208,7 @@ pub struct Subpath {
     /// O.
     pub tool: f64,
     /// M.
-    pub material: Option<Box<str>>,
+    pub material: Option<SmolStr>,
     /// H: how much it is raised.
     pub height: f64,
     /// Values of its variables, in the order written.
@@ -240,7 +241,7 @@ pub enum SubpathName {
 #[expect(missing_docs, reason = "the names say it")]
 pub struct SubpathValue {
     pub variable: Option<char>,
-    pub value: Box<str>,
+    pub value: SmolStr,
     pub text: TextFault,
 }
 

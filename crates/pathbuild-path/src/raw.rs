@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
+use smol_str::SmolStr;
 
 use crate::definition::Definition;
 use crate::element::{Element, Marker, Origin, Role};
@@ -46,7 +47,7 @@ pub struct Drawn {
     /// The texts that elements have.
     pub texts: ParameterTexts,
     /// The path's layers, in the order in which they appear in the file; at least one.
-    pub layers: Vec<Arc<str>>,
+    pub layers: Vec<SmolStr>,
 }
 
 /// Where the elements of a path are in the file: by [`ElementId`](pathbuild_diagnostic::ElementId).

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::{files, variables as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
+use smol_str::SmolStr;
 
 use crate::definition::Definition;
 use crate::letter::Letter;
@@ -11,7 +12,7 @@ use crate::raw::RawPath;
 
 /// The values that a path's variables have where it is used, in order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Bindings(Vec<(char, Box<str>)>);
+pub struct Bindings(Vec<(char, SmolStr)>);
 
 /// Puts values for references.
 pub(crate) struct Interpolation<'a> {
@@ -21,7 +22,7 @@ pub(crate) struct Interpolation<'a> {
 
 impl Bindings {
     /// Bindings of names to values; the first of a name holds.
-    pub fn new(values: impl IntoIterator<Item = (char, Box<str>)>) -> Self {
+    pub fn new(values: impl IntoIterator<Item = (char, SmolStr)>) -> Self {
         let mut values: Vec<_> = values.into_iter().collect();
         values.sort_by_key(|(name, _)| *name);
         values.dedup_by_key(|(name, _)| *name);
@@ -30,20 +31,18 @@ impl Bindings {
 
     /// The example values that a path by itself is checked with: k counts from 0 over its definitions as they are written.
     pub fn check_values(definitions: &[Definition]) -> Self {
-        let value = |(k, definition): (usize, &Definition)| {
-            (definition.name, definition.check_value(k).into_boxed_str())
-        };
+        let value = |(k, definition): (usize, &Definition)| (definition.name, definition.check_value(k));
         Self::new(definitions.iter().enumerate().map(value))
     }
 
     /// The value of a variable.
     pub fn get(&self, name: char) -> Option<&str> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| &**value)
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str())
     }
 
     /// All names and values.
     pub fn iter(&self) -> impl Iterator<Item = (char, &str)> {
-        self.0.iter().map(|(name, value)| (*name, &**value))
+        self.0.iter().map(|(name, value)| (*name, value.as_str()))
     }
 
     /// Whether each of these variables has a value.

@@ -11,7 +11,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use crate::approx::{coincide, near};
-use crate::chain::{Grouped, Item, Room};
+use crate::chain::{Chain, ChainSegment, Grouped, Item, Room};
 use crate::geometry::Xy;
 use crate::path::{Path, SegmentKind};
 
@@ -24,6 +24,8 @@ pub(crate) use passage::{Passage, curve};
 pub struct Walked {
     /// What is done, in order. Complete only when no diagnostic is an error.
     pub items: Vec<Item>,
+    /// Those of all chains, in walking order.
+    pub(crate) members: Vec<ChainSegment>,
     /// One of PB401 to PB404, or PB201 for each chain without I; PB114 and PB210.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -31,19 +33,31 @@ pub struct Walked {
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     let mut walk = Walk::new(path, join_tolerance, KEPT.take());
-    let (items, mut diagnostics) = match walk.run() {
+    let mut walked = match walk.run() {
         Ok(()) => walk.grouped.finish(),
-        Err(problem) => (Vec::new(), vec![*problem]),
+        Err(problem) => Walked::failed(*problem),
     };
-    diagnostics.append(&mut walk.joined);
-    if !items.is_empty() {
-        diagnostics.extend(walk.idle_markers());
+    walked.diagnostics.append(&mut walk.joined);
+    if !walked.items.is_empty() {
+        walked.diagnostics.extend(walk.idle_markers());
     }
-    for diagnostic in &mut diagnostics {
+    for diagnostic in &mut walked.diagnostics {
         diagnostic.path = Some(path.name.as_str().into());
     }
     walk.keep();
-    Walked { items, diagnostics }
+    walked
+}
+
+impl Walked {
+    /// A walk that does not arrive.
+    pub fn failed(problem: Diagnostic) -> Self {
+        Self { diagnostics: vec![problem], ..Self::default() }
+    }
+
+    /// The members of a chain that is one of the items: at least one, each from where the tool comes from.
+    pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
+        &self.members[chain.members.clone()]
+    }
 }
 
 /// Lists that are needed while a path is walked along.

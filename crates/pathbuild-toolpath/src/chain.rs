@@ -31,12 +31,12 @@ pub(crate) struct Run {
 }
 
 impl<P: Parts> Fold<'_, P> {
-    pub(crate) fn chain(&mut self, place: &Place<'_>, chain: &Chain) {
+    pub(crate) fn chain(&mut self, place: &Place<'_>, chain: &Chain, members: &[ChainSegment]) {
         let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
         let strands: Vec<Strand<'_>> =
-            chain.segments.iter().map(|segment| self.strand(place, segment, first, chain.infeed)).collect();
+            members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
-        self.element(ElementKind::MillingChain, &chain.segments[0].origin(place.path), bottom, place, None);
+        self.element(ElementKind::MillingChain, &members[0].origin(place.path), bottom, place, None);
         if chain.first_depth.is_some() {
             self.sweepless(place, &strands);
         } else {
@@ -44,8 +44,8 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    fn strand<'p>(&self, place: &Place<'p>, segment: &ChainSegment, first: f64, infeed: f64) -> Strand<'p> {
-        let (cut, curve) = (segment.cut(place.path), segment.curve(place.path));
+    fn strand<'p>(&self, place: &Place<'p>, member: &ChainSegment, first: f64, infeed: f64) -> Strand<'p> {
+        let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
             let plan = BarPlan::new(bars, cut.bottom, place.path.tool, curve.length());

@@ -2,26 +2,26 @@
 
 use std::ptr;
 
-use pathbuild_path::{Chain, CutParameters, Helix, Item, Path};
+use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, Walked};
 
 /// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
-pub fn own_moves(path: &Path, items: &[Item]) -> u64 {
-    items.iter().map(|item| moves(path, item)).fold(0, u64::saturating_add)
+pub fn own_moves(path: &Path, walked: &Walked) -> u64 {
+    walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
 }
 
-fn moves(path: &Path, item: &Item) -> u64 {
+fn moves(path: &Path, walked: &Walked, item: &Item) -> u64 {
     match item {
-        Item::Chain(chain) => chain_moves(path, chain),
+        Item::Chain(chain) => chain_moves(path, chain, walked.members(chain)),
         Item::Helix { helix, .. } => helix_moves(path, &path.helices[*helix as usize]),
         Item::Hole { .. } | Item::Sweep(_) | Item::Subpath(_) => 4,
     }
 }
 
-fn chain_moves(path: &Path, chain: &Chain) -> u64 {
+fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
     // Those that follow each other mostly share their parameters.
     let mut last: Option<(&CutParameters, u64)> = None;
-    let segments = chain.segments.iter().map(|member| {
+    let segments = members.iter().map(|member| {
         let cut = member.cut(path);
         let known = last.filter(|(known, _)| ptr::eq(*known, cut));
         let (_, passes) =

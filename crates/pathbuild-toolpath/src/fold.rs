@@ -1,7 +1,7 @@
 //! The fold: one walk over a path and what it embeds that carries the tool's position.
 
 use pathbuild_path::approx::{coincide, is_nothing, near};
-use pathbuild_path::{Hole, Item, Origin, Path, PlacedSubpath, Placement, SegmentKind, Sweep, Xy};
+use pathbuild_path::{Hole, Item, Origin, Path, PlacedSubpath, Placement, SegmentKind, Sweep, Walked, Xy};
 
 use crate::probes;
 use crate::program::{Class, Comment, Count, ElementKind, Height, Move, Names, ProbePoint, Program, Step};
@@ -15,7 +15,7 @@ pub trait Parts {
     fn path(&self, id: Self::Id) -> &Path;
 
     /// What is done along it.
-    fn items(&self, id: Self::Id) -> &[Item];
+    fn walked(&self, id: Self::Id) -> &Walked;
 
     /// What a subpath segment of it (an index into [`Path::segments`]) embeds.
     fn embedded(&self, id: Self::Id, segment: usize) -> Option<Self::Id>;
@@ -51,7 +51,7 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
     let sweep_height = path.emitted_sweep_height(options.sweep_height).unwrap_or_default();
     let mut program = Program {
         path: path.name.as_str().into(),
-        output_suffix: path.output_suffix.clone(),
+        output_suffix: path.output_suffix.as_str().into(),
         drawing: drawing.into(),
         tool: path.tool,
         sweep_height,
@@ -132,9 +132,10 @@ impl<'a, P: Parts> Fold<'a, P> {
             label: probe.label.clone(),
         }));
         let origin = |segment: usize| path.origin(&path.segments[segment]);
-        for item in self.parts.items(id) {
+        let walked = self.parts.walked(id);
+        for item in &walked.items {
             match item {
-                Item::Chain(chain) => self.chain(&place, chain),
+                Item::Chain(chain) => self.chain(&place, chain, walked.members(chain)),
                 Item::Hole { segment, hole } => {
                     self.hole(&place, &origin(*segment), &path.holes[*hole as usize]);
                 }

@@ -4,6 +4,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, SegmentKind, Walked};
 use pathbuild_toolpath::own_moves;
+use smol_str::SmolStr;
 
 use super::hints::with_other_layers;
 use super::instance::{BoundPath, Instance, bind_raw, chains, path, walk};
@@ -42,9 +43,9 @@ pub struct Brief {
     /// T.
     pub thickness: f64,
     /// M.
-    pub material: Option<Box<str>>,
+    pub material: Option<SmolStr>,
     /// R.
-    pub output_suffix: Box<str>,
+    pub output_suffix: SmolStr,
     /// How far its end is from its start.
     pub size: f64,
     /// Whether anything in it is milled at the feed of the options.
@@ -152,7 +153,7 @@ fn brief(db: &dyn Db, file: SourceFile, path: &Path, walked: &Walked) -> Brief {
         has_probes: !path.probes.is_empty(),
         has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
         sweep_problems: path.check_sweep_height(path.embedded_sweep_height()),
-        moves: own_moves(path, &walked.items),
+        moves: own_moves(path, walked),
         walk_problems: walked.diagnostics.iter().cloned().map(with_hints).collect(),
     }
 }

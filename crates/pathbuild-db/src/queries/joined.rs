@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_path::{Item, Path};
+use pathbuild_path::{Path, Walked};
 use pathbuild_toolpath::{Parts, Program, fold};
 
 use super::embedding::{Outcome, embeds};
@@ -38,8 +38,8 @@ impl<'db> Parts for Embedded<'db> {
         path(self.db, id).path.as_ref().expect("a path of a closure without errors is bound")
     }
 
-    fn items(&self, id: Instance<'db>) -> &[Item] {
-        &chains(self.db, id).items
+    fn walked(&self, id: Instance<'db>) -> &Walked {
+        chains(self.db, id)
     }
 
     fn embedded(&self, id: Instance<'db>, segment: usize) -> Option<Instance<'db>> {

@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
+use smol_str::SmolStr;
 
 use super::{At, Binder};
 use crate::element::{Element, Role, Shape};
@@ -71,7 +72,7 @@ impl Binder<'_> {
 
     fn subpath(&mut self, element: &Element, values: &Values<'_>, curve: Curve) -> Option<Subpath> {
         let inherited = |letter| values.number(letter).or(self.values.number(letter)).number();
-        let own_text = |letter| values.text(letter).map(Box::from);
+        let own_text = |letter| values.text(letter).map(SmolStr::from);
         let value = |(value, piece): (&str, &Piece)| {
             let mut characters = value.chars();
             let variable = characters.next();

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{MText, Text};
+use smol_str::SmolStr;
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
@@ -25,7 +25,7 @@ pub(crate) struct Texts<'d> {
 }
 
 struct LayerTexts<'d> {
-    name: Arc<str>,
+    name: SmolStr,
     candidates: Vec<Candidate>,
     /// Where they lie, once that is asked for.
     boxes: Boxes,
@@ -57,7 +57,7 @@ impl<'d> Texts<'d> {
     }
 
     /// The names of the layers in order.
-    pub(super) fn into_layer_names(self, workspace: &mut Workspace) -> Vec<Arc<str>> {
+    pub(super) fn into_layer_names(self, workspace: &mut Workspace) -> Vec<SmolStr> {
         let name_of = |layer: LayerTexts<'_>| {
             workspace.keep_candidates(layer.candidates);
             layer.name

@@ -11,7 +11,7 @@ fn chains(statements: &str) -> Vec<Chain> {
         Item::Chain(chain) => Some(chain),
         _ => None,
     };
-    compile(&path(P, statements)).items.into_iter().filter_map(of_item).collect()
+    compile(&path(P, statements)).walked.items.into_iter().filter_map(of_item).collect()
 }
 
 #[test]

@@ -79,8 +79,8 @@ fn the_length_of_an_arc_is_its_chord() {
 fn lines_come_before_arcs_on_a_tie() {
     let statements = "mill arc 0,0 20,0 r 10 cw\nmill 20,0 0,0 \"F7\"\nend 0,0";
     let compiled = crate::support::compile(&path(P, statements));
-    let pathbuild_path::Item::Chain(chain) = &compiled.items[0] else { panic!() };
-    assert_eq!(chain.segments[0].cut(compiled.path.as_ref().unwrap()).feed, Some(7.0));
+    let pathbuild_path::Item::Chain(chain) = &compiled.walked.items[0] else { panic!() };
+    assert_eq!(compiled.walked.members(chain)[0].cut(compiled.path.as_ref().unwrap()).feed, Some(7.0));
 }
 
 /// Where there is only one candidate there is nothing to choose: its number does not matter.

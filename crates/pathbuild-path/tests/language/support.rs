@@ -4,14 +4,14 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_draw::Sheet;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Xy, bind,
+    Bindings, Curve, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked, Xy, bind,
     raw_file, walk,
 };
 
 /// What became of a path.
 pub(crate) struct Compiled {
     pub(crate) path: Option<Path>,
-    pub(crate) items: Vec<Item>,
+    pub(crate) walked: Walked,
     /// What was found, stage by stage.
     pub(crate) found: Vec<Diagnostic>,
 }
@@ -20,8 +20,8 @@ impl Compiled {
     /// The curves of the chain that the path begins with.
     #[track_caller]
     pub(crate) fn first_chain(&self) -> Vec<Curve> {
-        let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.items.first()) else { panic!() };
-        chain.segments.iter().map(|member| member.curve(path)).collect()
+        let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else { panic!() };
+        self.walked.members(chain).iter().map(|member| member.curve(path)).collect()
     }
 }
 
@@ -66,16 +66,15 @@ pub(crate) fn compile(drawing: &str) -> Compiled {
 
 /// A path stage by stage, each gone into only when the ones before found no error.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
-    let mut compiled = Compiled { path: None, items: Vec::new(), found: raw.diagnostics.clone() };
+    let mut compiled = Compiled { path: None, walked: Walked::default(), found: raw.diagnostics.clone() };
     if raw.is_sound() {
         let (path, found) = bind(raw, bindings, language);
         compiled.path = path;
         compiled.found.extend(found);
     }
     if let Some(path) = &compiled.path {
-        let walked = walk(path, language.join_tolerance);
-        compiled.items = walked.items;
-        compiled.found.extend(walked.diagnostics);
+        compiled.walked = walk(path, language.join_tolerance);
+        compiled.found.extend(compiled.walked.diagnostics.iter().cloned());
     }
     compiled
 }
@@ -107,10 +106,10 @@ pub(crate) fn items(drawing: &str) -> Vec<String> {
     let errors: Vec<&Diagnostic> = compiled.found.iter().filter(|found| found.is_error()).collect();
     assert!(errors.is_empty(), "{errors:?} in\n{drawing}");
     let path = compiled.path.as_ref().expect("there are no errors");
-    compiled.items.iter().map(|it| item(path, it)).collect()
+    compiled.walked.items.iter().map(|it| item(path, &compiled.walked, it)).collect()
 }
 
-fn item(path: &Path, item: &Item) -> String {
+fn item(path: &Path, walked: &Walked, item: &Item) -> String {
     match item {
         Item::Chain(chain) => {
             let member = |member: &pathbuild_path::ChainSegment| {
@@ -118,7 +117,7 @@ fn item(path: &Path, item: &Item) -> String {
                 let curve = member.curve(path);
                 format!("{}{back}", ends(curve.start(), curve.end()))
             };
-            format!("[{}]", chain.segments.iter().map(member).collect::<Vec<_>>().join(", "))
+            format!("[{}]", walked.members(chain).iter().map(member).collect::<Vec<_>>().join(", "))
         }
         Item::Hole { segment, .. } => format!("hole {}", point(path.ends(&path.segments[*segment])[0])),
         Item::Helix { helix, .. } => {

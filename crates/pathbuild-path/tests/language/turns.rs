@@ -45,6 +45,7 @@ fn a_sweep_is_swept_back_at_its_own_height() {
     assert_eq!(walked(statements), ["[0,0 20,0]", "sweep 20,0 20,10", "sweep 20,10 20,0", "[20,0 40,0]"]);
     let compiled = compile(&path(P, statements));
     let heights: Vec<Option<f64>> = compiled
+        .walked
         .items
         .iter()
         .filter_map(|item| match item {

@@ -3,7 +3,7 @@
 use pathbuild_draw::Sheet;
 use pathbuild_dxf::Options;
 use pathbuild_path::{
-    Bindings, Item, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, bind, raw_file,
+    Bindings, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, Walked, bind, raw_file,
     walk,
 };
 use pathbuild_toolpath::{
@@ -11,7 +11,7 @@ use pathbuild_toolpath::{
 };
 
 /// The paths of a drawing, which may embed each other.
-struct Drawn(Vec<(Path, Vec<Item>)>);
+struct Drawn(Vec<(Path, Walked)>);
 
 impl Parts for Drawn {
     type Id = usize;
@@ -20,7 +20,7 @@ impl Parts for Drawn {
         &self.0[id].0
     }
 
-    fn items(&self, id: usize) -> &[Item] {
+    fn walked(&self, id: usize) -> &Walked {
         &self.0[id].1
     }
 
@@ -74,7 +74,7 @@ fn drawn(drawing: &str) -> Drawn {
         let path = path.unwrap_or_else(|| panic!("{:?} {found:?} in\n{drawing}", raw.diagnostics));
         let walked = walk(&path, 0.0);
         assert!(!walked.items.is_empty(), "{:?} in\n{drawing}", walked.diagnostics);
-        (path, walked.items)
+        (path, walked)
     };
     Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
 }

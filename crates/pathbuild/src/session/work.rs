@@ -269,7 +269,7 @@ fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
     let has_probes = |brief: &Brief| brief.has_probes;
     Some(Emitted {
         path: root.name.as_str().into(),
-        suffix: root.output_suffix.clone(),
+        suffix: root.output_suffix.as_str().into(),
         has_probes: reached.reached.iter().filter_map(|reached| brief(db, reached.instance)).any(has_probes),
     })
 }
