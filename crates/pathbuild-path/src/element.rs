@@ -8,6 +8,7 @@ use crate::approx::near;
 use crate::geometry::{Curve, Xy};
 use crate::letter::ElementClass;
 use crate::line_type::LineType;
+use crate::text::TextId;
 
 /// A line, arc or circle on a path's layer that stands for something along the path.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +19,8 @@ pub struct Element {
     pub shape: Shape,
     /// What it means.
     pub role: Role,
-    /// The text that belongs to it: its number in [`Drawn::texts`](crate::Drawn::texts).
-    pub text: Option<u32>,
+    /// The text that belongs to it, see [`Drawn::texts`](crate::Drawn::texts).
+    pub text: Option<TextId>,
 }
 
 /// Which entity of the file something is.
@@ -39,7 +40,7 @@ pub struct Source {
 pub struct Marker {
     pub origin: Origin,
     pub at: Xy,
-    pub text: Option<u32>,
+    pub text: Option<TextId>,
 }
 
 /// What diagnostics say about where an element is.

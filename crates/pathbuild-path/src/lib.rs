@@ -52,7 +52,7 @@ pub use pattern::PatternError;
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
 pub use table::{RangeTable, Ranges};
-pub use text::{ParameterText, ParameterTexts, Piece};
+pub use text::{ParameterText, ParameterTexts, Piece, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;
 pub use walk::{Walked, walk};

@@ -12,6 +12,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::Drawn;
+use crate::text::TextId;
 
 /// A path whose parameters are all there and within their limits.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,8 +70,8 @@ pub(crate) struct Surface {
     pub(crate) origin: Origin,
     /// T in mm.
     pub(crate) thickness: f64,
-    /// The text that may say so: its number in [`Drawn::texts`].
-    pub(crate) text: Option<u32>,
+    /// The text that may say so, see [`Drawn::texts`].
+    pub(crate) text: Option<TextId>,
 }
 
 /// A turn marker.
@@ -137,8 +138,8 @@ pub struct CutParameters {
     pub bars: Option<Bars>,
     /// I, C and W, which count where it is the first of its chain.
     pub chain: ChainParameters,
-    /// Its own text, where that gives I, C or W: its number in [`Drawn::texts`].
-    pub chain_letters: Option<u32>,
+    /// Its own text, where that gives I, C or W, see [`Drawn::texts`].
+    pub chain_letters: Option<TextId>,
     /// Q.
     pub comment: Option<SmolStr>,
 }
@@ -213,8 +214,8 @@ pub struct Subpath {
     pub height: f64,
     /// Values of its variables, in the order written.
     pub values: Vec<SubpathValue>,
-    /// Its own text: its number in [`Drawn::texts`]. See [`Path::fault`].
-    pub text: Option<u32>,
+    /// Its own text, see [`Drawn::texts`]. See [`Path::fault`].
+    pub text: Option<TextId>,
 }
 
 /// What a subpath's text says of the name.
@@ -314,7 +315,7 @@ impl Path {
         too_high.map(report).collect()
     }
 
-    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<u32>) {
+    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<TextId>) {
         if self.sweep_height.is_none() {
             self.other_surfaces.push(Surface { origin, thickness, text });
         }

@@ -10,7 +10,7 @@ use crate::element::{Element, Marker, Origin, Role};
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern};
-use crate::text::{ParameterText, ParameterTexts, Written};
+use crate::text::{ParameterText, ParameterTexts, TextId, Written};
 
 /// A path as it is drawn. It knows no lines and handles of the file: see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct RawPath {
     /// Its elements and texts.
     pub drawn: Arc<Drawn>,
     /// The path's own parameters among the texts: its start's, or a copy of those of the path that @ names.
-    pub(crate) parameters: Option<u32>,
+    pub(crate) parameters: Option<TextId>,
     /// The path that @ names, and its start marker, where the parameters stand.
     pub(crate) borrowed_from: Option<(PathName, Origin)>,
     /// The variables that it defines, in the order written.
@@ -125,9 +125,9 @@ impl RawPath {
 }
 
 impl Drawn {
-    /// A text by its number.
-    pub fn text(&self, number: Option<u32>) -> Option<ParameterText<'_>> {
-        self.texts.get(number?)
+    /// A text, where there is one.
+    pub fn text(&self, text: Option<TextId>) -> Option<ParameterText<'_>> {
+        self.texts.get(text?)
     }
 
     /// Where an element is drawn.

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -18,22 +19,31 @@ pub struct ParameterTexts {
     string: String,
     pieces: Vec<Piece>,
     wordings: Vec<Wording>,
-    /// What each text says: index into the wordings. What is milled alike is mostly written alike.
-    texts: Vec<u32>,
+    /// How many texts there are.
+    count: u32,
+}
+
+/// A text of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextId {
+    /// Which it is, counted from 1.
+    number: NonZeroU32,
+    /// The number of what it says: what is milled alike is mostly written alike.
+    pub(crate) wording: u32,
 }
 
 /// Where a wording and its pieces are, and what is known of it as a whole.
 #[derive(Clone, Debug, PartialEq)]
 struct Wording {
-    string: Range<usize>,
-    pieces: Range<usize>,
+    string: Range<u32>,
+    pieces: Range<u32>,
     letters: Letters,
     firsts: Firsts,
     is_plain: bool,
 }
 
 /// For each letter that a text has, where its first piece is among its pieces, or, in an endless text, some piece before.
-type Firsts = [u16; Letter::COUNT];
+type Firsts = [u8; Letter::COUNT];
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,21 +81,9 @@ pub(crate) enum Written {
     NoNumber,
 }
 
-/// So many wordings are made room for at once; most drawings have fewer.
-const MOST_EXPECTED: usize = 8;
-
 impl ParameterTexts {
-    /// Makes room for so many texts.
-    pub(crate) fn reserve(&mut self, texts: usize) {
-        let wordings = texts.min(MOST_EXPECTED);
-        self.string.reserve(16 * wordings);
-        self.pieces.reserve(3 * wordings);
-        self.wordings.reserve(wordings);
-        self.texts.reserve(texts);
-    }
-
-    /// Adds a text as it is drawn; its number. `recent`: what the last ones of these texts say.
-    pub(crate) fn push_drawn(&mut self, text: &str, recent: &mut Recent<u32>) -> u32 {
+    /// Adds a text as it is drawn. `recent`: what the last ones of these texts say.
+    pub(crate) fn push_drawn(&mut self, text: &str, recent: &mut Recent<u32>) -> TextId {
         let drawn = packed(text);
         if let Some(wording) = drawn.and_then(|drawn| recent.get(drawn)) {
             return self.add(wording);
@@ -100,15 +98,16 @@ impl ParameterTexts {
         self.add(wording)
     }
 
-    /// Adds a text whose lines are joined and codes replaced; its number.
-    pub(crate) fn push(&mut self, text: &str) -> u32 {
+    /// Adds a text whose lines are joined and codes replaced.
+    pub(crate) fn push(&mut self, text: &str) -> TextId {
         let wording = self.wording(text);
         self.add(wording)
     }
 
-    fn add(&mut self, wording: u32) -> u32 {
-        self.texts.push(wording);
-        number(self.texts.len() - 1)
+    fn add(&mut self, wording: u32) -> TextId {
+        let number = NonZeroU32::MIN.saturating_add(self.count);
+        self.count = number.get();
+        TextId { number, wording }
     }
 
     /// Reads a text; the number of what it says.
@@ -120,44 +119,65 @@ impl ParameterTexts {
         while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
             if let Some(letter) = piece.letter.filter(|_| is_new) {
-                firsts[letter as usize] = u16::try_from(self.pieces.len() - first).unwrap_or(u16::MAX);
+                firsts[letter as usize] = u8::try_from(self.pieces.len() - first).unwrap_or(u8::MAX);
             }
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
-        let (string, pieces) = (start..self.string.len(), first..self.pieces.len());
+        let (string, pieces) = (number(start)..number(self.string.len()), number(first)..number(self.pieces.len()));
         self.wordings.push(Wording { string, pieces, letters, firsts, is_plain });
         number(self.wordings.len() - 1)
     }
 
-    /// A text by its number.
-    pub fn get(&self, number: u32) -> Option<ParameterText<'_>> {
-        let Wording { string, pieces, letters, firsts, is_plain } =
-            &self.wordings[self.wording_of(number)? as usize];
-        Some(ParameterText {
-            string: &self.string[string.clone()],
-            pieces: &self.pieces[pieces.clone()],
+    /// One of these texts.
+    pub fn get(&self, text: TextId) -> Option<ParameterText<'_>> {
+        self.wordings.get(text.wording as usize).map(|wording| self.text(wording))
+    }
+
+    /// The first of these texts.
+    pub fn first(&self) -> Option<ParameterText<'_>> {
+        self.wordings.first().map(|wording| self.text(wording))
+    }
+
+    fn text<'t>(&'t self, wording: &'t Wording) -> ParameterText<'t> {
+        let Wording { string, pieces, letters, firsts, is_plain } = wording;
+        ParameterText {
+            string: &self.string[range(string)],
+            pieces: &self.pieces[range(pieces)],
             firsts: Some(firsts),
             letters: *letters,
             is_plain: *is_plain,
-        })
-    }
-
-    /// The number of what a text says: where it is the same, texts say the same.
-    pub(crate) fn wording_of(&self, number: u32) -> Option<u32> {
-        self.texts.get(number as usize).copied()
+        }
     }
 
     /// Whether nothing is wrong with a text, see [`ParameterText::is_right`].
-    pub(crate) fn is_right(&self, number: u32, class: ElementClass) -> bool {
-        let wording = self.wording_of(number).map(|wording| &self.wordings[wording as usize]);
+    pub(crate) fn is_right(&self, text: TextId, class: ElementClass) -> bool {
+        let wording = self.wordings.get(text.wording as usize);
         wording.is_some_and(|it| is_right(it.is_plain, it.letters, class))
+    }
+
+    /// Forgets all texts.
+    pub(crate) fn clear(&mut self) {
+        let Self { string, pieces, wordings, count } = self;
+        string.clear();
+        pieces.clear();
+        wordings.clear();
+        *count = 0;
+    }
+
+    /// For how many pieces there is room.
+    pub(crate) fn room(&self) -> usize {
+        self.pieces.capacity().max(self.string.capacity() / 16)
     }
 }
 
 fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+fn range(numbers: &Range<u32>) -> Range<usize> {
+    numbers.start as usize..numbers.end as usize
 }
 
 impl From<&str> for ParameterTexts {
@@ -270,7 +290,7 @@ impl<'t> ParameterText<'t> {
 
 impl Piece {
     fn span(&self) -> Range<usize> {
-        self.span.start as usize..self.span.end as usize
+        range(&self.span)
     }
 }
 

@@ -46,13 +46,20 @@ impl Default for Boxes {
 }
 
 impl Boxes {
-    pub(crate) fn new(candidates: &[Candidate]) -> Self {
+    /// Takes those of these candidates for any that there were before.
+    pub(crate) fn fill(&mut self, candidates: &[Candidate]) {
         let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
-        if candidates.len() <= FEW {
-            return Self::List(boxes.collect());
+        if candidates.len() > FEW {
+            let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
+            *self = Self::Tree(RTree::bulk_load(numbered.collect()));
+            return;
         }
-        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
-        Self::Tree(RTree::bulk_load(numbered.collect()))
+        let mut list = match self {
+            Self::List(list) => std::mem::take(list),
+            Self::Tree(_) => List::default(),
+        };
+        list.fill(boxes);
+        *self = Self::List(list);
     }
 
     /// Takes each candidate whose box a circle touches, in any order; in a list also some that it nearly touches.
@@ -80,25 +87,24 @@ impl Boxes {
     }
 }
 
-impl FromIterator<AABB<[f64; 2]>> for List {
-    fn from_iter<I: IntoIterator<Item = AABB<[f64; 2]>>>(boxes: I) -> Self {
-        let mut sides = boxes.into_iter().map(|box_| sides(&box_));
-        let (mut fours, mut count) = (Vec::with_capacity(sides.size_hint().0.div_ceil(4)), 0);
+impl List {
+    fn fill(&mut self, boxes: impl Iterator<Item = AABB<[f64; 2]>>) {
+        let Self { fours, count } = self;
+        fours.clear();
+        *count = 0;
+        let mut sides = boxes.map(|box_| sides(&box_));
         while let Some(first) = sides.next() {
             // What is missing in the last is nowhere.
             let mut four = [first, [f32::INFINITY; 4], [f32::INFINITY; 4], [f32::INFINITY; 4]];
-            count += 1;
+            *count += 1;
             for (place, next) in four[1..].iter_mut().zip(&mut sides) {
                 *place = next;
-                count += 1;
+                *count += 1;
             }
             fours.push(Four(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
         }
-        Self { fours, count }
     }
-}
 
-impl List {
     fn each_within(&self, limits: Sides, mut take: impl FnMut(usize)) {
         let limits = limits.map(f32x4::splat);
         let mut first = 0;

@@ -27,7 +27,7 @@ impl Binder<'_> {
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
         let is_hole = tool.is_some_and(|tool| near(radius, tool / 2.0));
-        let key = key(self.raw, element, cut);
+        let key = key(element, cut);
         if let Some((order, number)) = self.known.get(key).filter(|_| is_hole) {
             return Some((order, SegmentKind::Hole(number)));
         }

@@ -11,16 +11,14 @@ use crate::geometry::Curve;
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::packed::Recent;
 use crate::path::{Bars, ChainParameters, CutParameters};
-use crate::raw::RawPath;
 
 /// How segments are milled, or holes drilled, that say the same: their order at a star, and the index into the path's cuts or holes. Only
 /// what nothing was wrong with is known.
 pub(super) type Known = Recent<(f64, u32)>;
 
 /// What an element says, as a number.
-pub(super) fn key(raw: &RawPath, element: &Element, cut: Cut) -> u128 {
-    let wording = element.text.and_then(|text| raw.drawn.texts.wording_of(text));
-    let wording = wording.map_or(0, |wording| u128::from(wording) + 1);
+pub(super) fn key(element: &Element, cut: Cut) -> u128 {
+    let wording = element.text.map_or(0, |text| u128::from(text.wording) + 1);
     let is_circle = matches!(element.shape, Shape::Circle { .. });
     (wording << 1 | u128::from(is_circle)) << 2 | (cut as u128 + 1)
 }
@@ -34,7 +32,7 @@ impl Binder<'_> {
         curve: &Curve,
         tool: Option<f64>,
     ) -> Option<(f64, u32)> {
-        let key = key(self.raw, element, cut);
+        let key = key(element, cut);
         let Some((order, number)) = self.known.get(key) else {
             return self.new_cut(element, cut, curve, tool, key);
         };

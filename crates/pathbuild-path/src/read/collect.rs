@@ -9,7 +9,7 @@ use pathbuild_dxf::Drawing;
 use super::Starts;
 use super::checked::Checked;
 use super::elements::{Elements, Place};
-use super::layers::{Membership, path_layers};
+use super::layers::{FoundLayer, Membership, find_path_layers};
 use super::texts::Texts;
 use super::workspace::Workspace;
 use crate::assign::Candidate;
@@ -54,16 +54,18 @@ pub(super) fn paths<'d>(
     language: &Language,
     workspace: &mut Workspace,
 ) -> Vec<Collected<'d>> {
-    let layers = path_layers(drawing, &language.path_pattern);
-    let mut by_path: Vec<&[(PathName, usize)]> = layers.chunk_by(|one, other| one.0 == other.0).collect();
-    by_path.sort_by_key(|layers| layers[0].1);
+    let mut layers = std::mem::take(&mut workspace.path_layers);
+    find_path_layers(drawing, &language.path_pattern, &mut layers);
+    let mut memberships = std::mem::take(&mut workspace.memberships);
+    memberships.clear();
+    memberships.resize(drawing.layers.len(), None);
     // Mostly there is one layer, with everything on it.
     let room = drawing.entities.len() / layers.len().max(1);
-    let mut paths = Vec::with_capacity(by_path.len());
-    let mut memberships = vec![None; drawing.layers.len()];
-    for (path, layers) in by_path.into_iter().enumerate() {
-        for (layer, (_, number)) in (0_u32..).zip(layers) {
-            memberships[*number] = Some(Membership { path, layer });
+    let by_path = layers.chunk_by(|one, other| one.first == other.first);
+    let mut paths = Vec::with_capacity(by_path.clone().count());
+    for (path, layers) in by_path.enumerate() {
+        for (layer, found) in (0_u32..).zip(layers) {
+            memberships[found.number] = Some(Membership { path, layer });
         }
         paths.push(Collected::new(drawing, layers, room, workspace));
     }
@@ -85,20 +87,21 @@ pub(super) fn paths<'d>(
             paths[path].add_located(&left_out.diagnostic);
         }
     }
+    (workspace.path_layers, workspace.memberships) = (layers, memberships);
     paths
 }
 
 impl Collected<'_> {
     /// A path with these layers, with room for so many entities on each.
-    fn new(drawing: &Drawing, layers: &[(PathName, usize)], room: usize, workspace: &mut Workspace) -> Self {
+    fn new(drawing: &Drawing, layers: &[FoundLayer], room: usize, workspace: &mut Workspace) -> Self {
         let mut path = Self {
-            name: layers[0].0.clone(),
+            name: layers[0].path.clone(),
             start: None,
             end: None,
             turns: Vec::new(),
             probes: Vec::new(),
             elements: workspace.elements(),
-            given: ParameterTexts::default(),
+            given: workspace.texts(),
             map: SourceMap::with_capacity(layers.len() * room),
             texts: Texts::with_capacity(layers.len()),
             left_out: Vec::new(),
@@ -107,9 +110,9 @@ impl Collected<'_> {
             has_broken_entity: false,
             has_elements: false,
         };
-        for (_, number) in layers {
-            let layer = &drawing.layers[*number];
-            path.texts.add_layer(&layer.name, workspace.candidates(), room);
+        for found in layers {
+            let layer = &drawing.layers[found.number];
+            path.texts.add_layer(&layer.name, workspace.layer());
             if layer.hidden {
                 path.report_hidden(&layer.name);
             }
@@ -153,10 +156,11 @@ impl Collected<'_> {
     pub(super) fn finish(mut self, starts: &Starts, workspace: &mut Workspace) -> (RawPath, SourceMap) {
         let drawn = Drawn {
             elements: self.elements.take_in_order(),
-            texts: self.given,
+            texts: self.given.clone(),
             layers: self.texts.into_layer_names(workspace),
         };
         workspace.keep_elements(self.elements);
+        workspace.keep_texts(self.given);
         let raw = RawPath {
             name: self.name,
             start: self.start,

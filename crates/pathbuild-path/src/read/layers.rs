@@ -13,11 +13,27 @@ pub(super) struct Membership {
     pub(super) layer: u32,
 }
 
-/// The path layers of a drawing, each with its path's name: those of a path behind each other in file order, the paths by name.
-pub(super) fn path_layers(drawing: &Drawing, pattern: &PathPattern) -> Vec<(PathName, usize)> {
-    let named = drawing.layers.iter().enumerate();
-    let named = named.filter_map(|(layer, found)| Some((pattern.layer(&found.name)?.path, layer)));
-    let mut named: Vec<(PathName, usize)> = named.collect();
-    named.sort();
-    named
+/// A path layer.
+pub(super) struct FoundLayer {
+    /// Its path's name as it spells it.
+    pub(super) path: PathName,
+    /// Which of the drawing's layers it is.
+    pub(super) number: usize,
+    /// The number of its path's first.
+    pub(super) first: usize,
+}
+
+/// Finds the path layers of a drawing: in file order, but those of a path behind its first.
+pub(super) fn find_path_layers(drawing: &Drawing, pattern: &PathPattern, found: &mut Vec<FoundLayer>) {
+    found.clear();
+    found.extend(drawing.layers.iter().enumerate().filter_map(|(number, layer)| {
+        let path = pattern.layer(&layer.name)?.path;
+        Some(FoundLayer { path, number, first: number })
+    }));
+    found.sort_by(|one, other| one.path.cmp(&other.path));
+    for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
+        let first = of_path[0].number;
+        of_path.iter_mut().for_each(|layer| layer.first = first);
+    }
+    found.sort_by_key(|layer| layer.first);
 }

@@ -52,16 +52,16 @@ impl Checked {
         let drawn = Arc::clone(&self.raw.drawn);
         let mut seen = None;
         for element in &drawn.elements {
-            let Some(number) = element.text else { continue };
+            let Some(text) = element.text else { continue };
             // The parts of a polyline share one text, which is checked once.
-            if seen.replace(number) == Some(number) {
+            if seen.replace(text) == Some(text) {
                 continue;
             }
             let class = element.class(tool);
-            if drawn.texts.is_right(number, class) {
+            if drawn.texts.is_right(text, class) {
                 continue;
             }
-            let problems = drawn.texts.get(number).map(|text| text.problems(class));
+            let problems = drawn.texts.get(text).map(|text| text.problems(class));
             for problem in problems.into_iter().flatten() {
                 self.report(drawn.origin(element).at(problem));
             }

@@ -7,7 +7,7 @@ use pathbuild_dxf::{Drawing, Entity, Geometry};
 
 use super::collect::Owner;
 use super::meaning::{plane_arc, xy};
-use super::texts::Texts;
+use super::texts::{LayerTexts, Texts};
 use crate::assign::Candidate;
 use crate::element::{Origin, Shape, Source};
 use crate::geometry::{Curve, Line};
@@ -33,7 +33,7 @@ pub struct ProxyLine {
 impl ProxyLine {
     /// Its text.
     pub fn text(&self) -> ParameterText<'_> {
-        self.text.get(0).unwrap_or_default()
+        self.text.first().unwrap_or_default()
     }
 
     /// The path that it stands for; `None` when there is no path name after `>`.
@@ -68,7 +68,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
     let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
     for layer in &drawing.layers {
-        texts.add_layer(&layer.name, Vec::new(), 0);
+        texts.add_layer(&layer.name, LayerTexts::default());
     }
     for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
         if is_path[entity.layer as usize] {
@@ -105,7 +105,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
 }
 
 fn is_subpath(text: &str) -> bool {
-    ParameterTexts::from(text).get(0).is_some_and(|text| text.piece(Letter::Embed).is_some())
+    ParameterTexts::from(text).first().is_some_and(|text| text.piece(Letter::Embed).is_some())
 }
 
 fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {

@@ -15,7 +15,7 @@ use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
 use crate::packed::Recent;
-use crate::text::{ParameterText, ParameterTexts, without_percent_codes};
+use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 use crate::text_circle::TextCircle;
 
 /// Texts and candidates of the layers of one path. Tilde layers are layers of their own: what is on them find only each other.
@@ -24,7 +24,9 @@ pub(crate) struct Texts<'d> {
     layers: Vec<LayerTexts<'d>>,
 }
 
-struct LayerTexts<'d> {
+/// Those of one layer.
+#[derive(Default)]
+pub(super) struct LayerTexts<'d> {
     name: SmolStr,
     candidates: Vec<Candidate>,
     /// Where they lie, once that is asked for.
@@ -45,22 +47,17 @@ impl<'d> Texts<'d> {
         Self { layers: Vec::with_capacity(layers) }
     }
 
-    /// The next layer, with an empty list for its candidates and room for so many entities.
-    pub(super) fn add_layer(&mut self, name: &str, mut candidates: Vec<Candidate>, room: usize) {
-        candidates.reserve(room);
-        self.layers.push(LayerTexts {
-            name: name.into(),
-            candidates,
-            boxes: Boxes::default(),
-            texts: Vec::with_capacity(room / 2),
-        });
+    /// The next layer, in the room of an empty one.
+    pub(super) fn add_layer(&mut self, name: &str, room: LayerTexts<'d>) {
+        self.layers.push(LayerTexts { name: name.into(), ..room });
     }
 
     /// The names of the layers in order.
     pub(super) fn into_layer_names(self, workspace: &mut Workspace) -> Vec<SmolStr> {
-        let name_of = |layer: LayerTexts<'_>| {
-            workspace.keep_candidates(layer.candidates);
-            layer.name
+        let name_of = |mut layer: LayerTexts<'_>| {
+            let name = std::mem::take(&mut layer.name);
+            workspace.keep_layer(layer);
+            name
         };
         self.layers.into_iter().map(name_of).collect()
     }
@@ -95,6 +92,7 @@ impl<'d> Texts<'d> {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
                 let origin = layer.origin(text.source, text.anchor());
                 matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
+                true
             });
         }
         matched
@@ -102,7 +100,6 @@ impl<'d> Texts<'d> {
 
     /// Gives each text to its element; what finds none is PB107.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
-        path.given.reserve(self.layers.iter().map(|layer| layer.texts.len()).sum());
         let mut recent = Recent::new();
         for layer in &mut self.layers {
             layer.assign(path, &mut recent);
@@ -111,7 +108,7 @@ impl<'d> Texts<'d> {
             return;
         }
         for layer in &mut self.layers {
-            layer.boxes = Boxes::new(&layer.candidates);
+            layer.boxes.fill(&layer.candidates);
         }
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
@@ -130,35 +127,52 @@ impl<'d> LayerTexts<'d> {
 
     /// Gives each text to its element. What finds no element stays in `texts`.
     fn assign(&mut self, path: &mut Collected<'_>, recent: &mut Recent<u32>) {
-        let mut open = Vec::new();
         self.each_match(|layer, text, _, owners| {
-            if owners.is_empty() {
-                open.push(*text);
-            } else {
-                let number = path.given.push_drawn(text.string(), recent);
-                layer.give(number, owners, path);
+            let has_owner = !owners.is_empty();
+            if has_owner {
+                let text = path.given.push_drawn(text.string(), recent);
+                layer.give(text, owners, path);
             }
+            has_owner
         });
-        self.texts = open;
     }
 
-    /// Takes all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    fn each_match(&mut self, mut take: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>)) {
-        let texts = std::mem::take(&mut self.texts);
-        if texts.is_empty() {
+    /// Goes through all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
+    /// What is not taken stays.
+    fn each_match(
+        &mut self,
+        mut is_taken: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>) -> bool,
+    ) {
+        if self.texts.is_empty() {
             return;
         }
-        self.boxes = Boxes::new(&self.candidates);
-        let (single_lines, others) = (texts.iter().filter(|text| !text.is_mtext()), texts.iter());
-        for text in single_lines.chain(others.filter(|text| text.is_mtext())) {
+        self.boxes.fill(&self.candidates);
+        let mut texts = std::mem::take(&mut self.texts);
+        texts.sort_by_key(FoundText::is_mtext);
+        texts.retain(|text| {
             let circle = text.circle();
             let found = find(&circle, &self.candidates, &self.boxes);
             let owners = found.map_or(0..0, |index| self.parts(index));
             for owner in &mut self.candidates[owners.clone()] {
                 owner.is_taken = true;
             }
-            take(self, text, circle, owners);
-        }
+            !is_taken(self, text, circle, owners)
+        });
+        self.texts = texts;
+    }
+
+    /// Its room, for a layer of any drawing.
+    pub(super) fn emptied(self) -> LayerTexts<'static> {
+        let Self { mut candidates, boxes, texts, .. } = self;
+        candidates.clear();
+        // Collected in place: nothing is left of it but its memory.
+        let texts = texts.into_iter().filter_map(|_| None).collect();
+        LayerTexts { name: SmolStr::default(), candidates, boxes, texts }
+    }
+
+    /// For how many entities there is room.
+    pub(super) fn room(&self) -> usize {
+        self.candidates.capacity().max(self.texts.capacity())
     }
 
     /// A candidate, and what is part of the same polyline: they were read one after the other.
@@ -173,7 +187,7 @@ impl<'d> LayerTexts<'d> {
         first..behind
     }
 
-    fn give(&self, number: u32, owners: Range<usize>, path: &mut Collected<'_>) {
+    fn give(&self, text: TextId, owners: Range<usize>, path: &mut Collected<'_>) {
         for owner in &self.candidates[owners] {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),
@@ -182,7 +196,7 @@ impl<'d> LayerTexts<'d> {
                 Owner::Faulty => None,
             };
             if let Some(owner) = owner {
-                *owner = Some(number);
+                *owner = Some(text);
             }
         }
     }
@@ -200,7 +214,7 @@ impl<'d> LayerTexts<'d> {
             .with("text", string.replace('\n', " "))
             .with("centre", shown(circle.centre))
             .with("diameter", 2.0 * circle.radius);
-        diagnostic.text = ParameterTexts::from(&*string).get(0).map(ParameterText::whole);
+        diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
         if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(

@@ -1,15 +1,20 @@
-//! Memory that is needed while a path is read, and kept for the next one: elements and candidates are large, and made for every path.
+//! Memory that is needed while a path is read, and kept for the next one: lists that are made for every path.
 
 use std::cell::Cell;
 
 use super::elements::Elements;
-use crate::assign::Candidate;
+use super::layers::{FoundLayer, Membership};
+use super::texts::LayerTexts;
+use crate::text::ParameterTexts;
 
 /// Empty lists with room for what comes.
 #[derive(Default)]
 pub(super) struct Workspace {
+    pub(super) path_layers: Vec<FoundLayer>,
+    pub(super) memberships: Vec<Option<Membership>>,
     elements: Vec<Elements>,
-    candidates: Vec<Vec<Candidate>>,
+    layers: Vec<LayerTexts<'static>>,
+    texts: Vec<ParameterTexts>,
 }
 
 thread_local! {
@@ -25,7 +30,9 @@ impl Workspace {
     pub(super) fn with<R>(work: impl FnOnce(&mut Self) -> R) -> R {
         let mut workspace = KEPT.take();
         let result = work(&mut workspace);
-        KEPT.set(workspace);
+        if workspace.path_layers.capacity().max(workspace.memberships.capacity()) <= ROOM {
+            KEPT.set(workspace);
+        }
         result
     }
 
@@ -33,21 +40,31 @@ impl Workspace {
         self.elements.pop().unwrap_or_default()
     }
 
-    pub(super) fn candidates(&mut self) -> Vec<Candidate> {
-        self.candidates.pop().unwrap_or_default()
+    pub(super) fn layer(&mut self) -> LayerTexts<'static> {
+        self.layers.pop().unwrap_or_default()
     }
 
-    /// Takes back what is no longer needed; it is empty.
+    pub(super) fn texts(&mut self) -> ParameterTexts {
+        self.texts.pop().unwrap_or_default()
+    }
+
+    /// Takes back what is no longer needed.
     pub(super) fn keep_elements(&mut self, elements: Elements) {
         if self.elements.len() < LISTS && elements.room() <= ROOM {
             self.elements.push(elements);
         }
     }
 
-    pub(super) fn keep_candidates(&mut self, mut candidates: Vec<Candidate>) {
-        candidates.clear();
-        if self.candidates.len() < LISTS && candidates.capacity() <= ROOM {
-            self.candidates.push(candidates);
+    pub(super) fn keep_layer(&mut self, layer: LayerTexts<'_>) {
+        if self.layers.len() < LISTS && layer.room() <= ROOM {
+            self.layers.push(layer.emptied());
+        }
+    }
+
+    pub(super) fn keep_texts(&mut self, mut texts: ParameterTexts) {
+        texts.clear();
+        if self.texts.len() < LISTS && texts.room() <= ROOM {
+            self.texts.push(texts);
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::support::{codes, compile, path, raw, wrong};
 /// The pieces of a text: letters with their values, `?` for what is no letter.
 fn pieces(text: &str) -> Vec<String> {
     let texts = ParameterTexts::from(text);
-    let text = texts.get(0).unwrap();
+    let text = texts.first().unwrap();
     let piece = |piece: &pathbuild_path::Piece| {
         format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(piece))
     };
@@ -18,7 +18,7 @@ fn pieces(text: &str) -> Vec<String> {
 fn the_first_piece_of_a_letter_is_found_however_many_come_before() {
     for before in [0, 1, 65_534, 65_535, 65_536, 70_000] {
         let texts = ParameterTexts::from(&*("F1 ".repeat(before) + "B2 B3 T4"));
-        let text = texts.get(0).unwrap();
+        let text = texts.first().unwrap();
         let first = |letter| text.piece(letter).map(|piece| text.value(piece));
         assert_eq!(
             (first(Letter::B), first(Letter::T), first(Letter::D)),
@@ -91,7 +91,7 @@ fn each_element_has_the_text_that_is_drawn_beside_it() {
 }
 
 fn problems_of(text: &str, class: ElementClass) -> Vec<pathbuild_diagnostic::Diagnostic> {
-    ParameterTexts::from(text).get(0).unwrap().problems(class)
+    ParameterTexts::from(text).first().unwrap().problems(class)
 }
 
 fn problems(text: &str) -> Vec<String> {
