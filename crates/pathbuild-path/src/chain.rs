@@ -97,6 +97,13 @@ impl Room {
     }
 }
 
+/// All of a list in one without spare room; the list keeps its own.
+fn taken<T>(list: &mut Vec<T>) -> Vec<T> {
+    let mut all = Vec::with_capacity(list.len());
+    all.append(list);
+    all
+}
+
 impl<'a> Grouped<'a> {
     pub(crate) fn new(path: &'a Path, room: Room) -> Self {
         Self { path, room, diagnostics: Vec::new() }
@@ -119,8 +126,8 @@ impl<'a> Grouped<'a> {
         self.finish_chain();
         let Room { items, members, .. } = &mut self.room;
         Walked {
-            items: items.drain(..).collect(),
-            members: members.drain(..).collect(),
+            items: taken(items),
+            members: taken(members),
             diagnostics: std::mem::take(&mut self.diagnostics),
         }
     }

@@ -93,7 +93,7 @@ fn allowed(written: &str) -> Result<Allowed, Box<Diagnostic>> {
     if written.contains(',') {
         let clean = written.replace('?', "");
         let values: Vec<SmolStr> = clean.split(',').map(|value| value.trim().into()).collect();
-        if values.iter().any(|value| value.is_empty()) {
+        if values.iter().any(SmolStr::is_empty) {
             return Err(invalid(&messages::EMPTY_ELEMENT, written));
         }
         return Ok(Allowed::List(values));

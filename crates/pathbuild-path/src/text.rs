@@ -125,7 +125,8 @@ impl ParameterTexts {
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
-        let (string, pieces) = (number(start)..number(self.string.len()), number(first)..number(self.pieces.len()));
+        let (string, pieces) =
+            (number(start)..number(self.string.len()), number(first)..number(self.pieces.len()));
         self.wordings.push(Wording { string, pieces, letters, firsts, is_plain });
         number(self.wordings.len() - 1)
     }

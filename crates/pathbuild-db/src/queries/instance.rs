@@ -84,9 +84,8 @@ pub(super) fn bind_raw(db: &dyn Db, raw: &RawPath, bindings: &Bindings) -> Bound
 /// What [`chains`] gives, not kept.
 pub(super) fn walk(db: &dyn Db, path: &Path) -> Walked {
     let join_tolerance = Settings::get(db).language(db).join_tolerance;
-    catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path, join_tolerance))).unwrap_or_else(|payload| {
-        Walked::failed(internal_error(&*payload).in_path(path.name.as_str()))
-    })
+    catch_unwind(AssertUnwindSafe(|| pathbuild_path::walk(path, join_tolerance)))
+        .unwrap_or_else(|payload| Walked::failed(internal_error(&*payload).in_path(path.name.as_str())))
 }
 
 /// See [`bound`](super::bound).

@@ -33,7 +33,9 @@ pub(super) fn find_path_layers(drawing: &Drawing, pattern: &PathPattern, found: 
     found.sort_by(|one, other| one.path.cmp(&other.path));
     for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
         let first = of_path[0].number;
-        of_path.iter_mut().for_each(|layer| layer.first = first);
+        for layer in of_path {
+            layer.first = first;
+        }
     }
     found.sort_by_key(|layer| layer.first);
 }

@@ -166,7 +166,7 @@ impl<'d> LayerTexts<'d> {
         let Self { mut candidates, boxes, texts, .. } = self;
         candidates.clear();
         // Collected in place: nothing is left of it but its memory.
-        let texts = texts.into_iter().filter_map(|_| None).collect();
+        let texts = texts.into_iter().map_while(|_| None).collect();
         LayerTexts { name: SmolStr::default(), candidates, boxes, texts }
     }
 

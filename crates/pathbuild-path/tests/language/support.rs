@@ -20,7 +20,9 @@ impl Compiled {
     /// The curves of the chain that the path begins with.
     #[track_caller]
     pub(crate) fn first_chain(&self) -> Vec<Curve> {
-        let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else { panic!() };
+        let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else {
+            panic!()
+        };
         self.walked.members(chain).iter().map(|member| member.curve(path)).collect()
     }
 }
