@@ -7,6 +7,7 @@ use pathbuild::render::{View, render};
 use pathbuild::report::{CheckedFile, Findings};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep};
+use pathbuild_path::PathName;
 
 /// One with everything that a diagnostic can have, and one with as little as possible.
 fn findings() -> Findings {
@@ -39,7 +40,7 @@ fn findings() -> Findings {
         checked: vec![
             CheckedFile {
                 file: "/work/parts/2913 Ph.dxf".into(),
-                paths: vec!["2913.1P".into(), "2913.2P".into()],
+                paths: vec![PathName::new("2913.1P"), PathName::new("2913.2P")],
             },
             CheckedFile { file: "/work/parts/2914.dxf".into(), paths: vec![] },
         ],

@@ -11,6 +11,7 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
 };
+use pathbuild_path::PathName;
 
 fn diagnostic() -> Diagnostic {
     Diagnostic::new(&files::NOT_DXF)
@@ -142,7 +143,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
 
 #[test]
 fn the_summary_counts_and_agrees_in_number() {
-    let path = || "1234.1P".into();
+    let path = || PathName::new("1234.1P");
     let file = |paths: usize| CheckedFile {
         file: "a.dxf".into(),
         paths: std::iter::repeat_with(path).take(paths).collect(),

@@ -1,9 +1,10 @@
 //! The database: the system, and the inputs that stand for its files.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use rustc_hash::FxHashMap;
 use salsa::Setter;
 
@@ -91,6 +92,13 @@ impl Database {
         known.into_iter().map(|(_, directory)| *directory).collect()
     }
 
+    /// The inputs that stand for files, there or not. The paths must be normalised.
+    pub fn files(&self, paths: Vec<Utf8PathBuf>) -> Vec<SourceFile> {
+        let mut inputs = self.inputs();
+        inputs.files.reserve(paths.len());
+        paths.into_iter().map(|path| self.file_among(&mut inputs, Cow::Owned(path))).collect()
+    }
+
     /// Tells that a file may have changed, appeared or gone.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         let file = self.file(path);
@@ -154,6 +162,16 @@ impl Database {
         self.is_surveying = true;
     }
 
+    fn file_among(&self, inputs: &mut Inputs, path: Cow<'_, Utf8Path>) -> SourceFile {
+        if let Some(file) = inputs.files.get(path.as_str()) {
+            return *file;
+        }
+        let text = path.as_str().into();
+        let file = SourceFile::new(self, path.into_owned(), 0);
+        inputs.files.insert(text, file);
+        file
+    }
+
     fn inputs(&self) -> MutexGuard<'_, Inputs> {
         // Nothing panics while holding the lock but an allocation that fails, after which the maps are still whole.
         self.inputs.lock().unwrap_or_else(PoisonError::into_inner)
@@ -170,13 +188,7 @@ impl Db for Database {
     }
 
     fn file(&self, path: &Utf8Path) -> SourceFile {
-        let mut inputs = self.inputs();
-        if let Some(file) = inputs.files.get(path.as_str()) {
-            return *file;
-        }
-        let file = SourceFile::new(self, path.to_owned(), 0);
-        inputs.files.insert(path.as_str().into(), file);
-        file
+        self.file_among(&mut self.inputs(), Cow::Borrowed(path))
     }
 
     fn directory(&self, path: &Utf8Path) -> Directory {

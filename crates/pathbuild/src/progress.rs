@@ -43,7 +43,9 @@ impl Progress {
 
     /// One more piece of work is done. Any thread may say so.
     pub fn advance(&self) {
-        self.counters.done.fetch_add(1, Ordering::Relaxed);
+        if self.drawing.is_some() {
+            self.counters.done.fetch_add(1, Ordering::Relaxed);
+        }
     }
 }
 

@@ -40,7 +40,7 @@ fn suites(findings: &Findings) -> Suites<'_> {
     let mut suites = Suites::new();
     for file in &findings.checked {
         let suite = suites.entry(Some(&file.file)).or_default();
-        suite.extend(file.paths.iter().map(|path| (Some(&**path), Case::default())));
+        suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), Case::default())));
     }
     for diagnostic in &findings.diagnostics {
         let suite = suites.entry(diagnostic.file.as_deref()).or_default();

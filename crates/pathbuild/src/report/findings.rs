@@ -1,5 +1,6 @@
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_path::PathName;
 
 /// Everything that a run found, and what it looked at.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +16,8 @@ pub struct Findings {
 pub struct CheckedFile {
     /// The drawing.
     pub file: Utf8PathBuf,
-    /// The names of its paths, as the drawing spells them, in file order.
-    pub paths: Vec<Box<str>>,
+    /// Its paths, as the drawing spells them, in file order.
+    pub paths: Vec<PathName>,
 }
 
 impl Findings {

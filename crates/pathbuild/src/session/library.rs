@@ -209,9 +209,15 @@ pub fn by_name(a: &str, b: &str) -> Ordering {
 pub fn by_place(a: &Utf8Path, b: &Utf8Path) -> Ordering {
     let (a, b) = (a.as_str().as_bytes(), b.as_str().as_bytes());
     let rank = |byte: u8| if is_separator(char::from(byte)) { 0 } else { byte };
-    let differing = a.iter().zip(b).find(|(x, y)| x != y);
+    // Names in a directory begin alike.
+    let (a_chunks, b_chunks) = (a.as_chunks::<CHUNK>().0, b.as_chunks::<CHUNK>().0);
+    let same = CHUNK * a_chunks.iter().zip(b_chunks).take_while(|(x, y)| x == y).count();
+    let differing = a[same..].iter().zip(&b[same..]).find(|(x, y)| x != y);
     differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
 }
+
+/// So many bytes are compared at once.
+const CHUNK: usize = 8;
 
 fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
     Diagnostic::new(&messages::TOO_MANY_ENTRIES)

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use camino::Utf8Path;
-use pathbuild_db::{Database, SourceFile, q_project_findings};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{Database, Db, SourceFile, q_project_findings};
 use pathbuild_diagnostic::Diagnostic;
 
 use super::Session;
@@ -11,11 +11,8 @@ use super::Session;
 impl Session<'_> {
     /// What drawings and the Q-projects among them say against each other.
     pub fn q_projects(&self, drawings: &[SourceFile]) -> Vec<Diagnostic> {
-        let paths: Vec<&Utf8Path> = drawings.iter().map(|file| file.path(self.db()).as_path()).collect();
-        let pairs: Vec<Pair> = pairs(&paths)
-            .into_iter()
-            .map(|[drawing, q_project]| [drawings[drawing], drawings[q_project]])
-            .collect();
+        let pairs = pairs(drawings.iter().map(|file| file.path(self.db()))).into_iter();
+        let pairs: Vec<Pair> = pairs.map(|pair| pair.map(|path| self.db().file(path))).collect();
         self.judge_q_projects(&pairs).concat()
     }
 
@@ -35,20 +32,25 @@ impl Session<'_> {
 /// A drawing and its Q-project.
 pub type Pair = [SourceFile; 2];
 
-/// The drawings that have a Q-project among them, each with it, by their numbers.
-pub fn pairs(drawings: &[&Utf8Path]) -> Vec<[usize; 2]> {
-    let stem = |path: &'_ Utf8Path| Some((path.parent()?.to_owned(), path.file_stem()?.to_owned()));
-    let may_be_q_project = |path: &Utf8Path| path.as_str().contains("_Q.") || path.as_str().contains("_q.");
+/// The drawings that have a Q-project among them, each with it.
+pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec<[&'a Utf8PathBuf; 2]> {
     // A library of ten thousand drawings has few of them, or none.
-    if !drawings.iter().any(|path| may_be_q_project(path)) {
+    if !drawings.clone().any(|drawing| may_be_q_project(drawing)) {
         return Vec::new();
     }
-    let by_stem: HashMap<_, usize> =
-        drawings.iter().zip(0..).filter_map(|(path, number)| Some((stem(path)?, number))).collect();
-    let pair = |(q_project, number): (&&Utf8Path, usize)| {
+    let stem = |path: &'a Utf8PathBuf| Some((path.parent()?, path.file_stem()?));
+    let by_stem: HashMap<_, &Utf8PathBuf> =
+        drawings.clone().filter_map(|path| Some((stem(path)?, path))).collect();
+    let pair = |q_project: &'a Utf8PathBuf| {
         let (directory, name) = stem(q_project)?;
-        let name = name.strip_suffix("_Q").or_else(|| name.strip_suffix("_q"))?.to_owned();
-        Some([*by_stem.get(&(directory, name))?, number])
+        let name = name.strip_suffix("_Q").or_else(|| name.strip_suffix("_q"))?;
+        Some([*by_stem.get(&(directory, name))?, q_project])
     };
-    drawings.iter().zip(0..).filter_map(pair).collect()
+    drawings.filter_map(pair).collect()
+}
+
+/// Seen without taking the path apart.
+fn may_be_q_project(drawing: &Utf8Path) -> bool {
+    let stem = drawing.as_str().rsplit_once('.').map_or(drawing.as_str(), |(stem, _)| stem);
+    stem.ends_with("_Q") || stem.ends_with("_q")
 }

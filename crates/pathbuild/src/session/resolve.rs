@@ -197,9 +197,7 @@ impl Session<'_> {
         self.rouse_workers();
         let walked = self.walked(&directory);
         wanted.problems.extend(walked.problem.as_deref().cloned());
-        for drawing in walked.drawings {
-            wanted.add_drawing(self.db.file(&drawing), false);
-        }
+        wanted.add_drawings(self.db.files(walked.drawings));
         wanted.listings.extend(walked.listings);
         wanted.directories.push(directory);
     }
@@ -297,6 +295,15 @@ impl Session<'_> {
 }
 
 impl Wanted {
+    /// Adds drawings that lie in a directory.
+    fn add_drawings(&mut self, files: Vec<SourceFile>) {
+        self.drawings.reserve(files.len());
+        self.places.reserve(files.len());
+        for file in files {
+            self.add_drawing(file, false);
+        }
+    }
+
     fn add_drawing(&mut self, file: SourceFile, is_named: bool) {
         match self.places.entry(file) {
             Entry::Occupied(known) => self.drawings[*known.get()].is_named |= is_named,

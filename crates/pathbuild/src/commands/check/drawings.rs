@@ -133,7 +133,7 @@ fn result(
     reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
     reached.dedup();
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
-    DrawingResult { names: names.iter().map(|name| name.as_str().into()).collect(), diagnostics }
+    DrawingResult { names: names.to_vec(), diagnostics }
 }
 
 /// What a drawing's results were found from whatever its paths are, where that is noted.

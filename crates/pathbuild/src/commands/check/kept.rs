@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
@@ -36,7 +36,8 @@ pub(super) fn check(
     let phrase =
         context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
     context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
-    let files: Vec<SourceFile> = open.iter().map(|index| session.db().file(&drawings[*index])).collect();
+    let files: Vec<SourceFile> =
+        session.db().files(open.iter().map(|index| drawings[*index].clone()).collect());
     let mut made = Vec::new();
     let checked = check_library(session, &files, args.all_bindings);
     for ((result, traces), index) in checked.into_iter().zip(open) {
@@ -110,11 +111,9 @@ fn q_projects(
     drawings: &[Utf8PathBuf],
     made: &mut Vec<Made>,
 ) -> Vec<(Box<str>, Vec<Diagnostic>)> {
-    let paths: Vec<&Utf8Path> = drawings.iter().map(Utf8PathBuf::as_path).collect();
     let mut found = Vec::new();
     let (mut open, mut names): (Vec<Pair>, Vec<Box<str>>) = (Vec::new(), Vec::new());
-    for pair in q_project_pairs(&paths) {
-        let [drawing, q_project] = pair.map(|index| paths[index]);
+    for [drawing, q_project] in q_project_pairs(drawings.iter()) {
         let of: Box<str> = format!("{drawing}\0{q_project}").into();
         if let Some(result) = kept(keeper, &of) {
             found.push((of, result.diagnostics));

@@ -238,11 +238,8 @@ impl<'a> Library<'a> {
 
     /// Finds which drawings have a Q-project: among ten thousand that takes as long as an edit.
     fn find_pairs(&mut self, update: &mut Update) {
-        let paths: Vec<&Utf8Path> = self.drawings.keys().map(Utf8PathBuf::as_path).collect();
-        let pairs: BTreeSet<[Utf8PathBuf; 2]> = q_project_pairs(&paths)
-            .into_iter()
-            .map(|pair| pair.map(|index| paths[index].to_owned()))
-            .collect();
+        let pairs = q_project_pairs(self.drawings.keys()).into_iter();
+        let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();
         update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
         self.pairs = Some(pairs);

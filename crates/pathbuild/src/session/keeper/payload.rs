@@ -2,12 +2,13 @@
 
 use pathbuild_cache::{Corrupt, Decoder, Encoder, decode_diagnostic, encode_diagnostic};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
+use pathbuild_path::PathName;
 
 /// What is known of a drawing whose paths were checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingResult {
     /// Its paths.
-    pub names: Vec<Box<str>>,
+    pub names: Vec<PathName>,
     /// What is wrong with it, with its paths, and with what they embed.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -19,7 +20,7 @@ impl DrawingResult {
             return None;
         }
         let mut encoder = Encoder::default();
-        encoder.list(self.names.iter(), |encoder, name| encoder.text(name));
+        encoder.list(self.names.iter(), |encoder, name| encoder.text(name.as_str()));
         encoder.list(self.diagnostics.iter(), encode_diagnostic);
         Some(encoder.finish())
     }
@@ -30,7 +31,7 @@ impl DrawingResult {
     /// When they are of something else.
     pub fn decode(payload: &[u8]) -> Result<Self, Corrupt> {
         let mut decoder = Decoder::new(payload);
-        let names = decoder.list(|decoder| Ok(decoder.text()?.into()))?;
+        let names = decoder.list(|decoder| Ok(PathName::new(decoder.text()?)))?;
         let diagnostics = decoder.list(decode_diagnostic)?;
         if decoder.is_at_end() { Ok(Self { names, diagnostics }) } else { Err(Corrupt) }
     }
