@@ -22,11 +22,6 @@ impl<T> Default for ByName<'_, T> {
 }
 
 impl<'a, T> ByName<'a, T> {
-    /// With room for so many.
-    pub(crate) fn with_capacity(count: usize) -> Self {
-        Self { named: Vec::with_capacity(count), order: OnceCell::new() }
-    }
-
     /// Adds something behind all others.
     pub(crate) fn push(&mut self, name: Name<'a>, thing: T) {
         self.named.push((name, thing));
@@ -34,7 +29,7 @@ impl<'a, T> ByName<'a, T> {
     }
 
     /// All with their names.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &(Name<'a>, T)> {
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &(Name<'a>, T)> {
         self.named.iter()
     }
 

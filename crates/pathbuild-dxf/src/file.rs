@@ -11,12 +11,12 @@ use crate::entities::{EntityReader, Records, most_repeated};
 use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
 use crate::fields::Fields;
 use crate::header::Header;
+use crate::layer_table::LayerTable;
 use crate::layers::Layers;
 use crate::model::Model;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::placement::Placement;
 use crate::sections::{SectionEnd, ends_with_eof};
-use crate::tables::read_layers;
 use crate::units::millimetres;
 use crate::{Drawing, Options};
 
@@ -140,12 +140,9 @@ impl<'a> File<'a> {
     fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), Fatal> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
-        let layers = Layers::new(options.keep_layer);
+        let layers = Layers::new(options.keep_layer, LayerTable::new(self.tables));
         let mut reader =
             EntityReader::new(options, decoder, layers, Fields::new(most_repeated(options)), self.blocks);
-        if let Some(tables) = self.tables {
-            reader.layers.table = read_layers(tables, &mut reader.fields, &mut reader.decoder)?;
-        }
         let limits = Limits {
             entities: options.max_entities,
             text: options.max_text,

@@ -3,18 +3,32 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
+use memchr::memchr;
 use smol_str::SmolStr;
 
 use crate::by_name::ByName;
 use crate::encoding::Decoder;
 use crate::fields::Fields;
+use crate::layer_records::Reading;
 use crate::line_types::line_type_name;
 use crate::names::{Name, without_xref};
 use crate::number::{real, whole};
+use crate::pairs::{Pairs, Stop};
 
-/// The LAYER table. Hardly any of a drawing's layers is ever looked for, so what is said of them is looked at then.
+/// The LAYER table, of which only what concerns wanted layers is looked at.
 #[derive(Debug, Default)]
 pub(crate) struct LayerTable<'a> {
+    /// The TABLES section.
+    tables: Option<Pairs<'a>>,
+    /// How often a layer was looked for.
+    asked: usize,
+    /// All layers, where many are looked for.
+    all: Option<KnownLayers<'a>>,
+}
+
+/// Layers by their names. Of most hardly anything is asked, so what is said of them is looked at then.
+#[derive(Debug, Default)]
+pub(crate) struct KnownLayers<'a> {
     records: ByName<'a, LayerRecord<'a>>,
     /// Those whose names have the prefix of an external reference, by what follows it.
     referenced: OnceCell<ByName<'a, LayerRecord<'a>>>,
@@ -28,15 +42,44 @@ pub(crate) struct LayerRecord<'a> {
     flags: Option<&'a [u8]>,
 }
 
-/// How many layers a drawing usually has at most.
-const USUAL: usize = 16;
+/// So many layers are looked for one by one, each in all tables: a drawing of paths has hardly more.
+const FEW: usize = 8;
 
 impl<'a> LayerTable<'a> {
-    /// A table without layers.
-    pub(crate) fn new() -> Self {
-        Self { records: ByName::with_capacity(USUAL), referenced: OnceCell::new() }
+    /// That of these tables.
+    pub(crate) fn new(tables: Option<Pairs<'a>>) -> Self {
+        Self { tables, ..Self::default() }
     }
 
+    /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
+    pub(crate) fn find(
+        &mut self,
+        full_name: &str,
+        reading: &mut Reading<'_, 'a, '_>,
+    ) -> Result<Option<LayerRecord<'a>>, Stop<'a>> {
+        let Some(tables) = self.tables else { return Ok(None) };
+        self.asked += 1;
+        let certain = part_certain(without_xref(full_name).as_bytes());
+        let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
+        if self.all.is_none() && self.asked <= FEW && !certain.is_empty() && !has_escapes() {
+            let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
+            return Ok(some.get(full_name).cloned());
+        }
+        if self.all.is_none() {
+            self.all = Some(reading.all(tables)?);
+        }
+        Ok(self.all.as_ref().and_then(|all| all.get(full_name)).cloned())
+    }
+}
+
+/// The longest part of a name that is written so wherever the name is, in whatever case and code page, but for escapes: ASCII without letters. Only
+/// letters are other characters in other cases, and whatever is ASCII without being part of an escape is the same in all code pages.
+fn part_certain(name: &[u8]) -> &[u8] {
+    let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
+    name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
+}
+
+impl<'a> KnownLayers<'a> {
     /// Adds the record that these are the groups of, unless it has no name.
     pub(crate) fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
@@ -46,7 +89,12 @@ impl<'a> LayerTable<'a> {
         self.records.push(name, LayerRecord { line_type, colour: bytes(62), flags: bytes(70) });
     }
 
-    /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
+    /// The name of the one that was added last.
+    pub(crate) fn last_name(&self) -> Option<&Name<'a>> {
+        self.records.iter().next_back().map(|(name, _)| name)
+    }
+
+    /// By its whole name, or else by that without the prefix of an external reference.
     pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
         let find = |name: &str| {
             let name = Name::new(name.into());

@@ -3,14 +3,15 @@
 //! Each spelling of a layer's name is looked at once a file; entities only hold its number.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
 
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
+use crate::layer_records::Reading;
 use crate::layer_table::{LayerRecord, LayerTable};
 use crate::line_types::CONTINUOUS;
 use crate::names::{folded, is_same, without_xref};
+use crate::pairs::Stop;
 use crate::spellings::Spellings;
 
 /// The number of a spelling of a layer's name.
@@ -20,7 +21,7 @@ pub(crate) struct LayerId(u32);
 /// The layers that entities were found on so far.
 pub(crate) struct Layers<'a, 'o> {
     /// What the drawing says of layers.
-    pub(crate) table: LayerTable<'a>,
+    table: LayerTable<'a>,
     keep: &'o dyn Fn(&str) -> bool,
     by_spelling: Spellings<'a, LayerId>,
     found: Vec<FoundLayer<'a>>,
@@ -34,7 +35,7 @@ struct FoundLayer<'a> {
     is_kept: bool,
     /// Whether it is layer `0`.
     is_inheriting: bool,
-    used: OnceCell<Box<UsedLayer>>,
+    used: Option<Box<UsedLayer>>,
 }
 
 /// A layer that something wanted is on.
@@ -54,9 +55,9 @@ pub(crate) struct UsedLayer {
 const USUAL: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
-    /// No layer is used yet, and nothing said of any.
-    pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool) -> Self {
-        let (table, by_spelling) = (LayerTable::default(), Spellings::default());
+    /// No layer is used yet.
+    pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool, table: LayerTable<'a>) -> Self {
+        let by_spelling = Spellings::default();
         Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
     }
 
@@ -84,11 +85,18 @@ impl<'a, 'o> Layers<'a, 'o> {
         self.last.map_or(b"", |(spelling, _)| spelling)
     }
 
-    /// What is known of it.
+    /// What is known of one that something wanted is on.
     #[inline]
-    pub(crate) fn get(&self, id: LayerId) -> &UsedLayer {
-        let layer = self.found(id);
-        layer.used.get_or_init(|| Box::new(self.used(&layer.full_name)))
+    pub(crate) fn used(
+        &mut self,
+        id: LayerId,
+        reading: &mut Reading<'_, 'a, '_>,
+    ) -> Result<&UsedLayer, Stop<'a>> {
+        let FoundLayer { full_name, used, .. } = &mut self.found[id.0 as usize];
+        match used {
+            Some(used) => Ok(used),
+            None => Ok(used.insert(Box::new(UsedLayer::look_up(full_name, &mut self.table, reading)?))),
+        }
     }
 
     /// Whether entities on it are wanted.
@@ -118,20 +126,27 @@ impl<'a, 'o> Layers<'a, 'o> {
         let name = without_xref(&full_name);
         let (is_kept, is_inheriting) = ((self.keep)(name), name == "0");
         let id = LayerId(u32::try_from(self.found.len()).unwrap_or(u32::MAX));
-        self.found.push(FoundLayer { full_name, is_kept, is_inheriting, used: OnceCell::new() });
+        self.found.push(FoundLayer { full_name, is_kept, is_inheriting, used: None });
         self.by_spelling.insert(spelling, id);
         id
     }
+}
 
-    fn used(&self, full_name: &str) -> UsedLayer {
+impl UsedLayer {
+    #[cold]
+    fn look_up<'a>(
+        full_name: &str,
+        table: &mut LayerTable<'a>,
+        reading: &mut Reading<'_, 'a, '_>,
+    ) -> Result<Self, Stop<'a>> {
+        let record = table.find(full_name, reading)?;
         let name = without_xref(full_name);
-        let record = self.table.get(full_name);
-        let line_type = record.and_then(LayerRecord::line_type);
-        UsedLayer {
+        let line_type = record.as_ref().and_then(LayerRecord::line_type);
+        Ok(Self {
             name: name.into(),
             folded: folded(name),
             line_type: line_type.unwrap_or(CONTINUOUS),
-            hidden: record.is_some_and(LayerRecord::is_hidden),
-        }
+            hidden: record.as_ref().is_some_and(LayerRecord::is_hidden),
+        })
     }
 }

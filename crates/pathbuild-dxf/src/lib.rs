@@ -24,6 +24,7 @@ mod groups;
 mod header;
 mod item;
 mod kind;
+mod layer_records;
 mod layer_table;
 mod layers;
 mod line_ends;
@@ -37,7 +38,6 @@ mod placement;
 mod sections;
 mod shapes;
 mod spellings;
-mod tables;
 mod trouble;
 mod units;
 

@@ -14,6 +14,7 @@ use crate::collect::{Collector, Placed};
 use crate::entities::{EntityReader, Records, Space};
 use crate::faults::{Fatal, stopped};
 use crate::item::{Item, Shape, Traits};
+use crate::layer_records::Reading;
 use crate::layers::LayerId;
 use crate::line_types::LineType;
 use crate::pairs::Pairs;
@@ -90,7 +91,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         match item.shape {
             Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
             shape if self.reader.layers.is_kept(layer) => {
-                let placed = placed(self.reader, &item.traits, layer, around);
+                let placed = placed(self.reader, &item.traits, layer, around)?;
                 self.collector.add(&placed, shape)
             }
             _ => Ok(()),
@@ -139,7 +140,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         copies: impl Iterator<Item = Placement>,
         around: &Around,
     ) -> Result<(), Fatal> {
-        let placed = placed(self.reader, traits, layer, around);
+        let placed = placed(self.reader, traits, layer, around)?;
         let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let mut inside =
             Around { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
@@ -164,38 +165,40 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         trouble: &Trouble<'a>,
         around: &Around,
     ) -> Result<(), Fatal> {
-        for layer in layers.iter().filter(|layer| self.reader.layers.is_kept(**layer)) {
-            let placed = placed(self.reader, traits, *layer, around);
-            self.collector.add(&placed, Err(trouble.clone()))?;
+        for layer in layers {
+            if self.reader.layers.is_kept(*layer) {
+                let placed = placed(self.reader, traits, *layer, around)?;
+                self.collector.add(&placed, Err(trouble.clone()))?;
+            }
         }
         Ok(())
     }
 }
 
 /// An entity on this layer, with what it inherits.
-#[inline]
+#[inline(always)]
 fn placed<'p>(
-    reader: &'p EntityReader<'_, '_>,
+    reader: &'p mut EntityReader<'_, '_>,
     traits: &Traits,
     layer_id: LayerId,
     around: &'p Around,
-) -> Placed<'p> {
-    let layer = reader.layers.get(layer_id);
+) -> Result<Placed<'p>, Fatal> {
+    let EntityReader { layers, line_types, fields, decoder, .. } = reader;
+    let layer = layers.used(layer_id, &mut Reading { fields, decoder });
+    let layer = layer.map_err(|stop| stopped(stop, "TABLES"))?;
     let insertion = around.insertion.as_ref();
-    Placed {
+    Ok(Placed {
         kind: traits.kind,
         layer_id,
         layer,
         line_type: match traits.line_type {
             LineType::ByLayer => &layer.line_type,
-            LineType::ByBlock => {
-                insertion.map_or(reader.line_types.continuous(), |insertion| &insertion.line_type)
-            }
-            LineType::Named(number) => reader.line_types.name(number),
+            LineType::ByBlock => insertion.map_or(line_types.continuous(), |insertion| &insertion.line_type),
+            LineType::Named(number) => line_types.name(number),
         },
         own: traits.origin,
         origin: insertion.map_or(traits.origin, |insertion| insertion.origin),
         is_invisible: traits.is_invisible || around.is_invisible,
         placement: around.placement.as_ref(),
-    }
+    })
 }

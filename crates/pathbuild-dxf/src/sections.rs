@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use memchr::memmem::{Finder, FinderRev};
+use memchr::memmem::{Finder, FinderRev, rfind_iter};
 
 use crate::pairs::{Pair, Pairs};
 
@@ -51,12 +51,6 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Jumps behind the next pair of this code and keyword, and returns it.
-    pub(crate) fn find(&mut self, code: &str, keyword: &Keyword) -> Option<Pair<'a>> {
-        self.jump_to(self.place(code, keyword)?);
-        self.next().ok()
-    }
-
     /// Those behind the next pair of this code and keyword. Their lines are not counted.
     pub(crate) fn behind(&self, code: &str, keyword: &Keyword) -> Option<Self> {
         let mut pairs = self.at(self.place(code, keyword)?, self.line());
@@ -65,11 +59,18 @@ impl<'a> Pairs<'a> {
     }
 
     /// Where the next pair of this code and keyword begins.
-    fn place(&self, code: &str, keyword: &Keyword) -> Option<usize> {
+    pub(crate) fn place(&self, code: &str, keyword: &Keyword) -> Option<usize> {
         let from = self.consumed();
         let length = keyword.needle().len();
         let mut found = keyword.find_iter(&self.bytes()[from..]);
         found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))
+    }
+
+    /// Where the last pair of this code and keyword before this place begins.
+    pub(crate) fn last_place(&self, code: &str, keyword: &str, end: usize) -> Option<usize> {
+        let from = self.consumed();
+        let mut found = rfind_iter(self.bytes().get(from..end)?, keyword);
+        found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + keyword.len()))
     }
 
     /// Where the pair begins whose code is this and whose value is here, if there is one that is not consumed.

@@ -7,6 +7,7 @@ mod curves;
 mod encoding;
 mod entities;
 mod in_a_row;
+mod layer_records;
 mod layers;
 mod limits;
 mod lines;

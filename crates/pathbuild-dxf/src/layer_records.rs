@@ -1,0 +1,75 @@
+//! The records of LAYER among the tables: all of them, or only those that a layer may be found by.
+
+use memchr::memmem::Finder;
+
+use crate::encoding::Decoder;
+use crate::entities::Records;
+use crate::fields::{Fields, Want};
+use crate::layer_table::KnownLayers;
+use crate::names::Name;
+use crate::pairs::{Pairs, Stop};
+use crate::sections::LAYER;
+
+/// What records are read with.
+pub(crate) struct Reading<'r, 'a, 'd> {
+    pub(crate) fields: &'r mut Fields<'a>,
+    pub(crate) decoder: &'r mut Decoder<'d>,
+}
+
+impl<'a> Reading<'_, 'a, '_> {
+    /// All layers of these tables.
+    pub(crate) fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
+        let mut layers = KnownLayers::default();
+        while let Some(head) = tables.place("0", &LAYER) {
+            tables.jump_to(head);
+            let mut records = Records::new(tables)?;
+            while records.head.is("LAYER") {
+                self.record(&mut records, &mut layers)?;
+            }
+            tables = records.groups.pairs();
+        }
+        Ok(layers)
+    }
+
+    /// The layers of those records in which this is written somewhere, and maybe others, up to the one of this name. Wherever it is written, all
+    /// pairs of the table from the beginning of a record on are looked at, so that nothing is missed where one is broken.
+    pub(crate) fn some(
+        &mut self,
+        mut tables: Pairs<'a>,
+        written: &[u8],
+        wanted: &Name<'_>,
+    ) -> Result<KnownLayers<'a>, Stop<'a>> {
+        let mut layers = KnownLayers::default();
+        let mut records = None;
+        let begin = tables.consumed();
+        for at in Finder::new(written).find_iter(&tables.bytes()[begin..]).map(|at| begin + at) {
+            let last = tables.last_place("0", "LAYER", at);
+            // What is written before all records is passed over at once.
+            let head = if records.is_none() { last.or_else(|| tables.place("0", &LAYER)) } else { last };
+            if let Some(head) = head {
+                tables.jump_to(head);
+                records = Some(Records::new(tables)?);
+            }
+            let Some(row) = &mut records else { break };
+            while row.groups.pairs().consumed() <= at && !row.head.is("ENDTAB") {
+                self.record(row, &mut layers)?;
+            }
+            if layers.last_name() == Some(wanted) {
+                break;
+            }
+            tables = row.groups.pairs();
+            records = records.filter(|row| !row.head.is("ENDTAB"));
+        }
+        Ok(layers)
+    }
+
+    /// Reads the record that begins with the head, if it is one of a layer.
+    fn record(&mut self, records: &mut Records<'a>, layers: &mut KnownLayers<'a>) -> Result<(), Stop<'a>> {
+        let is_layer = records.head.is("LAYER");
+        (records.head, _) = self.fields.fill(&mut records.groups, records.head.line, 0, |_| Want::Keep)?;
+        if is_layer {
+            layers.add(self.fields, self.decoder);
+        }
+        Ok(())
+    }
+}
