@@ -2,12 +2,11 @@
 
 use std::iter;
 
-use memchr::memchr;
 use wide::u8x16;
 
 use crate::encoding::Decoder;
 use crate::layers::Layers;
-use crate::pairs::{Pairs, without_cr};
+use crate::pairs::{Pairs, line_length, without_cr};
 
 /// Whether anything of these blocks may be on a wanted layer without being inserted on one. If it says no, that is certain, however codes
 /// are written and whatever may be wrong in the section: each line behind one that may be the code 8 is taken for the name of a layer.
@@ -86,5 +85,5 @@ fn is_begin_of_code(before: &[u8], line_end: u8) -> bool {
 }
 
 fn line_from(bytes: &[u8], line_end: u8) -> &[u8] {
-    without_cr(&bytes[..memchr(line_end, bytes).unwrap_or(bytes.len())])
+    without_cr(&bytes[..line_length(line_end, bytes)])
 }

@@ -135,8 +135,7 @@ impl<'a> Pairs<'a> {
     /// The next line without its end.
     fn next_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let length = place_nearby(self.line_end, rest).or_else(|| memchr(self.line_end, rest));
-        let length = length.unwrap_or(rest.len());
+        let length = line_length(self.line_end, rest);
         self.at = (self.at + length + 1).min(self.bytes.len());
         &rest[..length]
     }
@@ -166,6 +165,12 @@ fn count(byte: u8, bytes: &[u8]) -> usize {
     let (blocks, rest) = bytes.as_chunks::<BLOCK>();
     let among = |bytes: &[u8]| bytes.iter().map(|other| u8::from(*other == byte)).sum::<u8>();
     blocks.iter().map(|block| usize::from(among(block))).sum::<usize>() + usize::from(among(rest))
+}
+
+/// How long the first of these lines is, without its end.
+#[inline]
+pub(crate) fn line_length(line_end: u8, lines: &[u8]) -> usize {
+    place_nearby(line_end, lines).or_else(|| memchr(line_end, lines)).unwrap_or(lines.len())
 }
 
 /// Where a byte is, if it is among the next few, as the end of nearly every line is.
