@@ -2,6 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 
+use crate::names::Names;
 use crate::stamp::Stamp;
 
 /// Results with everything that they were made from, to be kept. Files and directories that several were made from are in it once.
@@ -34,7 +35,7 @@ pub struct DirectoryFact {
     /// Which of its names count.
     pub kind: ListingKind,
     /// Those names, sorted.
-    pub names: Vec<Box<str>>,
+    pub names: Names,
     /// Where it really is, relative to the configuration where it lies below it: links on the way to it decide whether two files are one.
     pub canonical: Box<str>,
     /// Whether what is asked of it is asked again in any case: there are links among the names, or they changed while they were read.

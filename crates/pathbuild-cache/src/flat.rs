@@ -110,7 +110,7 @@ impl<'a> Flat<'a> {
     fn directory(&mut self, directory: &'a DirectoryFact) -> Result<(), TooMuch> {
         let (path, canonical) = (self.text(directory.path.as_str())?, self.text(&directory.canonical)?);
         let first = self.tables[NAMES].len() / SIZES[NAMES];
-        for name in &directory.names {
+        for name in directory.names.iter() {
             let name = self.text(name)?;
             self.add(NAMES, &name);
         }

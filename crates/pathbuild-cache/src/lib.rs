@@ -12,6 +12,7 @@ mod flat;
 mod format;
 mod kept;
 mod listing;
+mod names;
 mod place;
 mod reasons;
 mod stamp;
@@ -23,6 +24,7 @@ pub use findings::{decode_diagnostic, decode_note, encode_diagnostic, encode_not
 pub use format::{Key, Unusable};
 pub use kept::{Kept, KeptDirectory, KeptFile, KeptRecord};
 pub use listing::{Listing, Listings};
+pub use names::Names;
 pub use place::{Entry, Place};
 pub use reasons::{Reason, reasons};
 pub use stamp::{Clock, Stamp};

@@ -10,12 +10,13 @@ use std::fs;
 use camino::{Utf8Path, Utf8PathBuf};
 
 use crate::facts::{DirectoryFact, ListingKind};
+use crate::names::Names;
 
 /// The names of files in a directory that count.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
     /// The names, sorted once all are there.
-    pub names: Vec<Box<str>>,
+    pub names: Names,
     /// Whether there are links among them, or some may be missing.
     pub is_doubtful: bool,
 }
@@ -28,7 +29,7 @@ impl Listing {
     pub fn add(&mut self, kind: ListingKind, name: &str, is_link: bool) {
         if kind.counts(name) {
             self.is_doubtful |= is_link;
-            self.names.push(name.into());
+            self.names.push(name);
         }
     }
 
@@ -41,7 +42,7 @@ impl Listing {
                 listing.add(kind, &entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
         }
-        listing.names.sort_unstable();
+        listing.names.sort_by(Ord::cmp);
         listing
     }
 }

@@ -74,7 +74,7 @@ fn of_lookup(kept: &Kept, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>
             let reason = |name: &str| Reason::Name {
                 file: directory.join(name),
                 path: lookup.name.clone(),
-                is_gone: !now.names.iter().any(|there| **there == *name),
+                is_gone: !now.names.iter().any(|there| there == name),
             };
             asked.map(reason).collect()
         }

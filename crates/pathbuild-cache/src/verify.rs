@@ -111,11 +111,11 @@ impl DirectoryChange {
         if before.is_doubtful() || now.is_doubtful || before.canonical() != &*now.canonical {
             return Self::Links;
         }
-        if before.names().eq(now.names.iter().map(|name| &**name)) {
+        if before.names().eq(now.names.iter()) {
             return Self::None;
         }
         let (old, new): (BTreeSet<&str>, BTreeSet<&str>) =
-            (before.names().collect(), now.names.iter().map(|name| &**name).collect());
+            (before.names().collect(), now.names.iter().collect());
         Self::Names(old.symmetric_difference(&new).map(|name| (*name).into()).collect())
     }
 

@@ -67,7 +67,7 @@ fn catalogue_of(kept: &Kept) -> Catalogue {
         DirectoryFact {
             path: directory.path().to_owned(),
             kind: directory.kind(),
-            names: directory.names().map(Into::into).collect(),
+            names: directory.names().collect(),
             canonical: directory.canonical().into(),
             is_doubtful: directory.is_doubtful(),
         }
@@ -223,7 +223,7 @@ fn larger(base: &Utf8Path) -> Catalogue {
     let directory = |path: &str, kind, names: &[&str]| DirectoryFact {
         path: path.into(),
         kind,
-        names: names.iter().map(|name| (*name).into()).collect(),
+        names: names.iter().copied().collect(),
         canonical: base.join(path).as_str().into(),
         is_doubtful: path.is_empty(),
     };
@@ -323,7 +323,7 @@ fn a_directory_that_was_listed_is_not_listed_again() {
     fs::write(base.join("a.dxf"), "one").unwrap();
     let kept = kept(&catalogue(&base, Stamp::UNKNOWN, b"one"));
     let holds = |names: &[&str], is_doubtful| {
-        let names = names.iter().map(|name| (*name).into()).collect();
+        let names = names.iter().copied().collect();
         let listings = Listings::from([(base.clone(), Listing { names, is_doubtful })]);
         pathbuild_cache::verify(&kept, &base, &covers, listings).holds[0]
     };

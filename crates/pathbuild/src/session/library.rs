@@ -158,13 +158,13 @@ impl Directory {
         }
         // Who looks for a path must not miss what was not told.
         found.listing.is_doubtful |= listed.is_err();
-        found.listing.names.sort_unstable_by(|a, b| by_name(a, b));
+        found.listing.names.sort_by(by_name);
         let drawings = found.listing.names.iter().filter(|name| !is_hidden(name));
         found.drawings = drawings.map(|name| joined(directory, name)).collect();
         if !found.inexact.names.is_empty() {
             found.listing.is_doubtful |= found.inexact.is_doubtful;
-            found.listing.names.append(&mut found.inexact.names);
-            found.listing.names.sort_unstable();
+            found.listing.names.extend(found.inexact.names.iter());
+            found.listing.names.sort_by(Ord::cmp);
         }
         Ok(Some(found))
     }

@@ -85,7 +85,7 @@ impl Session<'_> {
     /// Directories that were just listed need not be listed once more for their names, if nothing about them is in doubt.
     pub fn know_names(&self, listings: &Listings) {
         for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
-            self.db.know_names(directory, listing.names.iter().map(|name| &**name).collect());
+            self.db.know_names(directory, listing.names.iter().collect());
         }
     }
 

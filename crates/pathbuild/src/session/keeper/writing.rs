@@ -194,9 +194,8 @@ impl<'a> Writing<'a> {
             return true;
         }
         let db = self.session.db();
-        let mut seen =
-            drawing_names(db, db.directory(&fact.path)).iter().map(Box::from).collect::<Vec<Box<str>>>();
+        let mut seen: Vec<&str> = drawing_names(db, db.directory(&fact.path)).iter().collect();
         seen.sort_unstable();
-        seen == fact.names
+        seen.into_iter().eq(fact.names.iter())
     }
 }
