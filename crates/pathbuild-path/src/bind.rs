@@ -3,6 +3,7 @@
 
 mod circles;
 mod cuts;
+mod room;
 mod segments;
 
 use std::sync::Arc;
@@ -15,13 +16,14 @@ use smol_str::SmolStr;
 use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::limits;
-use crate::path::{CutParameters, Helix, Hole, Path, Probe, Surface, Turn};
+use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
 use crate::values::Values;
 use crate::variables::{Bindings, Interpolation};
 
 use cuts::Known;
+use room::Room;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -41,6 +43,7 @@ struct Binder<'a> {
     interpolation: Interpolation<'a>,
     /// The path's own values.
     values: Values<'a>,
+    segments: Vec<Segment>,
     cuts: Vec<CutParameters>,
     holes: Vec<Hole>,
     helices: Vec<Helix>,
@@ -61,14 +64,16 @@ impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation = Interpolation { bindings, limit: language.text_limit };
         let values = Values::of_path(raw.parameters(), &interpolation);
+        let Room { segments, cuts, holes, helices } = Room::take();
         Self {
             raw,
             language,
             interpolation,
             values,
-            cuts: Vec::with_capacity(4),
-            holes: Vec::new(),
-            helices: Vec::new(),
+            segments,
+            cuts,
+            holes,
+            helices,
             known: Known::new(),
             problems: Vec::new(),
             reported: 0,
@@ -79,7 +84,7 @@ impl<'a> Binder<'a> {
         self.check_path_values();
         let (tool, thickness) = (self.path_number(Letter::O), self.path_number(Letter::T));
         let sweep_height = self.path_number(Letter::S);
-        let segments = self.segments(tool);
+        self.bind_segments(tool);
         let turns = self.raw.turns.iter();
         let mut path = Path {
             name: self.raw.name.clone(),
@@ -94,25 +99,24 @@ impl<'a> Binder<'a> {
             end: end.at,
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
             drawn: Arc::clone(&self.raw.drawn),
-            segments,
+            segments: std::mem::take(&mut self.segments),
             cuts: std::mem::take(&mut self.cuts),
             holes: std::mem::take(&mut self.holes),
             helices: std::mem::take(&mut self.helices),
             probes: Vec::new(),
             surface: sweep_height.is_none().then(|| self.surface(start, thickness.unwrap_or_default())),
-            other_surfaces: Vec::new(),
+            probe_surfaces: Vec::new(),
             start_origin: start.origin.clone(),
             end_origin: end.origin.clone(),
             left_out: self.raw.left_out.clone(),
         };
         self.add_probes(&mut path);
-        Self::add_subpath_surfaces(&mut path);
         (tool.is_some() && thickness.is_some()).then_some(path)
     }
 
     /// The upper face that a path without an S of its own must sweep above.
     fn surface(&self, start: &Marker, thickness: f64) -> Surface {
-        let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |(_, origin)| origin).clone();
+        let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |lender| &lender.1).clone();
         Surface { origin, thickness, text: self.raw.parameters }
     }
 
@@ -178,8 +182,12 @@ impl<'a> Binder<'a> {
         for marker in &self.raw.probes {
             let values = self.element_values(At::Marker(marker), self.raw.drawn.text(marker.text), false);
             let own_thickness = values.number(Letter::T);
-            if let Some(thickness) = own_thickness.number() {
-                path.add_surface(marker.origin.clone(), thickness, marker.text);
+            if let (Some(_), Some(thickness)) = (&path.surface, own_thickness.number()) {
+                path.probe_surfaces.push(Surface {
+                    origin: marker.origin.clone(),
+                    thickness,
+                    text: marker.text,
+                });
             }
             let thickness = own_thickness.or(self.values.number(Letter::T)).number().unwrap_or_default();
             path.probes.push(Probe {

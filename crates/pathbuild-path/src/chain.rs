@@ -97,11 +97,11 @@ impl Room {
     }
 }
 
-/// All of a list in one without spare room; the list keeps its own.
-fn taken<T>(list: &mut Vec<T>) -> Vec<T> {
-    let mut all = Vec::with_capacity(list.len());
-    all.append(list);
-    all
+/// All of a list in an empty one, with no more room than that needs or has; the list keeps its own.
+fn taken<T>(list: &mut Vec<T>, mut empty: Vec<T>) -> Vec<T> {
+    empty.reserve_exact(list.len());
+    empty.append(list);
+    empty
 }
 
 impl<'a> Grouped<'a> {
@@ -121,13 +121,13 @@ impl<'a> Grouped<'a> {
         self.room.items.extend(self.single(segment, &passage, is_return));
     }
 
-    /// All that was gone along, and what is wrong with it.
-    pub(crate) fn finish(&mut self) -> Walked {
+    /// All that was gone along, and what is wrong with it, in the room of an empty walk.
+    pub(crate) fn finish(&mut self, walked: Walked) -> Walked {
         self.finish_chain();
         let Room { items, members, .. } = &mut self.room;
         Walked {
-            items: taken(items),
-            members: taken(members),
+            items: taken(items, walked.items),
+            members: taken(members, walked.members),
             diagnostics: std::mem::take(&mut self.diagnostics),
         }
     }

@@ -26,6 +26,7 @@ mod path;
 mod pattern;
 mod raw;
 mod read;
+mod reuse;
 mod table;
 mod text;
 mod text_circle;
@@ -51,6 +52,7 @@ pub use path::{
 pub use pattern::PatternError;
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
+pub use reuse::Reuse;
 pub use table::{RangeTable, Ranges};
 pub use text::{ParameterText, ParameterTexts, Piece, TextId};
 pub use text_circle::TextCircle;

@@ -1,5 +1,6 @@
 //! Paths: raw paths with their variables bound and every parameter known. (spec/30-parameters.md, spec/50-path-building.md)
 
+use std::iter;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -51,10 +52,10 @@ pub struct Path {
     pub helices: Vec<Helix>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
-    /// The upper face that S must be above, and those of its elements that have their own T. None where S is its own, which is checked with
+    /// The upper face that S must be above, and those of its probes that have their own T. None where S is its own, which is checked with
     /// its other values.
     pub(crate) surface: Option<Surface>,
-    pub(crate) other_surfaces: Vec<Surface>,
+    pub(crate) probe_surfaces: Vec<Surface>,
     /// The start marker.
     pub start_origin: Origin,
     /// The end marker.
@@ -227,12 +228,10 @@ pub enum SubpathName {
     },
     Invalid {
         value: Box<str>,
-        text: TextFault,
     },
     /// `has_more`: the whole value, where there is more in it than the name.
     Found {
         name: PathName,
-        text: TextFault,
         has_more: Option<Box<str>>,
     },
 }
@@ -302,9 +301,17 @@ impl Path {
     /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
     /// its other values.
     pub fn check_sweep_height(&self, height: f64) -> Vec<Diagnostic> {
-        let surfaces = self.surface.iter().chain(&self.other_surfaces);
-        let too_high = surfaces.filter(|surface| !above(height, surface.thickness));
-        let report = |surface: &Surface| {
+        let Some(surface) = &self.surface else { return Vec::new() };
+        let is_too_high = |thickness: f64| !above(height, thickness);
+        let surfaces = iter::once(surface).chain(&self.probe_surfaces);
+        let surfaces = surfaces.filter(|surface| is_too_high(surface.thickness)).cloned();
+        let of_segment = |segment: &Segment| match &segment.kind {
+            SegmentKind::Subpath(subpath) if is_too_high(subpath.thickness) => {
+                self.own_surface(segment, subpath)
+            }
+            _ => None,
+        };
+        let report = |surface: Surface| {
             let mut problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
                 .with("value", height)
                 .with("limit", surface.thickness)
@@ -312,13 +319,14 @@ impl Path {
             problem.text = self.drawn.text(surface.text).and_then(|text| text.fault_of(Letter::T));
             surface.origin.at(problem)
         };
-        too_high.map(report).collect()
+        surfaces.chain(self.segments.iter().filter_map(of_segment)).map(report).collect()
     }
 
-    pub(crate) fn add_surface(&mut self, origin: Origin, thickness: f64, text: Option<TextId>) {
-        if self.sweep_height.is_none() {
-            self.other_surfaces.push(Surface { origin, thickness, text });
-        }
+    /// The upper face that a subpath's own T says.
+    fn own_surface(&self, segment: &Segment, subpath: &Subpath) -> Option<Surface> {
+        let says_so = self.drawn.text(subpath.text)?.letters.contains(Letter::T);
+        let Subpath { thickness, text, .. } = *subpath;
+        says_so.then(|| Surface { origin: self.origin(segment), thickness, text })
     }
 }
 

@@ -30,7 +30,7 @@ pub struct RawPath {
     /// The path's own parameters among the texts: its start's, or a copy of those of the path that @ names.
     pub(crate) parameters: Option<TextId>,
     /// The path that @ names, and its start marker, where the parameters stand.
-    pub(crate) borrowed_from: Option<(PathName, Origin)>,
+    pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
     /// The variables that it defines, in the order written.
     pub definitions: Vec<Definition>,
     /// Curves on its layers that are no part of it, with where they begin.
@@ -52,7 +52,7 @@ pub struct Drawn {
 
 /// Where the elements of a path are in the file: by [`ElementId`](pathbuild_diagnostic::ElementId).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SourceMap(Vec<Position>);
+pub struct SourceMap(pub(crate) Vec<Position>);
 
 /// Line and handle of an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +109,7 @@ impl RawPath {
     /// with them is said once.
     pub(crate) fn at_parameters(&self, diagnostic: Diagnostic) -> Diagnostic {
         match (&self.borrowed_from, &self.start) {
-            (Some((path, origin)), _) => origin.at(diagnostic).in_path(path.as_str()),
+            (Some(lender), _) => lender.1.at(diagnostic).in_path(lender.0.as_str()),
             (None, Some(start)) => start.origin.at(diagnostic).in_path(self.name.as_str()),
             (None, None) => diagnostic,
         }
@@ -130,6 +130,26 @@ impl Drawn {
         self.texts.get(text?)
     }
 
+    /// Forgets all, but not the memory for it.
+    pub(crate) fn clear(&mut self) {
+        let Self { elements, texts, layers } = self;
+        elements.clear();
+        texts.clear();
+        layers.clear();
+    }
+
+    pub(crate) fn shrink_to_fit(&mut self) {
+        let Self { elements, texts, layers } = self;
+        elements.shrink_to_fit();
+        texts.shrink_to_fit();
+        layers.shrink_to_fit();
+    }
+
+    /// For how much there is room.
+    pub(crate) fn room(&self) -> usize {
+        self.elements.capacity().max(self.texts.room()).max(self.layers.capacity())
+    }
+
     /// Where an element is drawn.
     pub fn origin(&self, element: &Element) -> Origin {
         Origin::new(element.source, &self.layers[element.source.layer as usize], element.shape.point())
@@ -137,11 +157,6 @@ impl Drawn {
 }
 
 impl SourceMap {
-    /// None yet, with room for so many.
-    pub(crate) fn with_capacity(count: usize) -> Self {
-        Self(Vec::with_capacity(count))
-    }
-
     pub(crate) fn push(&mut self, position: Position) {
         self.0.push(position);
     }

@@ -46,7 +46,8 @@ fn raw_file_in(workspace: &mut Workspace, drawing: &Drawing, language: &Language
     }
     let starts = starts(&collected);
     let mut paths = Vec::with_capacity(collected.len());
-    paths.extend(collected.into_iter().map(|path| path.finish(&starts, workspace)));
+    paths.extend(collected.iter_mut().map(|path| path.finish(&starts, workspace)));
+    workspace.keep_collected(collected);
     RawFile { paths, diagnostics }
 }
 

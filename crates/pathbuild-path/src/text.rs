@@ -158,6 +158,24 @@ impl ParameterTexts {
         wording.is_some_and(|it| is_right(it.is_plain, it.letters, class))
     }
 
+    /// Adds to no texts all those of others, with no more memory than they need.
+    pub(crate) fn copy(&mut self, others: &Self) {
+        let Self { string, pieces, wordings, count } = self;
+        string.reserve_exact(others.string.len());
+        string.push_str(&others.string);
+        pieces.reserve_exact(others.pieces.len());
+        pieces.extend_from_slice(&others.pieces);
+        wordings.reserve_exact(others.wordings.len());
+        wordings.extend_from_slice(&others.wordings);
+        *count = others.count;
+    }
+
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.string.shrink_to_fit();
+        self.pieces.shrink_to_fit();
+        self.wordings.shrink_to_fit();
+    }
+
     /// Forgets all texts.
     pub(crate) fn clear(&mut self) {
         let Self { string, pieces, wordings, count } = self;

@@ -34,7 +34,7 @@ pub struct Walked {
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     let mut walk = Walk::new(path, join_tolerance, KEPT.take());
     let mut walked = match walk.run() {
-        Ok(()) => walk.grouped.finish(),
+        Ok(()) => walk.grouped.finish(WALKED.take()),
         Err(problem) => Walked::failed(*problem),
     };
     walked.diagnostics.append(&mut walk.joined);
@@ -52,6 +52,16 @@ impl Walked {
     /// A walk that does not arrive.
     pub fn failed(problem: Diagnostic) -> Self {
         Self { diagnostics: vec![problem], ..Self::default() }
+    }
+
+    /// Gives its memory to the next walk on this thread.
+    pub fn reuse(self) {
+        let Self { mut items, mut members, .. } = self;
+        items.clear();
+        members.clear();
+        if items.capacity().max(members.capacity()) <= MOST_KEPT {
+            WALKED.set(Self { items, members, diagnostics: Vec::new() });
+        }
     }
 
     /// The members of a chain that is one of the items: at least one, each from where the tool comes from.
@@ -72,6 +82,8 @@ struct Workspace {
 thread_local! {
     /// Those of the path before, for the next one.
     static KEPT: Cell<Workspace> = Cell::default();
+    /// The memory of a walk that nobody keeps.
+    static WALKED: Cell<Walked> = Cell::default();
 }
 
 /// They are kept if there is room in them for no more segments than these.

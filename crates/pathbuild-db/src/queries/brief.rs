@@ -128,7 +128,12 @@ pub(super) fn new_summary(
     bindings: &Bindings,
 ) -> (Summary, Option<Path>) {
     let BoundPath { path, diagnostics } = bind_raw(db, raw, bindings);
-    let brief = path.as_ref().map(|path| brief(db, file, path, &walk(db, path)));
+    let brief = path.as_ref().map(|path| {
+        let walked = walk(db, path);
+        let brief = brief(db, file, path, &walked);
+        walked.reuse();
+        brief
+    });
     (Summary { problems: diagnostics, brief }, path)
 }
 

@@ -2,7 +2,7 @@
 //! (spec/50-path-building.md, "Subpaths"; the order of errors: spec/80-diagnostics.md)
 
 use pathbuild_diagnostic::messages::subpaths as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Severity, Value};
 use pathbuild_path::{Origin, PathName, Segment, SegmentKind, Subpath, SubpathName};
 
 use super::brief::{Head, head, summary};
@@ -78,47 +78,47 @@ impl<'db> Embedder<'db> {
                 let problem = Diagnostic::new(&messages::MISSING_NAME);
                 Outcome::Refused(self.outer.at(segment, problem, text.as_ref()))
             }
-            SubpathName::Invalid { value, text } => {
+            SubpathName::Invalid { value } => {
                 let pattern = Settings::get(self.db).language(self.db).path_pattern.as_str();
                 let problem =
                     Diagnostic::new(&messages::INVALID_NAME).with("value", &**value).with("pattern", pattern);
-                Outcome::Refused(self.outer.at(segment, problem, Some(text)))
+                Outcome::Refused(self.outer.at_name(segment, subpath, problem))
             }
-            SubpathName::Found { name, text, has_more } => {
+            SubpathName::Found { name, has_more } => {
                 warnings.extend(has_more.as_ref().map(|value| {
                     let mut warning = Diagnostic::new(&messages::MORE_THAN_NAME)
                         .with("value", &**value)
                         .with("name", name.as_str());
                     warning.severity = Severity::Warning;
-                    self.outer.at(segment, warning, Some(text))
+                    self.outer.at_name(segment, subpath, warning)
                 }));
-                self.named(segment, subpath, name, text)
+                self.named(segment, subpath, name)
             }
         };
         let origin = self.outer.path.origin(segment);
         Embedding { segment: index, origin, name: segment.embedded_name().cloned(), outcome, warnings }
     }
 
-    fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName, text: &TextFault) -> Outcome<'db> {
+    fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName) -> Outcome<'db> {
         if let Some(problem) = self.outer.forbidden(name) {
-            return Outcome::Refused(self.outer.at(segment, problem, Some(text)));
+            return Outcome::Refused(self.outer.at_name(segment, subpath, problem));
         }
         let key = NameKey::of(self.db, name);
         let found = find_path(self.db, self.instance.file(self.db), key);
         match found.files.as_slice() {
-            [] => Outcome::NotFound(self.outer.at(segment, self.nowhere(name, &found), Some(text))),
+            [] => Outcome::NotFound(self.outer.at_name(segment, subpath, self.nowhere(name, &found))),
             [file] => match head(self.db, *file, key) {
                 Some(head) => {
                     self.bound(segment, subpath, head, Instance::new(self.db, *file, key, bindings(subpath)))
                 }
-                None => Outcome::NotFound(self.outer.at(segment, self.nowhere(name, &found), Some(text))),
+                None => Outcome::NotFound(self.outer.at_name(segment, subpath, self.nowhere(name, &found))),
             },
             [first, second, ..] => {
                 let problem = Diagnostic::new(&messages::DEFINED_TWICE)
                     .with("name", name.as_str())
                     .with("first", first.path(self.db).as_str())
                     .with("second", second.path(self.db).as_str());
-                Outcome::NotFound(self.outer.at(segment, problem, Some(text)))
+                Outcome::NotFound(self.outer.at_name(segment, subpath, problem))
             }
         }
     }

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value};
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_path::{Bindings, Letter, Path, PathName, Segment, Subpath, SubpathName};
+use pathbuild_path::{Bindings, Letter, Path, PathName, Segment, Subpath};
 use regex::Regex;
 
 use super::brief::{Brief, Head};
@@ -73,11 +73,7 @@ impl Outer<'_> {
             let problem = Diagnostic::new(&variables::MISSING_VALUE)
                 .with("variable", definition.name)
                 .with("definition", definition.to_string());
-            let text = match &subpath.name {
-                SubpathName::Found { text, .. } => Some(text),
-                _ => None,
-            };
-            self.at(segment, problem, text)
+            self.at_name(segment, subpath, problem)
         }));
         problems
     }
@@ -155,5 +151,10 @@ impl Outer<'_> {
             Some(text) => diagnostic.with_text(text.clone()),
             None => diagnostic,
         }
+    }
+
+    /// The same with the name underlined.
+    pub(super) fn at_name(&self, segment: &Segment, subpath: &Subpath, diagnostic: Diagnostic) -> Diagnostic {
+        self.at(segment, diagnostic, self.path.fault(subpath, Letter::Embed).as_ref())
     }
 }

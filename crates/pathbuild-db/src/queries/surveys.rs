@@ -5,7 +5,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, Path, PathName, RawPath, SourceMap};
+use pathbuild_path::{Bindings, Path, PathName, RawPath, Reuse, SourceMap};
 
 use super::brief::{Head, Summary, new_summary};
 use super::raw::FileReport;
@@ -79,19 +79,22 @@ impl Survey {
 }
 
 impl SurveyedPath {
-    fn new(db: &dyn Db, file: SourceFile, raw: RawPath, map: SourceMap) -> Self {
+    fn new(db: &dyn Db, file: SourceFile, mut raw: RawPath, map: SourceMap) -> Self {
         let head = Head::new(&raw);
         let examples = Bindings::check_values(&head.definitions);
+        let has_variables = !examples.is_empty();
+        if has_variables || raw.has_subpaths() {
+            raw.shrink_to_fit();
+        }
         let summary = || new_summary(db, file, &raw, &examples);
         let (summary, path) = catch_unwind(AssertUnwindSafe(summary)).ok().unzip();
         let is_clear = summary.as_ref().is_some_and(Summary::is_clear);
         let has_subpaths = summary.as_ref().is_some_and(Summary::has_subpaths);
-        let has_variables = !examples.is_empty();
         Self {
             head,
-            path: path.flatten().filter(|_| has_subpaths).map(Box::new),
-            raw: has_variables.then(|| Box::new(raw)),
-            map: (has_variables || has_subpaths || !is_clear).then_some(map),
+            path: path.flatten().and_then(|path| path.kept_if(has_subpaths)).map(Box::new),
+            raw: raw.kept_if(has_variables).map(Box::new),
+            map: map.kept_if(has_variables || has_subpaths || !is_clear),
             examples,
             summary,
         }

@@ -8,7 +8,7 @@ use super::{At, Binder};
 use crate::element::{Element, Role, Shape};
 use crate::geometry::Curve;
 use crate::letter::{ElementClass, Letter};
-use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
+use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{ParameterText, Piece};
 use crate::values::{Given, Values};
 
@@ -16,9 +16,10 @@ use crate::values::{Given, Values};
 pub(super) const UNNUMBERED: f64 = 9998.0;
 
 impl Binder<'_> {
-    pub(super) fn segments(&mut self, tool: Option<f64>) -> Vec<Segment> {
+    pub(super) fn bind_segments(&mut self, tool: Option<f64>) {
         let raw = self.raw;
-        let mut segments = Vec::with_capacity(raw.drawn.elements.len());
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.reserve_exact(raw.drawn.elements.len());
         for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
             let segment = |order, kind| Segment { element: number, order, kind };
             match (element.role, &element.shape) {
@@ -39,23 +40,7 @@ impl Binder<'_> {
                 _ => segments.extend(self.other(element).map(|(order, kind)| segment(order, kind))),
             }
         }
-        segments
-    }
-
-    /// An own T of a subpath must be below the path's S, too.
-    pub(super) fn add_subpath_surfaces(path: &mut Path) {
-        let subpaths = path.segments.iter().filter_map(|segment| match &segment.kind {
-            SegmentKind::Subpath(subpath) => Some((segment, subpath)),
-            _ => None,
-        });
-        let own = subpaths.filter_map(|(segment, subpath)| {
-            let origin = path.origin(segment);
-            let says = path.drawn.text(subpath.text).is_some_and(|text| text.letters.contains(Letter::T));
-            says.then_some((origin, subpath.thickness, subpath.text))
-        });
-        for (origin, thickness, text) in own.collect::<Vec<_>>() {
-            path.add_surface(origin, thickness, text);
-        }
+        self.segments = segments;
     }
 
     /// What any other element is in the path, with its order at a star.
@@ -93,14 +78,14 @@ impl Binder<'_> {
     }
 
     fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
-        let (Some(value), Some(fault)) = (values.text(Letter::Embed), values.fault(Letter::Embed)) else {
+        let Some(value) = values.text(Letter::Embed) else {
             return SubpathName::Missing { text: text.map(ParameterText::whole) };
         };
         match self.language.path_pattern.find(value) {
-            None => SubpathName::Invalid { value: value.into(), text: fault },
+            None => SubpathName::Invalid { value: value.into() },
             Some((name, range)) => {
                 let has_more = range.len() < value.len();
-                SubpathName::Found { name, text: fault, has_more: has_more.then(|| value.into()) }
+                SubpathName::Found { name, has_more: has_more.then(|| value.into()) }
             }
         }
     }

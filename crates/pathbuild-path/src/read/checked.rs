@@ -6,14 +6,14 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use crate::raw::RawPath;
 
 /// A raw path while it is checked.
-pub(super) struct Checked {
-    pub(super) raw: RawPath,
+pub(super) struct Checked<'r> {
+    pub(super) raw: &'r mut RawPath,
     /// A broken entity may be the marker, or the element of a text, that is missing: what may only follow from it is not reported.
     pub(super) has_broken_circle: bool,
     pub(super) has_broken_entity: bool,
 }
 
-impl Checked {
+impl Checked<'_> {
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         let name = self.raw.name.as_str();
         let is_placed = diagnostic.path.is_some();

@@ -1,6 +1,7 @@
 //! The entities of each path while they are collected.
 
-use std::sync::Arc as Shared;
+use std::mem::take;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, words};
@@ -9,14 +10,14 @@ use pathbuild_dxf::Drawing;
 use super::Starts;
 use super::checked::Checked;
 use super::elements::{Elements, Place};
-use super::layers::{FoundLayer, Membership, find_path_layers};
+use super::layers::{FoundLayer, Membership};
 use super::texts::Texts;
 use super::workspace::Workspace;
 use crate::assign::Candidate;
 use crate::element::Marker;
 use crate::line_type::LineTypes;
 use crate::name::PathName;
-use crate::raw::{Drawn, Language, Position, RawPath, SourceMap};
+use crate::raw::{Language, Position, RawPath, SourceMap};
 use crate::text::ParameterTexts;
 
 /// A path while its entities are being collected.
@@ -54,40 +55,31 @@ pub(super) fn paths<'d>(
     language: &Language,
     workspace: &mut Workspace,
 ) -> Vec<Collected<'d>> {
-    let mut layers = std::mem::take(&mut workspace.path_layers);
-    find_path_layers(drawing, &language.path_pattern, &mut layers);
-    let mut memberships = std::mem::take(&mut workspace.memberships);
-    memberships.clear();
-    memberships.resize(drawing.layers.len(), None);
+    let mut layers = workspace.path_layers();
+    layers.find(drawing, &language.path_pattern);
     // Mostly there is one layer, with everything on it.
-    let room = drawing.entities.len() / layers.len().max(1);
-    let by_path = layers.chunk_by(|one, other| one.first == other.first);
-    let mut paths = Vec::with_capacity(by_path.clone().count());
-    for (path, layers) in by_path.enumerate() {
-        for (layer, found) in (0_u32..).zip(layers) {
-            memberships[found.number] = Some(Membership { path, layer });
-        }
-        paths.push(Collected::new(drawing, layers, room, workspace));
-    }
+    let room = drawing.entities.len() / layers.count().max(1);
+    let mut paths = workspace.collected();
+    paths.extend(layers.by_path().map(|layers| Collected::new(drawing, layers, room, workspace)));
     let mut line_types = LineTypes::new(&language.line_types);
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
-        if let Some(Membership { path, layer }) = memberships[entity.layer as usize] {
+        if let Some(Membership { path, layer }) = layers.membership(entity.layer) {
             let position = Position { line: origin.line, handle: origin.handle };
             paths[path].add(entity, layer, position, &mut line_types);
         }
     }
     for fault in &drawing.faults {
-        if let Some(Membership { path, .. }) = memberships[fault.layer as usize] {
+        if let Some(Membership { path, .. }) = layers.membership(fault.layer) {
             paths[path].add_fault(&fault.diagnostic);
         }
     }
     for left_out in &drawing.left_out {
-        if let Some(Membership { path, .. }) = memberships[left_out.layer as usize] {
+        if let Some(Membership { path, .. }) = layers.membership(left_out.layer) {
             paths[path].left_out.extend(left_out.point.map(|point| (left_out.kind, point)));
             paths[path].add_located(&left_out.diagnostic);
         }
     }
-    (workspace.path_layers, workspace.memberships) = (layers, memberships);
+    workspace.keep_path_layers(layers);
     paths
 }
 
@@ -102,8 +94,8 @@ impl Collected<'_> {
             probes: Vec::new(),
             elements: workspace.elements(),
             given: workspace.texts(),
-            map: SourceMap::with_capacity(layers.len() * room),
-            texts: Texts::with_capacity(layers.len()),
+            map: workspace.map(layers.len() * room),
+            texts: Texts::new(workspace.layers()),
             left_out: Vec::new(),
             diagnostics: Vec::new(),
             has_broken_circle: false,
@@ -127,8 +119,8 @@ impl Collected<'_> {
 
     /// What is wrong with a group of layers that holds texts only.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.texts).assign(&mut self);
-        let mut diagnostics = std::mem::take(&mut self.diagnostics);
+        take(&mut self.texts).assign(&mut self);
+        let mut diagnostics = take(&mut self.diagnostics);
         for diagnostic in &mut diagnostics {
             self.map.locate(diagnostic);
             diagnostic.place.element = None;
@@ -138,7 +130,7 @@ impl Collected<'_> {
 
     /// Gives each text to its element.
     pub(crate) fn assign_texts(&mut self) {
-        let mut texts = std::mem::take(&mut self.texts);
+        let mut texts = take(&mut self.texts);
         let before = self.diagnostics.len();
         texts.assign(self);
         self.texts = texts;
@@ -152,33 +144,33 @@ impl Collected<'_> {
         }
     }
 
-    /// Puts the elements into the order of segments, and checks what needs no values.
-    pub(super) fn finish(mut self, starts: &Starts, workspace: &mut Workspace) -> (RawPath, SourceMap) {
-        let drawn = Drawn {
-            elements: self.elements.take_in_order(),
-            texts: self.given.clone(),
-            layers: self.texts.into_layer_names(workspace),
-        };
-        workspace.keep_elements(self.elements);
-        workspace.keep_texts(self.given);
-        let raw = RawPath {
-            name: self.name,
-            start: self.start,
-            end: self.end,
-            turns: self.turns,
-            probes: self.probes,
-            drawn: Shared::new(drawn),
+    /// Puts the elements into the order of segments, and checks what needs no values. Nothing is left here.
+    pub(super) fn finish(&mut self, starts: &Starts, workspace: &mut Workspace) -> (RawPath, SourceMap) {
+        let mut shared = workspace.drawn();
+        let drawn = Arc::make_mut(&mut shared);
+        self.elements.take_in_order(&mut drawn.elements);
+        drawn.texts.copy(&self.given);
+        take(&mut self.texts).take_layer_names(&mut drawn.layers, workspace);
+        workspace.keep_elements(take(&mut self.elements));
+        workspace.keep_texts(take(&mut self.given));
+        let mut raw = RawPath {
+            name: self.name.clone(),
+            start: self.start.take(),
+            end: self.end.take(),
+            turns: take(&mut self.turns),
+            probes: take(&mut self.probes),
+            drawn: shared,
             parameters: None,
             borrowed_from: None,
             definitions: Vec::new(),
-            left_out: self.left_out,
-            diagnostics: self.diagnostics,
+            left_out: take(&mut self.left_out),
+            diagnostics: take(&mut self.diagnostics),
         };
         let (has_broken_circle, has_broken_entity) = (self.has_broken_circle, self.has_broken_entity);
-        let mut checked = Checked { raw, has_broken_circle, has_broken_entity };
+        let mut checked = Checked { raw: &mut raw, has_broken_circle, has_broken_entity };
         checked.check_markers();
         checked.check_parameters(starts);
-        (checked.raw, self.map)
+        (raw, take(&mut self.map))
     }
 
     fn report_hidden(&mut self, layer: &str) {

@@ -4,13 +4,13 @@ use pathbuild_dxf::Drawing;
 
 use crate::name::{PathName, PathPattern};
 
-/// The path that a layer belongs to.
-#[derive(Clone, Copy)]
-pub(super) struct Membership {
-    /// Which of the drawing's paths.
-    pub(super) path: usize,
-    /// Which of its layers.
-    pub(super) layer: u32,
+/// The path layers of a drawing.
+#[derive(Default)]
+pub(super) struct PathLayers {
+    /// In file order, but those of a path behind its first.
+    found: Vec<FoundLayer>,
+    /// By the number of the layer.
+    memberships: Vec<Option<Membership>>,
 }
 
 /// A path layer.
@@ -20,22 +20,65 @@ pub(super) struct FoundLayer {
     /// Which of the drawing's layers it is.
     pub(super) number: usize,
     /// The number of its path's first.
-    pub(super) first: usize,
+    first: usize,
 }
 
-/// Finds the path layers of a drawing: in file order, but those of a path behind its first.
-pub(super) fn find_path_layers(drawing: &Drawing, pattern: &PathPattern, found: &mut Vec<FoundLayer>) {
-    found.clear();
-    found.extend(drawing.layers.iter().enumerate().filter_map(|(number, layer)| {
-        let path = pattern.layer(&layer.name)?.path;
-        Some(FoundLayer { path, number, first: number })
-    }));
-    found.sort_by(|one, other| one.path.cmp(&other.path));
-    for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
-        let first = of_path[0].number;
-        for layer in of_path {
-            layer.first = first;
+/// The path that a layer belongs to.
+#[derive(Clone, Copy)]
+pub(super) struct Membership {
+    /// Which of the drawing's paths.
+    pub(super) path: usize,
+    /// Which of its layers.
+    pub(super) layer: u32,
+}
+
+impl PathLayers {
+    /// Takes those of a drawing for any that there were before.
+    pub(super) fn find(&mut self, drawing: &Drawing, pattern: &PathPattern) {
+        let Self { found, memberships } = self;
+        found.clear();
+        found.extend(drawing.layers.iter().enumerate().filter_map(|(number, layer)| {
+            let path = pattern.layer(&layer.name)?.path;
+            Some(FoundLayer { path, number, first: number })
+        }));
+        found.sort_by(|one, other| one.path.cmp(&other.path));
+        for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
+            let first = of_path[0].number;
+            for layer in of_path {
+                layer.first = first;
+            }
+        }
+        found.sort_by_key(|layer| layer.first);
+        memberships.clear();
+        memberships.resize(drawing.layers.len(), None);
+        for (path, layers) in by_path(found).enumerate() {
+            for (layer, found) in (0_u32..).zip(layers) {
+                memberships[found.number] = Some(Membership { path, layer });
+            }
         }
     }
-    found.sort_by_key(|layer| layer.first);
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.found.len()
+    }
+
+    /// The layers of each path, in order of first appearance.
+    pub(super) fn by_path(&self) -> impl Iterator<Item = &[FoundLayer]> {
+        by_path(&self.found)
+    }
+
+    /// The path that a layer belongs to; `None` for a layer that is no path layer.
+    pub(super) fn membership(&self, layer: u32) -> Option<Membership> {
+        self.memberships[layer as usize]
+    }
+
+    /// For how many layers there is room.
+    pub(super) fn room(&self) -> usize {
+        self.found.capacity().max(self.memberships.capacity())
+    }
+}
+
+fn by_path(found: &[FoundLayer]) -> impl Iterator<Item = &[FoundLayer]> {
+    found.chunk_by(|one, other| one.first == other.first)
 }

@@ -12,7 +12,7 @@ use crate::letter::{ElementClass, Letter};
 use crate::name::PathName;
 use crate::text::{ParameterText, Piece};
 
-impl Checked {
+impl Checked<'_> {
     pub(super) fn check_parameters(&mut self, starts: &Starts) {
         // Without the path's parameters it is not known what most elements are, so their letters are not judged.
         let Some(start) = &self.raw.start else { return };
@@ -45,7 +45,7 @@ impl Checked {
 
     fn borrow(&mut self, name: &PathName, lender: &Start) {
         self.raw.parameters = Some(Arc::make_mut(&mut self.raw.drawn).texts.push(&lender.text));
-        self.raw.borrowed_from = Some((name.clone(), lender.origin.clone()));
+        self.raw.borrowed_from = Some(Box::new((name.clone(), lender.origin.clone())));
     }
 
     fn check_elements(&mut self, tool: Option<f64>) {

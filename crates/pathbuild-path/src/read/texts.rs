@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
-use super::workspace::Workspace;
+use super::workspace::{Workspace, emptied};
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
@@ -43,8 +43,9 @@ pub(crate) struct Match<'d> {
 }
 
 impl<'d> Texts<'d> {
-    pub(crate) fn with_capacity(layers: usize) -> Self {
-        Self { layers: Vec::with_capacity(layers) }
+    /// None yet, in the room of an empty list of layers.
+    pub(super) fn new(layers: Vec<LayerTexts<'d>>) -> Self {
+        Self { layers }
     }
 
     /// The next layer, in the room of an empty one.
@@ -52,14 +53,14 @@ impl<'d> Texts<'d> {
         self.layers.push(LayerTexts { name: name.into(), ..room });
     }
 
-    /// The names of the layers in order.
-    pub(super) fn into_layer_names(self, workspace: &mut Workspace) -> Vec<SmolStr> {
-        let name_of = |mut layer: LayerTexts<'_>| {
-            let name = std::mem::take(&mut layer.name);
+    /// Takes the names of the layers in order; the rest is room for the next path.
+    pub(super) fn take_layer_names(mut self, names: &mut Vec<SmolStr>, workspace: &mut Workspace) {
+        names.reserve_exact(self.layers.len());
+        for mut layer in self.layers.drain(..) {
+            names.push(std::mem::take(&mut layer.name));
             workspace.keep_layer(layer);
-            name
-        };
-        self.layers.into_iter().map(name_of).collect()
+        }
+        workspace.keep_layers(self.layers);
     }
 
     /// Where an entity is that begins, or has its centre, at a point.
@@ -165,9 +166,7 @@ impl<'d> LayerTexts<'d> {
     pub(super) fn emptied(self) -> LayerTexts<'static> {
         let Self { mut candidates, boxes, texts, .. } = self;
         candidates.clear();
-        // Collected in place: nothing is left of it but its memory.
-        let texts = texts.into_iter().map_while(|_| None).collect();
-        LayerTexts { name: SmolStr::default(), candidates, boxes, texts }
+        LayerTexts { name: SmolStr::default(), candidates, boxes, texts: emptied(texts) }
     }
 
     /// For how many entities there is room.
