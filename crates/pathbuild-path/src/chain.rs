@@ -77,36 +77,15 @@ pub struct PlacedSubpath {
 /// What was gone along so far. Chains without I, and letters without effect inside chains, are reported.
 pub(crate) struct Grouped<'a> {
     path: &'a Path,
-    room: Room,
-    diagnostics: Vec<Diagnostic>,
-}
-
-/// Where the items and the members of chains are collected.
-#[derive(Default)]
-pub(crate) struct Room {
-    items: Vec<Item>,
-    members: Vec<ChainSegment>,
+    walked: Walked,
     /// How many members belong to chains that are items. The others are of the chain that is not yet one.
     chained: usize,
 }
 
-impl Room {
-    /// For how many segments there is room.
-    pub(crate) fn size(&self) -> usize {
-        self.items.capacity().max(self.members.capacity())
-    }
-}
-
-/// All of a list in an empty one, with no more room than that needs or has; the list keeps its own.
-fn taken<T>(list: &mut Vec<T>, mut empty: Vec<T>) -> Vec<T> {
-    empty.reserve_exact(list.len());
-    empty.append(list);
-    empty
-}
-
 impl<'a> Grouped<'a> {
-    pub(crate) fn new(path: &'a Path, room: Room) -> Self {
-        Self { path, room, diagnostics: Vec::new() }
+    /// Nothing so far, in the memory of an empty walk.
+    pub(crate) fn new(path: &'a Path, walked: Walked) -> Self {
+        Self { path, walked, chained: 0 }
     }
 
     /// Takes the next segment that is gone along.
@@ -115,29 +94,16 @@ impl<'a> Grouped<'a> {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
             let segment = u32::try_from(segment).unwrap_or(u32::MAX);
             let Passage { is_turned, moved, .. } = passage;
-            return self.room.members.push(ChainSegment { segment, cut, is_return, is_turned, moved });
+            return self.walked.members.push(ChainSegment { segment, cut, is_return, is_turned, moved });
         }
         self.finish_chain();
-        self.room.items.extend(self.single(segment, &passage, is_return));
+        self.walked.items.extend(self.single(segment, &passage, is_return));
     }
 
-    /// All that was gone along, and what is wrong with it, in the room of an empty walk.
-    pub(crate) fn finish(&mut self, walked: Walked) -> Walked {
+    /// All that was gone along, and what is wrong with it.
+    pub(crate) fn finish(mut self) -> Walked {
         self.finish_chain();
-        let Room { items, members, .. } = &mut self.room;
-        Walked {
-            items: taken(items, walked.items),
-            members: taken(members, walked.members),
-            diagnostics: std::mem::take(&mut self.diagnostics),
-        }
-    }
-
-    /// Where it was collected, for the next path.
-    pub(crate) fn into_room(self) -> Room {
-        let Room { mut items, mut members, .. } = self.room;
-        items.clear();
-        members.clear();
-        Room { items, members, chained: 0 }
+        self.walked
     }
 
     /// What is done along a segment that is in no chain. Going back over it is a sweep.
@@ -155,20 +121,20 @@ impl<'a> Grouped<'a> {
 
     /// Ends the chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
-        let Room { items, members, chained } = &mut self.room;
+        let Self { path, walked: Walked { items, members, diagnostics }, chained } = self;
         let [first, others @ ..] = &members[*chained..] else { return };
-        let has_letters = |member: &ChainSegment| member.cut(self.path).chain_letters.is_some();
+        let has_letters = |member: &ChainSegment| member.cut(path).chain_letters.is_some();
         for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {
-            self.diagnostics.extend(member.letters_without_effect(self.path));
+            diagnostics.extend(member.letters_without_effect(path));
         }
-        let parameters = first.cut(self.path).chain;
+        let parameters = first.cut(path).chain;
         match parameters.infeed {
             Some(infeed) => items.push(Item::Chain(Chain {
                 infeed,
                 first_depth: parameters.first_depth,
                 members: *chained..members.len(),
             })),
-            None => self.diagnostics.push(first.without_infeed(self.path)),
+            None => diagnostics.push(first.without_infeed(path)),
         }
         *chained = members.len();
     }

@@ -11,9 +11,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use crate::approx::{coincide, near};
-use crate::chain::{Chain, ChainSegment, Grouped, Item, Room};
+use crate::chain::{Chain, ChainSegment, Grouped, Item};
 use crate::geometry::Xy;
 use crate::path::{Path, SegmentKind};
+use crate::reuse::Reuse;
 
 use ends::Ends;
 
@@ -32,19 +33,12 @@ pub struct Walked {
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
-    let mut walk = Walk::new(path, join_tolerance, KEPT.take());
-    let mut walked = match walk.run() {
-        Ok(()) => walk.grouped.finish(WALKED.take()),
-        Err(problem) => Walked::failed(*problem),
-    };
-    walked.diagnostics.append(&mut walk.joined);
-    if !walked.items.is_empty() {
-        walked.diagnostics.extend(walk.idle_markers());
-    }
+    let mut walk = Walk::new(path, join_tolerance);
+    let result = walk.run();
+    let mut walked = walk.finish(result);
     for diagnostic in &mut walked.diagnostics {
         diagnostic.path = Some(path.name.as_str().into());
     }
-    walk.keep();
     walked
 }
 
@@ -54,8 +48,14 @@ impl Walked {
         Self { diagnostics: vec![problem], ..Self::default() }
     }
 
-    /// Gives its memory to the next walk on this thread.
-    pub fn reuse(self) {
+    /// The members of a chain that is one of the items: at least one, each from where the tool comes from.
+    pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
+        &self.members[chain.members.clone()]
+    }
+}
+
+impl Reuse for Walked {
+    fn reuse(self) {
         let Self { mut items, mut members, .. } = self;
         items.clear();
         members.clear();
@@ -64,9 +64,9 @@ impl Walked {
         }
     }
 
-    /// The members of a chain that is one of the items: at least one, each from where the tool comes from.
-    pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
-        &self.members[chain.members.clone()]
+    fn shrink_to_fit(&mut self) {
+        self.items.shrink_to_fit();
+        self.members.shrink_to_fit();
     }
 }
 
@@ -76,13 +76,12 @@ struct Workspace {
     ends: Ends,
     is_traversed: Vec<bool>,
     found: Vec<usize>,
-    room: Room,
 }
 
 thread_local! {
     /// Those of the path before, for the next one.
     static KEPT: Cell<Workspace> = Cell::default();
-    /// The memory of a walk that nobody keeps.
+    /// The memory of a walk that nobody keeps, empty.
     static WALKED: Cell<Walked> = Cell::default();
 }
 
@@ -111,8 +110,8 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &'a Path, join_tolerance: f64, workspace: Workspace) -> Self {
-        let Workspace { mut ends, mut is_traversed, found, room } = workspace;
+    fn new(path: &'a Path, join_tolerance: f64) -> Self {
+        let Workspace { mut ends, mut is_traversed, found } = KEPT.take();
         let count = path.segments.len();
         ends.fill(path);
         is_traversed.clear();
@@ -127,18 +126,28 @@ impl<'a> Walk<'a> {
             left: count,
             at: path.start,
             last: None,
-            grouped: Grouped::new(path, room),
+            grouped: Grouped::new(path, WALKED.take()),
             way_back: Vec::new(),
             has_acted: vec![false; path.turns.len()],
         }
     }
 
-    fn keep(self) {
-        let Self { ends, is_traversed, found, grouped, .. } = self;
-        let room = grouped.into_room();
-        if ends.room().max(room.size()) <= MOST_KEPT {
-            KEPT.set(Workspace { ends, is_traversed, found, room });
+    /// What came of it. Lists are kept for the next path.
+    fn finish(self, result: Result<(), Box<Diagnostic>>) -> Walked {
+        let idle = self.idle_markers();
+        let Self { ends, is_traversed, found, grouped, mut joined, .. } = self;
+        if ends.room() <= MOST_KEPT {
+            KEPT.set(Workspace { ends, is_traversed, found });
         }
+        let mut walked = match result {
+            Ok(()) => grouped.finish(),
+            Err(problem) => Walked::failed(*problem),
+        };
+        walked.diagnostics.append(&mut joined);
+        if !walked.items.is_empty() {
+            walked.diagnostics.extend(idle);
+        }
+        walked
     }
 
     fn run(&mut self) -> Result<(), Box<Diagnostic>> {

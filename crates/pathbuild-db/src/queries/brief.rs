@@ -2,7 +2,7 @@
 //! an edit that changes none of it ends here.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, SegmentKind, Walked};
+use pathbuild_path::{Bindings, Definition, Path, PathName, RawPath, Reuse, SegmentKind, Walked};
 use pathbuild_toolpath::own_moves;
 use smol_str::SmolStr;
 

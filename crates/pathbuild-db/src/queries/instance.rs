@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, Path, RawPath, Walked};
+use pathbuild_path::{Bindings, Path, RawPath, Reuse, Walked};
 
 use super::raw::{NameKey, raw_path};
 use super::reading::internal_error;
@@ -59,7 +59,9 @@ pub(super) fn bound_path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Optio
 /// Walks along a path. Empty where there is no sound path.
 #[salsa::tracked(lru = 0)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
-    path(db, instance).path.as_ref().map(|path| walk(db, path)).unwrap_or_default()
+    let mut walked = path(db, instance).path.as_ref().map(|path| walk(db, path)).unwrap_or_default();
+    walked.shrink_to_fit();
+    walked
 }
 
 /// What [`path`] gives, not kept: whoever judges a path needs it once, and making it again takes less than keeping it.

@@ -140,6 +140,7 @@ fn keep<T>(thing: T, room: impl Fn(&T) -> usize, kept: &mut Vec<T>) {
 }
 
 /// The memory of a list, for things of the same kind with another lifetime: collecting nothing in place leaves only that.
-pub(super) fn emptied<T, U>(list: Vec<T>) -> Vec<U> {
+pub(super) fn emptied<T, U>(mut list: Vec<T>) -> Vec<U> {
+    list.clear();
     list.into_iter().map_while(|_| None).collect()
 }
