@@ -35,7 +35,7 @@ pub(super) struct SurveyedPath {
     path: Option<Box<Path>>,
     /// What was read, where it has variables.
     raw: Option<Box<RawPath>>,
-    /// Where its elements are, if that will be asked for.
+    /// Where its elements are, if there is something to say of them already; else the drawing is read once more for that.
     map: Option<SourceMap>,
 }
 
@@ -94,7 +94,7 @@ impl SurveyedPath {
             head,
             path: path.flatten().and_then(|path| path.kept_if(has_subpaths)).map(Box::new),
             raw: raw.kept_if(has_variables).map(Box::new),
-            map: map.kept_if(has_variables || has_subpaths || !is_clear),
+            map: map.kept_if(!is_clear),
             examples,
             summary,
         }

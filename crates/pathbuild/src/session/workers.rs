@@ -58,7 +58,7 @@ fn reserved() -> Vec<u8> {
 fn touch(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
     const PAGE: usize = 4 << 10;
     /// What the results of some hundred drawings take.
-    const PAGES: usize = 512;
+    const PAGES: usize = 384;
     for page in memory.spare_capacity_mut().chunks_mut(PAGE).take(PAGES) {
         if is_wanted.load(Ordering::Relaxed) {
             break;
