@@ -142,7 +142,8 @@ fn each_name(
 ) -> io::Result<()> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
-        let (name, kind) = (entry.file_name(), entry.file_type()?.into());
+        let name = entry.file_name();
+        let kind = entry.file_type().map_or(Kind::Untold, Kind::from);
         let name = Name { spelling: &name.to_string_lossy(), is_exact: name.to_str().is_some(), kind };
         if take(Some(name)).is_break() {
             return Ok(());
