@@ -158,14 +158,14 @@ impl ParameterTexts {
         wording.is_some_and(|it| is_right(it.is_plain, it.letters, class))
     }
 
-    /// Adds to no texts all those of others, with no more memory than they need.
+    /// Adds to no texts all those of others.
     pub(crate) fn copy(&mut self, others: &Self) {
         let Self { string, pieces, wordings, count } = self;
-        string.reserve_exact(others.string.len());
+        string.reserve(others.string.len());
         string.push_str(&others.string);
-        pieces.reserve_exact(others.pieces.len());
+        pieces.reserve(others.pieces.len());
         pieces.extend_from_slice(&others.pieces);
-        wordings.reserve_exact(others.wordings.len());
+        wordings.reserve(others.wordings.len());
         wordings.extend_from_slice(&others.wordings);
         *count = others.count;
     }

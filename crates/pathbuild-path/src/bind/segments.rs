@@ -19,7 +19,7 @@ impl Binder<'_> {
     pub(super) fn bind_segments(&mut self, tool: Option<f64>) {
         let raw = self.raw;
         let mut segments = std::mem::take(&mut self.segments);
-        segments.reserve_exact(raw.drawn.elements.len());
+        segments.reserve(raw.drawn.elements.len());
         for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
             let segment = |order, kind| Segment { element: number, order, kind };
             match (element.role, &element.shape) {

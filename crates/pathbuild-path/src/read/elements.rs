@@ -49,7 +49,7 @@ impl Elements {
     /// Takes all of them in the order of segments.
     pub(super) fn take_in_order(&mut self, elements: &mut Vec<Element>) {
         let kinds = [&mut self.circles, &mut self.lines, &mut self.arcs];
-        elements.reserve_exact(kinds.iter().map(|kind| kind.len()).sum());
+        elements.reserve(kinds.iter().map(|kind| kind.len()).sum());
         for kind in kinds {
             elements.append(kind);
         }

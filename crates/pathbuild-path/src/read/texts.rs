@@ -55,7 +55,7 @@ impl<'d> Texts<'d> {
 
     /// Takes the names of the layers in order; the rest is room for the next path.
     pub(super) fn take_layer_names(mut self, names: &mut Vec<SmolStr>, workspace: &mut Workspace) {
-        names.reserve_exact(self.layers.len());
+        names.reserve(self.layers.len());
         for mut layer in self.layers.drain(..) {
             names.push(std::mem::take(&mut layer.name));
             workspace.keep_layer(layer);

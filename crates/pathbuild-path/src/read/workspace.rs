@@ -98,7 +98,7 @@ impl Workspace {
     /// A map of nothing yet, with room for so many.
     pub(super) fn map(&mut self, count: usize) -> SourceMap {
         let mut positions = self.positions.pop().unwrap_or_default();
-        positions.reserve_exact(count);
+        positions.reserve(count);
         SourceMap(positions)
     }
 
