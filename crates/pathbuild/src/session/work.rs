@@ -57,6 +57,10 @@ pub struct Asking<'a> {
 /// each no burden.
 const BATCH: usize = 2048;
 
+/// So many items at most are worked on in a row: no other thread can take them over, which would wait at the end for as many. Each row has a
+/// database of its own, whose lists grow anew: shorter rows cost more than waiting does.
+const IN_A_ROW: usize = 32;
+
 impl Session<'_> {
     /// A target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
@@ -199,7 +203,7 @@ impl Session<'_> {
             progress.as_ref().inspect(|progress| progress.advance());
             result
         };
-        workers.work(|| items.par_iter().map_with(db, work).collect())
+        workers.work(|| items.par_iter().with_max_len(IN_A_ROW).map_with(db, work).collect())
     }
 
     /// Starts the worker threads while there is something else to do before there is work for them.
