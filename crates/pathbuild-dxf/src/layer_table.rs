@@ -43,7 +43,10 @@ pub(crate) struct LayerRecord<'a> {
 }
 
 /// So many layers are looked for one by one, each in all tables: a drawing of paths has hardly more.
-const FEW: usize = 8;
+const FEW: usize = 4;
+
+/// What has fewer characters is written nearly everywhere.
+const SHORTEST: usize = 4;
 
 impl<'a> LayerTable<'a> {
     /// That of these tables.
@@ -61,7 +64,7 @@ impl<'a> LayerTable<'a> {
         self.asked += 1;
         let certain = part_certain(without_xref(full_name).as_bytes());
         let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
-        if self.all.is_none() && self.asked <= FEW && !certain.is_empty() && !has_escapes() {
+        if self.all.is_none() && self.asked <= FEW && certain.len() >= SHORTEST && !has_escapes() {
             let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
             return Ok(some.get(full_name).cloned());
         }
