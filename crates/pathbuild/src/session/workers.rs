@@ -18,16 +18,14 @@ pub(super) struct Workers {
 const STACK_SIZE: usize = 16 << 20;
 
 impl Workers {
-    /// So many threads, or as many as there are cores, this one among them; `None` where the system gives none. It is not waited for them.
+    /// So many threads, or as many as there are cores; `None` where the system gives none. It is not waited for them. This one is not among them:
+    /// where it was, and there were two cores, the other was often begun on the core of this one and stayed there for 5 to 10 ms.
     pub(super) fn start(count: Option<u16>) -> Option<Self> {
         let is_wanted = Arc::new(AtomicBool::new(false));
-        let new = || {
-            let until = Arc::clone(&is_wanted);
-            let pool = ThreadPoolBuilder::new().num_threads(usize::from(count.unwrap_or(0)));
-            pool.stack_size(STACK_SIZE).start_handler(move |_| reserve_memory(&until))
-        };
-        // A thread can be among those of the first session only that it begins.
-        let pool = new().use_current_thread().build().or_else(|_| new().build()).ok()?;
+        let until = Arc::clone(&is_wanted);
+        let threads = usize::from(count.unwrap_or(0));
+        let pool = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE);
+        let pool = pool.start_handler(move |_| reserve_memory(&until)).build().ok()?;
         Some(Self { pool, is_wanted })
     }
 
