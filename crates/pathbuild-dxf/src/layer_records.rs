@@ -7,7 +7,7 @@ use crate::entities::Records;
 use crate::fields::{Fields, Want};
 use crate::layer_table::KnownLayers;
 use crate::names::Name;
-use crate::pairs::{Pairs, Stop};
+use crate::pairs::{Pair, Pairs, Stop};
 use crate::sections::LAYER;
 
 /// What records are read with.
@@ -23,7 +23,7 @@ impl<'a> Reading<'_, 'a, '_> {
         while let Some(head) = tables.place("0", &LAYER) {
             tables.jump_to(head);
             let mut records = Records::new(tables)?;
-            while records.head.is("LAYER") {
+            while !is_end_of_table(&records.head) {
                 self.record(&mut records, &mut layers)?;
             }
             tables = records.groups.pairs();
@@ -51,14 +51,14 @@ impl<'a> Reading<'_, 'a, '_> {
                 records = Some(Records::new(tables)?);
             }
             let Some(row) = &mut records else { break };
-            while row.groups.pairs().consumed() <= at && !row.head.is("ENDTAB") {
+            while row.groups.pairs().consumed() <= at && !is_end_of_table(&row.head) {
                 self.record(row, &mut layers)?;
             }
             if layers.last_name() == Some(wanted) {
                 break;
             }
             tables = row.groups.pairs();
-            records = records.filter(|row| !row.head.is("ENDTAB"));
+            records = records.filter(|row| !is_end_of_table(&row.head));
         }
         Ok(layers)
     }
@@ -72,4 +72,9 @@ impl<'a> Reading<'_, 'a, '_> {
         }
         Ok(())
     }
+}
+
+/// Whether no record of the table follows. One whose beginning is lost does not end it, so that it shows.
+fn is_end_of_table(head: &Pair<'_>) -> bool {
+    ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
 }

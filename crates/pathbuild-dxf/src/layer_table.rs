@@ -68,10 +68,11 @@ impl<'a> LayerTable<'a> {
             let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
             return Ok(some.get(full_name).cloned());
         }
-        if self.all.is_none() {
-            self.all = Some(reading.all(tables)?);
-        }
-        Ok(self.all.as_ref().and_then(|all| all.get(full_name)).cloned())
+        let all = match &mut self.all {
+            Some(all) => all,
+            all => all.insert(reading.all(tables)?),
+        };
+        Ok(all.get(full_name).cloned())
     }
 }
 

@@ -122,6 +122,16 @@ fn what_is_broken_in_its_own_record_is_an_error() {
     }
 }
 
+/// Where names are written with escapes, all records are read: what is lost shows there as well.
+#[test]
+fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
+    let text =
+        drawing(&table("0 LAYER\n2 \\U+00E4\n0 LAYER\n5 1A\n2 1000.1P\n6 DOT\n0 LAYER\n2 Y"), &["1000.1P"]);
+    assert_eq!(line_types(&text), "DOT");
+    let said = line_types(text.replacen("LAYER\n  5\n1A", "  5\n1A", 1));
+    assert!(said.starts_with("PB002") && said.contains("a group code should stand here"), "{said}");
+}
+
 /// Each of these would take hours if what has been looked at once were looked at again.
 #[test]
 fn tables_full_of_the_name_are_read_in_time() {
