@@ -7,6 +7,7 @@ pub mod estimate;
 pub mod interpret;
 pub mod native;
 pub mod post;
+pub mod provenance;
 pub mod read;
 pub mod summary;
 pub mod verify;

@@ -1,0 +1,115 @@
+//! The header line by which a program can be traced. (spec/60-gcode.md, "The program")
+//!
+//! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5`: the version, a hash of the moves and formulas, a hash of the options, the
+//! dialect, the cutter O and the material's height T in mm. O and T are left out where a program has several.
+//!
+//! Native programs and posts both write the line with [`Display`](fmt::Display), and every reader uses [`Provenance::of_head`].
+
+use std::fmt;
+use std::str::FromStr;
+
+use pathbuild_diagnostic::Number;
+
+use crate::dialect::Dialect;
+
+/// What the line says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The version of pathbuild.
+    pub version: Box<str>,
+    /// The hash of the program's moves and formulas, in hexadecimal digits.
+    pub moves: Box<str>,
+    /// The hash of the options, in hexadecimal digits.
+    pub options: Box<str>,
+    /// The dialect of the program; `None` where the post names none.
+    pub dialect: Option<Dialect>,
+    /// O in mm, if all is milled with one cutter.
+    pub cutter: Option<f64>,
+    /// T in mm, if the material has one upper face.
+    pub thickness: Option<f64>,
+}
+
+/// The word that begins the line.
+const NAME: &str = "pathbuild";
+
+/// The line is looked for among so many lines.
+const HEAD_LINES: usize = 40;
+
+/// The line is within so many bytes from the beginning of a file.
+pub const HEAD: usize = 4096;
+
+impl Provenance {
+    /// The provenance of a program by its first bytes, and the text of the comment line behind it, which is the title. `None` where
+    /// pathbuild did not write the program.
+    pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
+        let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
+        let mut lines = text.lines().take(HEAD_LINES).map(remark);
+        let provenance = lines.find_map(|line| line.parse().ok())?;
+        Some((provenance, lines.next().unwrap_or_default().into()))
+    }
+}
+
+/// A line without block number and comment signs.
+fn remark(line: &str) -> &str {
+    let line = line.trim();
+    let digits =
+        line.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let line = digits.unwrap_or(line).trim_start_matches([';', '/', ' ']);
+    let inner = line.strip_prefix('(').and_then(|line| line.strip_suffix(')'));
+    inner.unwrap_or(line).trim()
+}
+
+impl fmt::Display for Provenance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { version, moves, options, dialect, cutter, thickness } = self;
+        write!(f, "{NAME} {version} {moves}-{options}")?;
+        dialect.map_or(Ok(()), |dialect| write!(f, " {dialect}"))?;
+        cutter.map_or(Ok(()), |cutter| write!(f, " O{}", Number(cutter)))?;
+        thickness.map_or(Ok(()), |thickness| write!(f, " T{}", Number(thickness)))
+    }
+}
+
+/// Reads what is shown, in capitals too: some posts write nothing else.
+impl FromStr for Provenance {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let text = text.to_ascii_lowercase();
+        let mut words = text.split_ascii_whitespace();
+        let (Some(NAME), Some(version), Some(hashes)) = (words.next(), words.next(), words.next()) else {
+            return Err(());
+        };
+        let is_hash = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let (moves, options) = hashes.split_once('-').ok_or(())?;
+        if !is_hash(moves) || !is_hash(options) {
+            return Err(());
+        }
+        let mut read = Self {
+            version: version.into(),
+            moves: moves.into(),
+            options: options.into(),
+            dialect: None,
+            cutter: None,
+            thickness: None,
+        };
+        words.try_for_each(|word| read.take(word))?;
+        Ok(read)
+    }
+}
+
+impl Provenance {
+    /// Takes one of the words behind the hashes.
+    fn take(&mut self, word: &str) -> Result<(), ()> {
+        let number = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or(());
+        if let Ok(dialect) = word.parse() {
+            self.dialect = Some(dialect);
+        } else if let Some(cutter) = word.strip_prefix('o') {
+            self.cutter = Some(number(cutter)?);
+        } else if let Some(thickness) = word.strip_prefix('t') {
+            self.thickness = Some(number(thickness)?);
+        } else {
+            return Err(());
+        }
+        Ok(())
+    }
+}
