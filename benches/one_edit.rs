@@ -11,7 +11,7 @@ use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{Database, Db, Limits, Lookup, Reading, Role, Settings, Target, closure, program, trace};
 use pathbuild_draw::Sheet;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
-use pathbuild_toolpath::{FoldOptions, SupportBars};
+use pathbuild_toolpath::FoldOptions;
 
 criterion_group!(benches, one_edit);
 criterion_main!(benches);
@@ -90,8 +90,7 @@ fn settings(db: &mut Database) {
         text_limit: 65_536,
     };
     let lookup = Lookup { file_pattern: FilePattern::default(), search: vec!["parts".into()] };
-    let fold =
-        FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), support_bars: SupportBars::Compatible };
+    let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), compatible: true };
     let reading = Reading::default();
     _ = Settings::new(db, reading, Arc::new(language), lookup, Vec::new(), fold, Limits::default());
 }

@@ -22,7 +22,7 @@ fn every_option_has_its_counterpart() {
     assert_eq!(
         translated(&all.split(' ').chain(["2913.dxf"]).collect::<Vec<_>>()),
         "pathbuild emit --feed=150 --rapid=1000 --sweep-height=15 --probe-feed=40 --search=parts \
-         '--path-pattern=[0-9]' '--file-pattern=[0-9]+' '--restrict=P$:L$' --lang=de -- 2913.dxf"
+         '--path-pattern=[0-9]' '--file-pattern=[0-9]+' '--restrict=P$:L$' --lang=de --compatible -- 2913.dxf"
     );
 }
 
@@ -34,17 +34,23 @@ fn values_are_glued_or_follow() {
     assert_eq!(glued, apart);
     assert_eq!(
         glued,
-        "pathbuild emit --feed=150 --rapid=1000 --sweep-height=15,5 --search=parts --search=more -- a.dxf b.dxf"
+        "pathbuild emit --feed=150 --rapid=1000 --sweep-height=15,5 --search=parts --search=more --compatible -- a.dxf b.dxf"
     );
 }
 
 #[test]
 fn the_command_is_told_by_the_options() {
-    assert_eq!(translated(&["/c", "a.dxf"]), "pathbuild check -- a.dxf");
-    assert_eq!(translated(&["/C", "a.dxf"]), "pathbuild check -- a.dxf");
-    assert_eq!(translated(&["/x", "O2", "a.dxf"]), "pathbuild texts --match=O2 -- a.dxf");
-    assert_eq!(translated(&["/m0,5", "a_Z.txt"]), "pathbuild adjust --max-correction=0,5 -- a_Z.txt");
-    assert_eq!(translated(&["/m", "1", "/xG01", "a"]), "pathbuild adjust --max-correction=1 --show=G01 -- a");
+    assert_eq!(translated(&["/c", "a.dxf"]), "pathbuild check --compatible -- a.dxf");
+    assert_eq!(translated(&["/C", "a.dxf"]), "pathbuild check --compatible -- a.dxf");
+    assert_eq!(translated(&["/x", "O2", "a.dxf"]), "pathbuild texts --match=O2 --compatible -- a.dxf");
+    assert_eq!(
+        translated(&["/m0,5", "a_Z.txt"]),
+        "pathbuild adjust --max-correction=0,5 --compatible -- a_Z.txt"
+    );
+    assert_eq!(
+        translated(&["/m", "1", "/xG01", "a"]),
+        "pathbuild adjust --max-correction=1 --show=G01 --compatible -- a"
+    );
 }
 
 #[cfg(unix)]
@@ -52,19 +58,19 @@ fn the_command_is_told_by_the_options() {
 fn names_of_files_take_backslashes() {
     assert_eq!(
         translated(&["/c", r"/d..\Parts", r"sub\2913 Ph.DXF"]),
-        "pathbuild check --search=../Parts -- 'sub/2913 Ph.DXF'"
+        "pathbuild check --search=../Parts --compatible -- 'sub/2913 Ph.DXF'"
     );
     assert_eq!(
         translated(&[r"/n\d+", "a"]),
-        r"pathbuild emit '--path-pattern=\d+' -- a",
+        r"pathbuild emit '--path-pattern=\d+' --compatible -- a",
         "patterns keep theirs"
     );
 }
 
 #[test]
 fn a_drawing_named_from_the_root_is_no_option() {
-    assert_eq!(translated(&["/c", "/home/me/a.dxf"]), "pathbuild check -- /home/me/a.dxf");
-    assert_eq!(translated(&["/c", "-odd.dxf"]), "pathbuild check -- -odd.dxf");
+    assert_eq!(translated(&["/c", "/home/me/a.dxf"]), "pathbuild check --compatible -- /home/me/a.dxf");
+    assert_eq!(translated(&["/c", "-odd.dxf"]), "pathbuild check --compatible -- -odd.dxf");
 }
 
 #[test]
@@ -91,5 +97,5 @@ fn options_of_ours_stand_before_compat() {
     let run = Place::new().run("-v --lang compat compat /c a.dxf");
     assert_eq!(run.status, Some(2), "{run}");
     let run = Place::new().run("-v compat /fx /c a.dxf");
-    assert!(run.stderr.starts_with("pathbuild check --feed=x -- a.dxf\n"), "{run}");
+    assert!(run.stderr.starts_with("pathbuild check --feed=x --compatible -- a.dxf\n"), "{run}");
 }

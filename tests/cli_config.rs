@@ -324,3 +324,18 @@ fn names_in_the_configuration_are_relative_to_it() {
     assert_eq!(line(&run, "search"), "search = [\"<PLACE>/a/b/s\", \"<PLACE>/a/b/t\"]");
     assert_eq!(line(&run, "out-dir"), "out-dir = \"<PLACE>/a/b/o\"");
 }
+
+#[test]
+fn a_key_of_an_earlier_version_names_its_successor() {
+    let run = Place::new().file("pathbuild.toml", "support-bars = \"solid\"\n").run("config show");
+    assert_eq!(run.status, Some(2), "{run}");
+    assert!(run.stderr.contains("PB003") && run.stderr.contains("`compatible = true`"), "{run}");
+}
+
+#[test]
+fn the_option_compatible_wins_over_the_key() {
+    assert_eq!(
+        line(&show("compatible = false\n", "--compatible"), "compatible"),
+        "compatible = true  # --compatible"
+    );
+}

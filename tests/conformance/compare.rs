@@ -25,7 +25,7 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
     let place = copy_of(&run.case);
     let before = files_below(place.path());
     let output = program()
-        .args([&arguments[0], "--no-cache", "--format=json"])
+        .args([&arguments[0], "--compatible", "--no-cache", "--format=json"])
         .args(&arguments[1..])
         .current_dir(place.path())
         .output()

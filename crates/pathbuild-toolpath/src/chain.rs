@@ -75,7 +75,7 @@ impl<P: Parts> Fold<'_, P> {
                 last_pass = Some(run.edge);
             }
             let (from, to) = strand.ends(run.is_backwards);
-            let entry = strand.entry(z, self.spares_bars());
+            let entry = strand.entry(z, self.compatible);
             self.travel(Tip { at: from, z: entry }, place.surface, place.sweep_height, place.feed);
             self.edge(place, strand, z, run.is_backwards);
             tip = Tip { at: to, z };
@@ -109,7 +109,7 @@ impl<P: Parts> Fold<'_, P> {
     fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
         let strand = &strands[run.strand];
         let z = strand.depths[run.edge];
-        self.plunge(strand.entry(z, self.spares_bars()), place.surface, place.feed);
+        self.plunge(strand.entry(z, self.compatible), place.surface, place.feed);
         self.edge(place, strand, z, run.is_backwards);
     }
 
@@ -130,9 +130,9 @@ impl Strand<'_> {
     }
 
     /// The height at which the tool comes to its end for a run at depth `z`.
-    fn entry(&self, z: f64, spares_bars: bool) -> f64 {
+    fn entry(&self, z: f64, compatible: bool) -> f64 {
         match &self.bars {
-            Some((top, _)) if spares_bars => z.max(*top),
+            Some((top, _)) if !compatible => z.max(*top),
             _ => z,
         }
     }

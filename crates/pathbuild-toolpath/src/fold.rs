@@ -31,18 +31,8 @@ pub struct FoldOptions {
     pub feed: Option<f64>,
     /// --sweep-height: S of the emitted path in mm; likewise.
     pub sweep_height: Option<f64>,
-    /// How the tool comes to a segment that begins on a support bar.
-    pub support_bars: SupportBars,
-}
-
-/// How the tool comes to a segment that begins on a support bar. (spec/60-gcode.md, "Support bars")
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum SupportBars {
-    /// As the original tool: it drills into the bar to the pass's depth, then retracts. Weakens the bar.
-    #[default]
-    Compatible,
-    /// To the bar's top.
-    Solid,
+    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (spec/60-gcode.md, "Compatible")
+    pub compatible: bool,
 }
 
 /// Makes the program of a path, of about so many moves. Every path in it must be free of errors.
@@ -61,7 +51,7 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
     let mut fold = Fold {
         parts,
         feed: options.feed.unwrap_or_default(),
-        support_bars: options.support_bars,
+        compatible: options.compatible,
         tip: Tip { at: Xy::origin(), z: program.start_height() },
         steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MOST_FORESEEN)),
         names: Names::default(),
@@ -88,7 +78,7 @@ pub(crate) struct Tip {
 pub(crate) struct Fold<'a, P> {
     parts: &'a P,
     feed: f64,
-    support_bars: SupportBars,
+    pub(crate) compatible: bool,
     pub(crate) tip: Tip,
     steps: Vec<Step>,
     names: Names,
@@ -271,11 +261,6 @@ impl<'a, P: Parts> Fold<'a, P> {
     /// A segment's feed, or --feed.
     pub(crate) fn feed(&self, own: Option<f64>) -> f64 {
         own.unwrap_or(self.feed)
-    }
-
-    /// Whether bars are spared where a segment begins.
-    pub(crate) fn spares_bars(&self) -> bool {
-        self.support_bars == SupportBars::Solid
     }
 
     pub(crate) fn checkpoint(&self) {

@@ -19,7 +19,7 @@ mod z_model;
 
 pub use correction::{Correction, Outside};
 pub use cost::own_moves;
-pub use fold::{FoldOptions, Parts, SupportBars, fold};
+pub use fold::{FoldOptions, Parts, fold};
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,

@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 use pathbuild_db::{Lookup, Restriction, Settings};
 use pathbuild_path::FilePattern;
-use pathbuild_toolpath::{FoldOptions, SupportBars};
+use pathbuild_toolpath::FoldOptions;
 use salsa::Setter;
 
 use crate::embedding::component;
@@ -28,8 +28,7 @@ const VALUES: [&str; 4] = ["path component", "path project", "chains component",
 fn another_feed_reads_no_drawing_again() {
     let mut world = world();
     let before = world.outcome("project");
-    let fold =
-        FoldOptions { feed: Some(101.0), sweep_height: Some(20.0), support_bars: SupportBars::default() };
+    let fold = FoldOptions { feed: Some(101.0), sweep_height: Some(20.0), compatible: true };
     let settings = Settings::get(&world.db);
     settings.set_fold(&mut world.db).to(fold);
     world.expect(

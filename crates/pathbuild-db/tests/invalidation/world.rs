@@ -11,7 +11,7 @@ use pathbuild_db::{
 use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_draw::Sheet;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathName, PathPattern};
-use pathbuild_toolpath::{FoldOptions, SupportBars};
+use pathbuild_toolpath::FoldOptions;
 
 /// Files, a database over them, and the targets that somebody keeps asking for.
 pub(crate) struct World {
@@ -51,8 +51,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         file_pattern: FilePattern::default(),
         search: search.iter().map(Utf8PathBuf::from).collect(),
     };
-    let fold =
-        FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), support_bars: SupportBars::default() };
+    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), compatible: true };
     Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, Limits::default());
 }
 

@@ -31,6 +31,13 @@ messages! {
         help_en: "known here: {known}",
         help_de: "hier bekannt: {known}",
     }
+    /// A key of an earlier version.
+    REPLACED_KEY: InvalidConfiguration {
+        en: "the key `{key}` is gone",
+        de: "den Schlüssel `{key}` gibt es nicht mehr",
+        help_en: "remove it; with `{new} = true` programs are as PathDxf2GCode writes them, without it support bars are left whole",
+        help_de: "entfernen; mit `{new} = true` werden Programme so, wie PathDxf2GCode sie schreibt, ohne bleiben Stützstege ganz",
+    }
     /// A table for something that is not there yet.
     NOT_BUILT: InvalidConfiguration {
         en: "`{key}` is not built yet",

@@ -1,6 +1,6 @@
 //! Support bars. ("Support bars")
 
-use pathbuild_toolpath::{FoldOptions, SupportBars};
+use pathbuild_toolpath::FoldOptions;
 
 use crate::support::{OPTIONS, moves, path, program_with, shown};
 
@@ -117,7 +117,7 @@ fn bars_are_raised_by_h() {
 #[test]
 fn solid_bars_are_not_drilled_into() {
     let drawing = path(&format!("{FOUR} I5"), "bars 0,0 40,0\nend 40,0");
-    let solid = program_with(&drawing, FoldOptions { support_bars: SupportBars::Solid, ..OPTIONS });
+    let solid = program_with(&drawing, FoldOptions { compatible: false, ..OPTIONS });
     let solid = shown(&solid, false);
     assert_eq!(solid[..4], ["L 5", "D 2", "M 2.5,0 2", "M 3.5,0 0"]);
     assert_eq!(solid[2..19], SECTIONS);

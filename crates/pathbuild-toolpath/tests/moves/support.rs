@@ -6,9 +6,7 @@ use pathbuild_path::{
     Bindings, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, Walked, bind, raw_file,
     walk,
 };
-use pathbuild_toolpath::{
-    Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, SupportBars, fold, own_moves,
-};
+use pathbuild_toolpath::{Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
 struct Drawn(Vec<(Path, Walked)>);
@@ -32,7 +30,7 @@ impl Parts for Drawn {
 }
 
 pub(crate) const OPTIONS: FoldOptions =
-    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), support_bars: SupportBars::Compatible };
+    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), compatible: true };
 
 /// The program of the first path of a drawing.
 #[track_caller]

@@ -24,6 +24,9 @@ pub struct CommonArgs {
     /// Probing feed where a path gives none
     #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
     pub probe_feed: Option<String>,
+    /// Programs exactly as `PathDxf2GCode` writes them
+    #[arg(long, global = true)]
+    pub compatible: bool,
     /// Look for embedded paths in this directory too (repeatable)
     #[arg(long, global = true, value_name = "DIR")]
     pub search: Vec<Utf8PathBuf>,

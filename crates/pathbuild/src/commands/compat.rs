@@ -9,7 +9,7 @@
 //! | `/m` | `adjust --max-correction` |
 //! | `/h` `/?` | this table |
 //!
-//! A value may be glued to its option or follow it. Elsewhere than on Windows, `\` in names of files is read as `/`.
+//! Programs are those of the original tool: `--compatible`. A value may be glued to its option or follow it. Elsewhere than on Windows, `\` in names of files is read as `/`.
 
 use std::ffi::OsString;
 
@@ -128,7 +128,7 @@ impl Read {
         arguments.extend(self.max_correction.map(|value| format!("--max-correction={value}")));
         arguments.extend(self.shown.map(|value| format!("{shown}={value}")));
         arguments.extend(self.options);
-        arguments.push("--".to_owned());
+        arguments.extend(["--compatible", "--"].map(str::to_owned));
         arguments.extend(self.files);
         arguments
     }

@@ -30,6 +30,7 @@ pub(super) fn read(arguments: &CommonArgs, working_directory: &Utf8Path) -> (Opt
         .out_dir
         .as_ref()
         .map(|directory| Sourced::option("out-dir", Some(working_directory.join(directory))));
+    general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
     general.lang = arguments.lang.map(|lang| Sourced::option("lang", lang.into()));
     (options, reader.diagnostics)
 }

@@ -100,6 +100,9 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Keys of earlier versions, and those that replace them.
+const REPLACED: [(&str, &str); 1] = [("support-bars", "compatible")];
+
 /// A table that is being read.
 pub(super) struct Table<'t, 'r, 'a> {
     content: &'t DeTable<'t>,
@@ -146,6 +149,12 @@ impl<'a> Table<'_, '_, 'a> {
     fn report_unknown(&mut self) {
         for key in self.content.keys().filter(|key| !self.known.contains(&&**key.get_ref())) {
             self.reader.key = format!("{}{}", self.prefix, key.get_ref());
+            let replaced = REPLACED.iter().find(|(old, _)| old == key.get_ref());
+            if let Some((_, new)) = replaced.filter(|(_, new)| self.known.contains(new)) {
+                let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).with("new", *new);
+                self.reader.report(fault);
+                continue;
+            }
             let fault = match nearest(key.get_ref(), self.known.iter().copied()) {
                 Some(near) => self.reader.fault(&messages::UNKNOWN_KEY, key.span()).with("near", near),
                 None => self

@@ -55,16 +55,6 @@ choice! {
 }
 
 choice! {
-    /// How support bars are milled where a segment begins. (spec/60-gcode.md)
-    SupportBars {
-        /// As the original tool does.
-        Compatible = "compatible",
-        /// Without drilling into the bar at the end.
-        Solid = "solid",
-    }
-}
-
-choice! {
     /// How heights are interpolated between probes. (spec/70-z-probes.md)
     ZModel {
         /// Inverse distance to the nearest four.

@@ -107,7 +107,7 @@ fn options(settings: &Settings, poster: Option<&Poster>) -> Hasher {
     let mut add = |value: &dyn fmt::Debug| part(&mut hasher, format!("{value:?}").as_bytes());
     add(&(general.feed.value, general.rapid.value, general.sweep_height.value, general.probe_feed.value));
     add(&(&general.path_pattern.value, general.units.value, &settings.tables.line_types.value));
-    add(&(general.approximate_curves.value, general.join_tolerance.value, general.support_bars.value));
+    add(&(general.approximate_curves.value, general.join_tolerance.value, general.compatible.value));
     add(&(general.z_model.value, settings.z_split()));
     add(&(general.lang.value, general.charset.value));
     if let Some(poster) = poster {

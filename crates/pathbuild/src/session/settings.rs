@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
-use pathbuild_toolpath::{FoldOptions, SupportBars};
+use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
 use crate::config::types;
@@ -44,10 +44,7 @@ pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
     let fold = FoldOptions {
         feed: general.feed.value,
         sweep_height: general.sweep_height.value,
-        support_bars: match general.support_bars.value {
-            types::SupportBars::Compatible => SupportBars::Compatible,
-            types::SupportBars::Solid => SupportBars::Solid,
-        },
+        compatible: general.compatible.value,
     };
     let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };
     _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);

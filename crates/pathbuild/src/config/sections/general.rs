@@ -10,7 +10,7 @@ use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, TEXT, choice};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
-use crate::config::types::{Charset, Directories, Restriction, SupportBars, Units, ZModel};
+use crate::config::types::{Charset, Directories, Restriction, Units, ZModel};
 
 /// What a path name is, unless the configuration says otherwise. (spec/20-paths-and-files.md)
 pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
@@ -47,8 +47,8 @@ section! {
     approximate_curves: f64 = "approximate-curves", NOT_NEGATIVE, 0.0, "0";
     /// mm: ends this near count as joined, with a warning (PB115) each
     join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0";
-    /// compatible | solid (no drilling into the bar at a segment's end)
-    support_bars: SupportBars = "support-bars", choice::<SupportBars>(), SupportBars::Compatible, r#""compatible""#;
+    /// true: programs exactly as PathDxf2GCode writes them, also where that deviates from its manuals
+    compatible: bool = "compatible", SWITCH, false, "false";
     /// idw4 | plane | tin: how heights between probes are found
     z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#;
     /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20

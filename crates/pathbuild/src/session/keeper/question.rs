@@ -24,7 +24,7 @@ pub(super) fn whole_question(context: &Context, session: &Session<'_>, question:
     add(&(&general.path_pattern.value, &general.file_pattern.value, &general.restrict.value));
     add(&(general.units.value, general.approximate_curves.value, general.join_tolerance.value));
     add(&(general.feed.value, general.rapid.value, general.sweep_height.value, general.probe_feed.value));
-    add(&(general.support_bars.value, general.z_model.value, context.settings.z_split()));
+    add(&(general.compatible.value, general.z_model.value, context.settings.z_split()));
     add(&(general.lang.value, general.charset.value, &general.post.value, general.cycles.value));
     add(&general.out_dir.value.as_ref().map(|directory| session.normal(directory)));
     add(&(limits.file_size.value, limits.entities.value, limits.text_length.value));
