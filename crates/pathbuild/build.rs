@@ -43,7 +43,7 @@ fn build_id() -> u128 {
 }
 
 /// The crates that results depend on.
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "pathbuild",
     "pathbuild-cache",
     "pathbuild-db",
@@ -51,6 +51,7 @@ const CRATES: [&str; 8] = [
     "pathbuild-dxf",
     "pathbuild-gcode",
     "pathbuild-path",
+    "pathbuild-post",
     "pathbuild-toolpath",
 ];
 

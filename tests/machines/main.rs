@@ -19,8 +19,8 @@ use std::io::Write;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::interpret::{Options, interpret, moves_of};
-use pathbuild_gcode::post::{BUILT_IN, Job, Language, Post, PostOptions, ToolTable, load};
 use pathbuild_gcode::verify::{Checks, Ends, Stock, Tolerance, compare, verify};
+use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, ToolTable, load};
 use pathbuild_toolpath::Program;
 use rayon::prelude::*;
 

@@ -6,7 +6,6 @@ pub mod dialect;
 pub mod estimate;
 pub mod interpret;
 pub mod native;
-pub mod post;
 pub mod provenance;
 pub mod read;
 pub mod summary;

@@ -8,7 +8,7 @@ mod program;
 mod read_back;
 mod statistics;
 
-pub(crate) use comment::transliterated;
+pub use comment::transliterated;
 pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};

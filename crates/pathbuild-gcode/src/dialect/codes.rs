@@ -35,7 +35,8 @@ pub enum Acceptance {
 pub struct Letters(u128);
 
 impl Letters {
-    pub(crate) const fn new(letters: &[u8]) -> Self {
+    /// These, in capitals.
+    pub const fn new(letters: &[u8]) -> Self {
         let (mut bits, mut index) = (0, 0);
         while index < letters.len() {
             bits |= 1 << letters[index];

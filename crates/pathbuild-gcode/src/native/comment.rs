@@ -28,7 +28,7 @@ pub fn comment(text: &str, charset: Charset) -> String {
 }
 
 /// What a character is written as where only ASCII may be.
-pub(crate) fn transliterated(character: char) -> &'static str {
+pub fn transliterated(character: char) -> &'static str {
     match character {
         'ä' | 'æ' => "ae",
         'ö' | 'œ' => "oe",

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::post::{self, BUILT_IN, Job, Output, Remark, native_remark};
+use pathbuild_post::{BUILT_IN, Job, Output, Remark, native_remark};
 
 use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
@@ -41,7 +41,7 @@ fn show(context: &Context, name: &str) -> ExitStatus {
             context.printer.result(post.text);
             ExitStatus::Success
         }
-        None => context.fail(post::load(name).err().unwrap_or_default()),
+        None => context.fail(pathbuild_post::load(name).err().unwrap_or_default()),
     }
 }
 

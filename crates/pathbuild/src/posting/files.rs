@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_db::System;
 use pathbuild_db::system::{OsSystem, ReadError};
-use pathbuild_gcode::post::PostFiles;
+use pathbuild_post::PostFiles;
 
 /// A directory with all that is below it.
 #[derive(Debug)]

@@ -10,8 +10,8 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
-use pathbuild_gcode::post::{
-    self, BUILT_IN, Job, Language, Output, Post, PostFiles, PostMacro, PostOptions, Step, ToolTable,
+use pathbuild_post::{
+    BUILT_IN, Job, Language, Output, Post, PostFiles, PostMacro, PostOptions, Step, ToolTable,
 };
 
 use crate::config::{Origin, types};
@@ -86,7 +86,7 @@ impl Poster {
             (Post::read(&bytes, &file)?, bytes, Some(file))
         } else {
             let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
-            (post::load(name)?, text.as_bytes().to_vec(), None)
+            (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None)
         };
         let macros = context.settings.tables.macros.value.iter();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_gcode::post::{Coolant, Job, Spindle, Tool, ToolEntry, ToolTable};
+use pathbuild_post::{Coolant, Job, Spindle, Tool, ToolEntry, ToolTable};
 use regex::Regex;
 
 use crate::config::types;

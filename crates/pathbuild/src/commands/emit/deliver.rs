@@ -8,7 +8,7 @@ use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point};
-use pathbuild_gcode::post;
+use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
 use super::compare;
@@ -287,7 +287,7 @@ fn posted(
 ) -> Result<Output, Vec<Diagnostic>> {
     let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
     let (mut program, warnings) =
-        post::Job::from_programs(&job.path, programs, poster.tools(), poster.cycles());
+        PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
     poster.say(&mut program, &[job.provenance.to_string(), job.title.clone()]);
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path));

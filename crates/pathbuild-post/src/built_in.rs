@@ -1,0 +1,100 @@
+//! The posts that come with pathbuild: definitions in the two languages, to be used, copied and changed. (crates/pathbuild-post/posts)
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::definition::Post;
+use super::suggest::nearest;
+
+/// A post that comes with pathbuild.
+#[derive(Clone, Copy, Debug)]
+pub struct BuiltIn {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// What it is written in.
+    pub language: Language,
+    /// For whom it is, in one line.
+    pub description: &'static str,
+    /// The definition's text; of the native program, what there is to know about it.
+    pub text: &'static str,
+}
+
+/// What a post is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// A CamBam definition (.cbpp).
+    CamBam,
+    /// Control texts (.toml).
+    Cad6,
+    /// The native writer itself: its drillings without F, its correction formulas and its statistics cannot be said in a definition.
+    Native,
+}
+
+impl Language {
+    /// The name as it is listed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CamBam => "CamBam",
+            Self::Cad6 => "control texts",
+            Self::Native => "built in",
+        }
+    }
+
+    /// The extension of a definition's file, without point.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::CamBam => "cbpp",
+            Self::Cad6 => "toml",
+            Self::Native => "txt",
+        }
+    }
+}
+
+/// Every post that comes with pathbuild, in the order in which they are listed.
+pub static BUILT_IN: &[BuiltIn] = &[
+    BuiltIn {
+        name: "native",
+        language: Language::Native,
+        description: "What pathbuild writes by default, with Z correction and statistics",
+        text: NATIVE,
+    },
+    cambam("grbl", "GRBL 1.1", include_str!("../posts/grbl.cbpp")),
+    cambam("linuxcnc", "LinuxCNC, mill", include_str!("../posts/linuxcnc.cbpp")),
+    cambam("mach3", "Mach3 and Mach4, mill", include_str!("../posts/mach3.cbpp")),
+    cambam("fanuc", "Fanuc and controls like it, mill", include_str!("../posts/fanuc.cbpp")),
+    cambam("haas", "Haas mills", include_str!("../posts/haas.cbpp")),
+    cambam("marlin", "Marlin 2 on a mill", include_str!("../posts/marlin.cbpp")),
+    BuiltIn {
+        name: "xpertmill",
+        language: Language::Cad6,
+        description: "XpertMILL (STEP-FOUR) import filter",
+        text: include_str!("../posts/xpertmill.toml"),
+    },
+];
+
+const NATIVE: &str = "\
+The native program has no definition: it is what pathbuild writes without a post. A hole runs at the feed that was last set, heights
+may have correction formulas, and the statistics stand at the end; the languages of definitions cannot say that. To change the words
+of a program, begin with a copy of another post, such as `pathbuild post show linuxcnc`.
+";
+
+const fn cambam(name: &'static str, description: &'static str, text: &'static str) -> BuiltIn {
+    BuiltIn { name, language: Language::CamBam, description, text }
+}
+
+/// The built-in post of a name. The native program is none: it is not written through a post.
+///
+/// # Errors
+/// There is none of that name.
+pub fn load(name: &str) -> Result<Post, Vec<Diagnostic>> {
+    let definitions = || BUILT_IN.iter().filter(|post| post.language != Language::Native);
+    let Some(post) = definitions().find(|post| post.name == name) else {
+        let diagnostic = match nearest(name, definitions().map(|post| post.name)) {
+            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_NEAREST).with("nearest", nearest),
+            None => Diagnostic::new(&posts::POST_UNKNOWN),
+        };
+        return Err(vec![diagnostic.with("name", name)]);
+    };
+    let file = format!("{name}.{}", post.language.extension());
+    Post::read(post.text.as_bytes(), Utf8Path::new(&file))
+}

@@ -1,0 +1,342 @@
+//! The order in which a program calls control texts. (section 1.6)
+//!
+//! CAD6 knows contours: over a point at safety height, down to working height, plunge, elements, up to safety height. A job's rapids are
+//! taken together to such ways; what cannot be told that way is an error, never left out.
+
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_path::approx::at_least;
+
+use super::abilities::Abilities;
+use super::call::{Call, Place, Point, What};
+use super::control_text::Kind;
+use super::definition::Definition;
+use crate::arcs::{MOST_CHORDS, Polar, pieces};
+use crate::holes;
+use crate::job::{Entry, Job, Operation, Plane};
+use crate::step::{Arc, Hole, Position, Step};
+
+type Built = Result<(), Box<Diagnostic>>;
+
+/// The calls of a job, without those at its start and end.
+pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Call<'a>>, Box<Diagnostic>> {
+    let mut builder = Builder::new(job, definition);
+    builder.begin();
+    for index in 0..job.operations.len() {
+        builder.operation(index)?;
+    }
+    builder.close()?;
+    Ok(builder.calls)
+}
+
+struct Builder<'a> {
+    job: &'a Job,
+    abilities: Abilities,
+    index: usize,
+    calls: Vec<Call<'a>>,
+    at: Point,
+    /// Rapids since the last cut.
+    ways: Vec<Point>,
+    /// Remarks and waits among them.
+    asides: Vec<What<'a>>,
+    is_open: bool,
+    is_first: bool,
+    feed: Option<f64>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(job: &'a Job, definition: &Definition) -> Self {
+        let first = &job.operations[0];
+        let at = match first.entry {
+            Entry::At(at) => at,
+            Entry::Clearance => [0.0, 0.0, first.clearance],
+        };
+        Self {
+            job,
+            abilities: Abilities::of(definition),
+            index: 0,
+            calls: Vec::new(),
+            at,
+            ways: Vec::new(),
+            asides: Vec::new(),
+            is_open: false,
+            is_first: true,
+            feed: None,
+        }
+    }
+
+    /// Where every move is written as it is, so is the one to the start.
+    fn begin(&mut self) {
+        if self.abilities.rapid {
+            self.call(What::Rapid { to: self.at });
+        }
+    }
+
+    fn present(&self) -> &'a Operation {
+        &self.job.operations[self.index]
+    }
+
+    fn call(&mut self, what: What<'a>) {
+        self.calls.push(Call { operation: self.index, what });
+    }
+
+    fn operation(&mut self, index: usize) -> Built {
+        let is_new_tool =
+            index > 0 && self.job.operations[index - 1].tool.index != self.job.operations[index].tool.index;
+        if is_new_tool {
+            self.close()?;
+        }
+        self.index = index;
+        self.enter();
+        self.present().steps.iter().try_for_each(|step| self.step(step))
+    }
+
+    /// The way to where an operation begins, if the tool is not there.
+    fn enter(&mut self) {
+        let [x, y, z] = self.end();
+        let clearance = self.present().clearance;
+        match self.present().entry {
+            Entry::At(at) if at != [x, y, z] => {
+                for way in [[x, y, clearance.max(z)], [at[0], at[1], clearance.max(z)], at] {
+                    self.rapid(way);
+                }
+            }
+            Entry::At(_) => {}
+            Entry::Clearance => self.rapid([x, y, clearance]),
+        }
+    }
+
+    /// Where the tool is after the rapids that were put off.
+    fn end(&self) -> Point {
+        self.ways.last().copied().unwrap_or(self.at)
+    }
+
+    fn resolve(&self, to: Position) -> Point {
+        let [x, y, z] = self.end();
+        [to.x.unwrap_or(x), to.y.unwrap_or(y), to.z.unwrap_or(z)]
+    }
+
+    fn step(&mut self, step: &'a Step) -> Built {
+        match step {
+            Step::Rapid { to } => {
+                self.rapid(self.resolve(*to));
+                Ok(())
+            }
+            Step::Comment(text) => {
+                self.aside(What::Comment(text));
+                Ok(())
+            }
+            Step::Hole(hole) => self.hole(hole),
+            Step::Feed { to, feed } => self.feed(self.resolve(*to), *feed),
+            Step::Arc(arc) => self.arc(arc),
+            Step::Dwell { seconds } => {
+                self.aside(What::Dwell(*seconds));
+                Ok(())
+            }
+            Step::Stop => {
+                self.aside(What::Stop);
+                Ok(())
+            }
+            Step::Probe { .. } => {
+                let diagnostic =
+                    Diagnostic::new(&posts::NO_TEXT_FOR).with("operation", &*self.present().name);
+                Err(Box::new(diagnostic.with("text", "probe")))
+            }
+        }
+    }
+
+    /// Neither moves the tool nor ends a contour.
+    fn aside(&mut self, what: What<'a>) {
+        if self.ways.is_empty() {
+            self.call(what);
+        } else {
+            self.asides.push(what);
+        }
+    }
+
+    fn rapid(&mut self, to: Point) {
+        if self.abilities.rapid {
+            if to != self.at {
+                self.call(What::Rapid { to });
+                self.finish_contour();
+            }
+            self.at = to;
+        } else {
+            self.ways.push(to);
+        }
+    }
+
+    fn hole(&mut self, hole: &Hole) -> Built {
+        if !self.abilities.hole {
+            for step in holes::moves(hole)? {
+                match step {
+                    Step::Rapid { to } => self.rapid(self.resolve(to)),
+                    Step::Feed { to, feed } => self.feed(self.resolve(to), feed)?,
+                    Step::Dwell { seconds } => self.aside(What::Dwell(seconds)),
+                    _ => {}
+                }
+            }
+            return Ok(());
+        }
+        self.ways.push([hole.at[0], hole.at[1], hole.level]);
+        self.close()?;
+        self.call(What::Hole { hole: *hole, clearance: hole.level.max(hole.exit) });
+        self.at = [hole.at[0], hole.at[1], hole.exit];
+        Ok(())
+    }
+
+    /// Straight, cutting.
+    fn feed(&mut self, to: Point, feed: Option<f64>) -> Built {
+        let way_end = self.end();
+        let is_plunge = same_plane(way_end, to) && to[2] < way_end[2];
+        let is_start = !self.is_open || !self.ways.is_empty();
+        self.land(is_plunge.then_some((to, feed)))?;
+        if is_plunge && is_start && self.at == to {
+            return Ok(());
+        }
+        self.line(to, feed)
+    }
+
+    fn line(&mut self, to: Point, feed: Option<f64>) -> Built {
+        if to[2] != self.at[2] && !self.abilities.line_z {
+            if !(same_plane(self.at, to) && self.abilities.lift_between_passes) {
+                return Err(self.no_z(to, Kind::Line));
+            }
+            let (clearance, working) = (self.present().clearance, self.at[2].max(to[2]));
+            self.end_contour(clearance);
+            self.start_contour(to, clearance, working, feed);
+            return Ok(());
+        }
+        let place = self.place(feed);
+        self.call(What::Line { to, feed, place });
+        self.at = to;
+        Ok(())
+    }
+
+    fn no_z(&self, to: Point, kind: Kind) -> Box<Diagnostic> {
+        let diagnostic = Diagnostic::new(&posts::NO_Z_IN_TEXT).with("operation", &*self.present().name);
+        Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).with("text", kind.name()))
+    }
+
+    fn place(&mut self, feed: Option<f64>) -> Place {
+        let is_first = self.is_first || feed != self.feed;
+        self.is_first = false;
+        self.feed = feed;
+        Place { is_first, is_last: false }
+    }
+
+    fn arc(&mut self, arc: &Arc) -> Built {
+        self.land(None)?;
+        let plane = self.present().plane;
+        let polar = Polar::of(arc, plane);
+        let is_writable =
+            self.abilities.arc && plane == Plane::Xy && (arc.to[2] == arc.from[2] || self.abilities.arc_z);
+        if is_writable {
+            for arc in pieces(arc, plane, polar.pieces_of(self.abilities.arc_sweep)) {
+                let place = self.place(arc.feed);
+                self.call(What::Arc { arc, place });
+                self.at = arc.to;
+            }
+            return Ok(());
+        }
+        let Some(count) = polar.chords(self.abilities.arc_tolerance) else {
+            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", MOST_CHORDS);
+            return Err(Box::new(diagnostic.with("radius", polar.radius)));
+        };
+        pieces(arc, plane, count).iter().try_for_each(|piece| self.line(piece.to, piece.feed))
+    }
+
+    /// Ends the rapids that were put off: within the material they are elements, else they lead to a new contour, which may begin with
+    /// a plunge.
+    fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> Built {
+        if self.abilities.rapid {
+            return Ok(());
+        }
+        let surface = self.present().surface;
+        let is_within = self.is_open && self.ways.iter().all(|way| !at_least(way[2], surface));
+        if is_within {
+            self.flush_asides();
+            return self.walk(self.ways.len());
+        }
+        let (to, working, clearance) = (self.end(), self.end()[2], self.highest());
+        self.close()?;
+        let (to, feed) = plunge.unwrap_or((to, None));
+        self.start_contour(to, clearance, working, feed);
+        Ok(())
+    }
+
+    /// Makes elements of the first rapids that were put off.
+    fn walk(&mut self, count: usize) -> Built {
+        let ways: Vec<Point> = self.ways.drain(..count).collect();
+        ways.into_iter().try_for_each(|way| self.line(way, self.feed))
+    }
+
+    /// How many of the rapids that were put off lead to places within the material, beside the end of the contour.
+    fn sideways(&self) -> usize {
+        let surface = self.present().surface;
+        let (mut before, mut count) = (self.at, 0);
+        for (index, &way) in self.ways.iter().enumerate().take_while(|(_, way)| !at_least(way[2], surface)) {
+            if !same_plane(before, way) {
+                count = index + 1;
+            }
+            before = way;
+        }
+        count
+    }
+
+    /// The highest point of the rapids that were put off.
+    fn highest(&self) -> f64 {
+        let start = if self.is_open { f64::NEG_INFINITY } else { self.at[2] };
+        self.ways.iter().map(|way| way[2]).fold(start, f64::max)
+    }
+
+    fn start_contour(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) {
+        self.call(What::Start { at, clearance, working, feed });
+        self.at = at;
+        self.is_open = true;
+        self.is_first = true;
+    }
+
+    /// Ends the contour that is open, above where the rapids lead that were put off.
+    fn close(&mut self) -> Built {
+        let end = self.end();
+        if self.is_open && !self.abilities.rapid {
+            self.walk(self.sideways())?;
+            let highest = self.highest();
+            self.end_contour(if highest.is_finite() { highest } else { self.present().clearance });
+        }
+        self.finish_contour();
+        self.at = end;
+        self.ways.clear();
+        self.flush_asides();
+        Ok(())
+    }
+
+    fn flush_asides(&mut self) {
+        for aside in std::mem::take(&mut self.asides) {
+            self.call(aside);
+        }
+    }
+
+    fn end_contour(&mut self, clearance: f64) {
+        self.finish_contour();
+        self.call(What::End { clearance });
+        self.is_open = false;
+    }
+
+    /// Marks the last element.
+    fn finish_contour(&mut self) {
+        self.is_first = true;
+        let places = self.calls.iter_mut().rev().map_while(|call| match &mut call.what {
+            What::Line { place, .. } | What::Arc { place, .. } => Some(Some(place)),
+            What::Comment(_) | What::Dwell(_) | What::Stop | What::Rapid { .. } => Some(None),
+            _ => None,
+        });
+        if let Some(place) = places.flatten().next() {
+            place.is_last = true;
+        }
+    }
+}
+
+fn same_plane(a: Point, b: Point) -> bool {
+    a[..2] == b[..2]
+}

@@ -1,0 +1,233 @@
+//! Reading a definition with control texts: a TOML file. (spec/85-post-processors.md, "CAD6 control texts")
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::control_text::{ControlText, Kind};
+use super::lints;
+use super::marks::is_private;
+use super::settings::{SETTINGS, Settings};
+use crate::Units;
+use crate::suggest::nearest;
+
+/// A definition as its file has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Definition {
+    pub(super) settings: Settings,
+    /// By kind.
+    texts: Vec<Option<ControlText>>,
+    /// Names that the texts use, and the variables that they stand for.
+    pub(super) aliases: Vec<(Box<str>, Box<str>)>,
+}
+
+impl Definition {
+    /// Reads a definition. What is doubtful in it is warnings beside it.
+    pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let mut reader = Reader { source: text, file, diagnostics: Vec::new() };
+        let table = match DeTable::parse(text) {
+            Ok(table) => table,
+            Err(error) => {
+                let reason = error.message().to_owned();
+                reader.report(
+                    Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason),
+                    error.span().unwrap_or(0..0),
+                );
+                return Err(reader.diagnostics);
+            }
+        };
+        let definition = reader.definition(table.get_ref());
+        let mut diagnostics = reader.diagnostics;
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(diagnostics);
+        }
+        diagnostics.extend(lints::of(&definition, file));
+        Ok((definition, diagnostics))
+    }
+
+    /// Extension of the files it writes.
+    pub(crate) fn extension(&self) -> &str {
+        &self.settings.extension
+    }
+
+    /// The dialect that it names.
+    pub(crate) fn dialect(&self) -> Option<&str> {
+        self.settings.dialect.as_deref()
+    }
+
+    /// Whether a text uses a variable, under its own name or another.
+    pub(crate) fn uses(&self, variable: &str) -> bool {
+        let others = self.aliases.iter().filter(|(_, ours)| **ours == *variable).map(|(theirs, _)| &**theirs);
+        let names: Vec<&str> = others.chain([variable]).collect();
+        self.texts.iter().flatten().any(|text| names.iter().any(|name| text.text.contains(name)))
+    }
+
+    /// Decimals of rounded numbers.
+    pub(crate) fn decimals(&self) -> u8 {
+        u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
+    }
+
+    /// Greatest distance in mm of a line from the arc that it stands for.
+    pub(crate) fn chord(&self) -> f64 {
+        self.settings.arc_tolerance
+    }
+
+    /// The unit that is written; `None`: the program's.
+    pub(crate) fn units(&self) -> Option<Units> {
+        self.settings.units
+    }
+
+    /// What it says about itself.
+    pub(crate) fn description(&self) -> &str {
+        &self.settings.description
+    }
+
+    /// A control text; `None` when it is absent or empty.
+    pub(super) fn text(&self, kind: Kind) -> Option<&ControlText> {
+        self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())
+    }
+
+    /// Whether a text has the height to which a move goes.
+    pub(super) fn names_z(&self, kind: Kind) -> bool {
+        let is_z = |own: &str| matches!(own, "Z1" | "ZIncr");
+        let others = self.aliases.iter().filter(|(_, own)| is_z(own)).map(|(other, _)| &**other);
+        let mut names = ["Z1", "ZIncr"].into_iter().chain(others).map(|name| format!("~{name}~"));
+        self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
+    }
+
+    /// Every control text.
+    pub(super) fn texts(&self) -> impl Iterator<Item = (Kind, &ControlText)> {
+        Kind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
+    }
+}
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+struct Reader<'a> {
+    source: &'a str,
+    file: &'a Utf8Path,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
+        let (line, column) = self.place(span.start);
+        self.diagnostics.push(diagnostic.in_file(self.file).at_line(line, Some(column)));
+    }
+
+    /// Line and column, from 1.
+    fn place(&self, byte: usize) -> (u32, u32) {
+        ControlText { text: self.source.to_owned(), begins: None }.place(byte)
+    }
+
+    fn definition(&mut self, root: &DeTable<'_>) -> Definition {
+        let mut definition = Definition {
+            settings: Settings::default(),
+            texts: vec![None; Kind::ALL.len()],
+            aliases: Vec::new(),
+        };
+        self.each(root, "", &["post", "text", "alias"], |reader, key, value| {
+            let Some(table) = value.get_ref().as_table() else { return reader.refuse(key, value, "a table") };
+            match key {
+                "post" => reader.settings(table, &mut definition.settings),
+                "text" => reader.texts(table, &mut definition.texts),
+                _ => reader.aliases(table, &mut definition.aliases),
+            }
+        });
+        definition
+    }
+
+    /// Reads every entry of a table whose key is known.
+    fn each(
+        &mut self,
+        table: &DeTable<'_>,
+        prefix: &str,
+        known: &[&'static str],
+        mut read: impl FnMut(&mut Self, &'static str, &Value<'_>),
+    ) {
+        for (key, value) in table {
+            if let Some(known) = known.iter().find(|known| **known == key.get_ref().as_ref()) {
+                read(self, known, value);
+            } else {
+                self.unknown_key(key, prefix, known);
+            }
+        }
+    }
+
+    fn unknown_key(&mut self, key: &Spanned<Cow<'_, str>>, prefix: &str, known: &[&'static str]) {
+        let diagnostic = match nearest(key.get_ref(), known.iter().copied()) {
+            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_KEY_NEAREST).with("nearest", nearest),
+            None => Diagnostic::new(&posts::POST_UNKNOWN_KEY),
+        };
+        self.report(diagnostic.with("key", format!("{prefix}{}", key.get_ref())), key.span());
+    }
+
+    fn refuse(&mut self, key: &str, value: &Value<'_>, expected: &'static str) {
+        let found =
+            self.source.get(value.span()).unwrap_or("").lines().next().unwrap_or("").trim_matches('"');
+        let diagnostic = Diagnostic::new(&posts::POST_OPTION).with("option", key).with("value", found);
+        self.report(diagnostic.with("expected", expected), value.span());
+    }
+
+    fn settings(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
+        let names: Vec<&'static str> = SETTINGS.iter().map(|(name, _)| *name).collect();
+        self.each(table, "post.", &names, |reader, key, value| {
+            let Some((_, setting)) = SETTINGS.iter().find(|(name, _)| *name == key) else { return };
+            if (setting.set)(settings, value.get_ref()).is_none() {
+                reader.refuse(key, value, setting.expected);
+            }
+        });
+    }
+
+    fn texts(&mut self, table: &DeTable<'_>, texts: &mut [Option<ControlText>]) {
+        let names: Vec<&'static str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+        self.each(table, "text.", &names, |reader, key, value| {
+            let Some(kind) = Kind::ALL.iter().find(|kind| kind.name() == key) else { return };
+            match value.get_ref().as_str() {
+                Some(text) if text.contains(is_private) => {
+                    reader.refuse(key, value, "a text of ordinary characters");
+                }
+                Some(text) => texts[*kind as usize] = Some(reader.control_text(text, value.span())),
+                None => reader.refuse(key, value, "a text"),
+            }
+        });
+    }
+
+    fn control_text(&self, text: &str, span: Range<usize>) -> ControlText {
+        let text = text.replace("\r\n", "\n");
+        let text = text.strip_suffix('\n').unwrap_or(&text).to_owned();
+        ControlText { begins: Some(self.place(span.start + self.opening_length(&span))), text }
+    }
+
+    /// The length of the quotes in front of a text, with the line end that belongs to them.
+    fn opening_length(&self, span: &Range<usize>) -> usize {
+        let quoted = self.source.get(span.clone()).unwrap_or("");
+        let quotes = if quoted.starts_with("'''") || quoted.starts_with("\"\"\"") { 3 } else { 1 };
+        let rest = &quoted[quotes.min(quoted.len())..];
+        let line_end = if rest.starts_with("\r\n") { 2 } else { usize::from(rest.starts_with('\n')) };
+        quotes + if quotes == 3 { line_end } else { 0 }
+    }
+
+    fn aliases(&mut self, table: &DeTable<'_>, aliases: &mut Vec<(Box<str>, Box<str>)>) {
+        for (own, other) in table {
+            match other.get_ref().as_str() {
+                Some(name) if super::expand::is_name(name) => {
+                    self.lint_alias(own);
+                    aliases.push((name.into(), own.get_ref().as_ref().into()));
+                }
+                _ => self.refuse(own.get_ref(), other, "the name of a variable"),
+            }
+        }
+    }
+
+    fn lint_alias(&mut self, own: &Spanned<Cow<'_, str>>) {
+        let name = own.get_ref().as_ref();
+        if !super::variables::KNOWN.contains(&name) && !super::variables::is_parameter(name) {
+            self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).with("name", name), own.span());
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! The second phase of a call: every statement is replaced by its result. (sections 1.2 and 1.7)
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::posts;
+
+use super::expand::{Expanded, is_name};
+use super::fault::{Evaluated, Fault};
+use super::marks::{UNDEFINED, char_of, is_mark};
+use super::numbers::{CForm, Form};
+use super::term::{Doubt, evaluate};
+use super::variables::Variables;
+use crate::PostFiles;
+
+/// Statements may be nested so deep.
+const MOST_DEPTH: usize = 64;
+
+/// What a text is evaluated with.
+pub(super) struct Surroundings<'a> {
+    pub(super) variables: &'a mut Variables,
+    /// Decimals of rounded numbers.
+    pub(super) decimals: usize,
+    /// Files that may be inserted, and those that were.
+    pub(super) files: &'a dyn PostFiles,
+    pub(super) inserted: &'a mut Vec<Box<str>>,
+}
+
+/// A line of a result.
+#[derive(Debug, Default)]
+pub(super) struct ResultLine {
+    pub(super) text: String,
+    /// A statement or variable stood in it: it is dropped when it is blank.
+    pub(super) is_made: bool,
+    /// Part of it comes from a file.
+    pub(super) is_inserted: bool,
+}
+
+/// What a text comes to.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    pub(super) lines: Vec<ResultLine>,
+    /// What is doubtful, by byte of the expanded text.
+    pub(super) doubts: Vec<(usize, Doubt)>,
+}
+
+/// Runs the statements of a text.
+pub(super) fn run(text: &Expanded, surroundings: Surroundings<'_>) -> Evaluated<Outcome> {
+    let mut evaluator = Evaluator {
+        text: &text.text,
+        expanded: text,
+        at: 0,
+        depth: 0,
+        lines: vec![ResultLine::default()],
+        doubts: Vec::new(),
+        surroundings,
+    };
+    evaluator.text(false)?;
+    Ok(Outcome { lines: evaluator.lines, doubts: evaluator.doubts })
+}
+
+/// Goes through a text.
+pub(super) struct Evaluator<'a> {
+    pub(super) text: &'a str,
+    expanded: &'a Expanded,
+    pub(super) at: usize,
+    depth: usize,
+    pub(super) lines: Vec<ResultLine>,
+    doubts: Vec<(usize, Doubt)>,
+    pub(super) surroundings: Surroundings<'a>,
+}
+
+impl<'a> Evaluator<'a> {
+    pub(super) fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    pub(super) fn fault(&self, message: &'static pathbuild_diagnostic::Message, length: usize) -> Box<Fault> {
+        Fault::new(message, self.at..(self.at + length).min(self.text.len()))
+    }
+
+    /// Literal text with statements in it, up to its end, or up to the closing brace of the statement that it is in.
+    fn text(&mut self, is_inside: bool) -> Evaluated<()> {
+        while let Some(c) = self.rest().chars().next() {
+            match c {
+                '{' => self.statement()?,
+                '}' if is_inside => return Ok(()),
+                '}' => return Err(self.fault(&posts::LONE_BRACE, 1)),
+                '\\' => self.escape()?,
+                UNDEFINED => return Err(self.undefined(self.at)),
+                _ => {
+                    self.at += c.len_utf8();
+                    self.push(c);
+                }
+            }
+        }
+        if is_inside { Err(self.fault(&posts::OPEN_BRACE, 0)) } else { Ok(()) }
+    }
+
+    fn push(&mut self, c: char) {
+        let is_made = self.depth > 0;
+        let line = self.line();
+        match c {
+            _ if is_mark(c) => line.is_made = true,
+            '\n' => self.lines.push(ResultLine { is_made, ..ResultLine::default() }),
+            _ => line.text.push(c),
+        }
+    }
+
+    fn line(&mut self) -> &mut ResultLine {
+        if self.lines.is_empty() {
+            self.lines.push(ResultLine::default());
+        }
+        self.lines.last_mut().expect("one was pushed if there was none")
+    }
+
+    fn undefined(&self, at: usize) -> Box<Fault> {
+        let name = self.expanded.undefined_at(at);
+        Fault::new(&posts::VARIABLE_UNDEFINED, at..at + 1).with("name", name)
+    }
+
+    fn escape(&mut self) -> Evaluated<()> {
+        let rest = self.rest();
+        if let Some(after) = rest.strip_prefix(r"\\\~*") {
+            return self.insertion(after);
+        }
+        if let Some(byte) = rest.strip_prefix(r"\\\~").and_then(hex_byte) {
+            self.at += 6;
+            self.push(char_of(byte));
+            return Ok(());
+        }
+        let escaped = rest[1..].chars().next().filter(|c| matches!(c, '~' | '{' | '}' | '\\'));
+        self.at += 1 + escaped.map_or(0, char::len_utf8);
+        self.push(escaped.unwrap_or('\\'));
+        Ok(())
+    }
+
+    /// The content of a file, which means nothing here.
+    fn insertion(&mut self, after: &str) -> Evaluated<()> {
+        let start = self.at;
+        let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
+        let name: String = after[..length].chars().filter(|c| !is_mark(*c)).collect();
+        self.at += 5 + length + 1;
+        let span = start..self.at;
+        if let Some(at) = after[..length].find(UNDEFINED) {
+            return Err(self.undefined(start + 5 + at));
+        }
+        let content = super::insert::read(&name, self.surroundings.files).map_err(|reason| {
+            Fault::new(&posts::INSERTION_REFUSED, span).with("name", name.as_str()).with("reason", reason)
+        })?;
+        self.surroundings.inserted.push(name.into());
+        let line = self.line();
+        line.is_inserted = true;
+        line.text.extend(content.iter().map(|&byte| char_of(byte)));
+        Ok(())
+    }
+
+    /// A statement, whose result goes into the text.
+    pub(super) fn statement(&mut self) -> Evaluated<()> {
+        if self.depth == MOST_DEPTH {
+            return Err(self.fault(&posts::TEXT_DEPTH, 1).with("limit", MOST_DEPTH));
+        }
+        self.depth += 1;
+        self.line().is_made = true;
+        let start = self.at;
+        self.at += 1;
+        self.skip_marks();
+        let kind = self.rest().chars().next();
+        if let Some(kind) = kind.filter(|kind| "=?!\"$*§".contains(*kind)) {
+            self.at += kind.len_utf8();
+        }
+        match kind {
+            Some('=') => self.assignment()?,
+            Some('?') => self.conditional()?,
+            Some('!') => self.non_existence()?,
+            Some('"') => self.comparison()?,
+            Some('$') => self.text(true)?,
+            Some('*') => self.at = self.closing_brace(start)?,
+            Some('§') => return Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..self.at)),
+            _ => self.number(start)?,
+        }
+        self.close(start)?;
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn skip_marks(&mut self) {
+        self.at += self.rest().len() - self.rest().trim_start_matches(is_mark).len();
+    }
+
+    pub(super) fn blanks(&mut self) {
+        let is_blank = |c: char| c.is_whitespace() || is_mark(c);
+        self.at += self.rest().len() - self.rest().trim_start_matches(is_blank).len();
+    }
+
+    fn close(&mut self, start: usize) -> Evaluated<()> {
+        self.blanks();
+        if self.rest().starts_with('}') {
+            self.at += 1;
+            return Ok(());
+        }
+        if self.rest().is_empty() {
+            return Err(Fault::new(&posts::OPEN_BRACE, start..start + 1));
+        }
+        Err(self.fault(&posts::STATEMENT_GOES_ON, 1))
+    }
+
+    pub(super) fn name(&mut self) -> Evaluated<&'a str> {
+        let rest = self.rest();
+        let length = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
+        if !is_name(&rest[..length]) {
+            return Err(self.fault(&posts::NAME_EXPECTED, rest.chars().next().map_or(0, char::len_utf8)));
+        }
+        self.at += length;
+        Ok(&rest[..length])
+    }
+
+    fn number(&mut self, start: usize) -> Evaluated<()> {
+        let form = self.form();
+        let length = self.rest().find(['}', '{']).unwrap_or(self.rest().len());
+        let value = self.term(self.at..self.at + length)?;
+        self.at += length;
+        let text = form.write(value, self.surroundings.decimals);
+        let text = text.ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
+        self.line().text.push_str(&text);
+        Ok(())
+    }
+
+    /// The form of a number; a form as in C needs a blank behind it.
+    fn form(&mut self) -> Form {
+        let rest = self.rest();
+        if let Some(form) = rest.chars().next().and_then(Form::of) {
+            self.at += 1;
+            return form;
+        }
+        let c_form =
+            rest.find([' ', '\t']).and_then(|blank| Some((blank, rest[..blank].parse::<CForm>().ok()?)));
+        match c_form {
+            Some((blank, form)) => {
+                self.at += blank;
+                Form::C(form)
+            }
+            None => Form::Shortest,
+        }
+    }
+
+    pub(super) fn term(&mut self, span: Range<usize>) -> Evaluated<f64> {
+        let text = &self.text[span.clone()];
+        if let Some(at) = text.find(UNDEFINED) {
+            return Err(self.undefined(span.start + at));
+        }
+        let term = evaluate(text).map_err(|fault| fault.shifted(span.start))?;
+        self.doubts.extend(term.doubts.into_iter().map(|doubt| (span.start, doubt)));
+        Ok(term.value)
+    }
+}
+
+fn hex_byte(text: &str) -> Option<u8> {
+    let digits = text.get(..2).filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))?;
+    u8::from_str_radix(digits, 16).ok()
+}

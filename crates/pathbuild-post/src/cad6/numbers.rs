@@ -1,0 +1,192 @@
+//! How statements write numbers. (`reference/cad6_xpertmill_gcode.md`, sections 1.2 and 1.7)
+
+use std::str::FromStr;
+
+use super::term::bits;
+use crate::number::NumberFormat;
+
+/// A form of number, chosen by the character behind the brace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// As many decimals as there are.
+    Shortest,
+    /// `'`: two decimals, thousands apart.
+    Money,
+    /// `%`, `.`: rounded.
+    Rounded,
+    /// `,`: rounded, with a decimal comma.
+    Comma,
+    /// `+`: rounded, always with a sign.
+    Signed,
+    /// `&`: rounded, always with a sign, with a decimal comma.
+    SignedComma,
+    /// `#`: whole.
+    Whole,
+    /// `f`, `g`, `d`, `x`, `b`, `s` as in C.
+    C(CForm),
+}
+
+/// A form as in C. Flags, width and precision are pathbuild's own: how CAD6 spells them is not known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct CForm {
+    /// Blanks are added behind instead of in front.
+    left: bool,
+    /// Zeros are added instead of blanks.
+    zeros: bool,
+    width: usize,
+    precision: Option<usize>,
+    letter: char,
+}
+
+/// Wider numbers are a slip of the pen.
+const WIDEST: usize = 64;
+
+impl Form {
+    /// The form that a character chooses.
+    pub(super) fn of(character: char) -> Option<Self> {
+        Some(match character {
+            '\'' => Self::Money,
+            '%' | '.' => Self::Rounded,
+            ',' => Self::Comma,
+            '+' => Self::Signed,
+            '&' => Self::SignedComma,
+            '#' => Self::Whole,
+            _ => return None,
+        })
+    }
+
+    /// A finite number as text, rounded to `decimals` where the form says so; `None` where it has no such form (bits of a fraction).
+    pub(super) fn write(self, value: f64, decimals: usize) -> Option<String> {
+        let rounded = || NumberFormat::decimals(0, decimals).format(value);
+        Some(match self {
+            Self::Shortest => shortest(value),
+            Self::Money => money(value),
+            Self::Rounded => rounded(),
+            Self::Comma => rounded().replace('.', ","),
+            Self::Signed => signed(rounded()),
+            Self::SignedComma => signed(rounded()).replace('.', ","),
+            Self::Whole => NumberFormat::decimals(0, 0).format(value),
+            Self::C(form) => return form.write(value),
+        })
+    }
+}
+
+/// The shortest text that is read back as the same number.
+pub(super) fn shortest(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { value.to_string() }
+}
+
+fn signed(text: String) -> String {
+    if text.starts_with('-') { text } else { format!("+{text}") }
+}
+
+fn money(value: f64) -> String {
+    let text = NumberFormat::decimals(2, 2).format(value);
+    let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("-", digits));
+    let (whole, decimals) = digits.split_once('.').unwrap_or((digits, "00"));
+    let mut grouped = String::new();
+    for (index, digit) in whole.chars().enumerate() {
+        if index > 0 && (whole.len() - index) % 3 == 0 {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    format!("{sign}{grouped}.{decimals}")
+}
+
+impl CForm {
+    fn write(self, value: f64) -> Option<String> {
+        let precision = self.precision.unwrap_or(6);
+        let text = match self.letter {
+            'f' => NumberFormat::decimals(precision, precision).format(value),
+            'g' => format!("{value:.precision$e}"),
+            'd' => NumberFormat::decimals(0, 0).format(value),
+            'x' => format!("{:x}", u64::try_from(bits(value)?).ok()?),
+            'b' => format!("{:b}", u64::try_from(bits(value)?).ok()?),
+            _ => shortest(value),
+        };
+        Some(self.pad(&text))
+    }
+
+    fn pad(self, text: &str) -> String {
+        let fill = self.width.saturating_sub(text.len());
+        match (self.left, self.zeros, text.strip_prefix('-')) {
+            (true, ..) => format!("{text}{}", " ".repeat(fill)),
+            (_, true, Some(digits)) => format!("-{}{digits}", "0".repeat(fill)),
+            (_, true, None) => format!("{}{text}", "0".repeat(fill)),
+            (_, false, _) => format!("{}{text}", " ".repeat(fill)),
+        }
+    }
+}
+
+/// `[-][0][width][.precision]letter`.
+impl FromStr for CForm {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let letter =
+            text.chars().next_back().filter(|c| matches!(c, 'f' | 'g' | 'd' | 'x' | 'b' | 's')).ok_or(())?;
+        let rest = &text[..text.len() - 1];
+        let (left, rest) = rest.strip_prefix('-').map_or((false, rest), |rest| (true, rest));
+        let (zeros, rest) = rest.strip_prefix('0').map_or((false, rest), |rest| (true, rest));
+        let (width, precision) = match rest.split_once('.') {
+            Some((width, precision)) => (width, Some(precision)),
+            None => (rest, None),
+        };
+        let count = |text: &str| text.parse().ok().filter(|count| *count <= WIDEST).ok_or(());
+        let width = if width.is_empty() { 0 } else { count(width)? };
+        Ok(Self { left, zeros, width, precision: precision.map(count).transpose()?, letter })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn write(form: char, value: f64) -> String {
+        Form::of(form).unwrap().write(value, 2).unwrap()
+    }
+
+    #[test]
+    fn rounding_drops_trailing_zeros() {
+        assert_eq!(write('.', 50.0), "50");
+        assert_eq!(write('%', 1.005), "1.01");
+        assert_eq!(write(',', -160.508_6), "-160,51");
+    }
+
+    #[test]
+    fn signs_are_always_written_on_demand() {
+        assert_eq!(write('+', 50.0), "+50");
+        assert_eq!(write('&', 1.5), "+1,5");
+        assert_eq!(write('+', -0.001), "+0", "never minus zero");
+    }
+
+    #[test]
+    fn whole_numbers_are_rounded_half_away_from_zero() {
+        assert_eq!(write('#', 2.5), "3");
+        assert_eq!(write('#', -2.5), "-3");
+        assert_eq!(write('#', -0.4), "0");
+    }
+
+    #[test]
+    fn money_has_two_decimals_and_groups() {
+        assert_eq!(write('\'', 1_234_567.5), "1,234,567.50");
+        assert_eq!(write('\'', -999.0), "-999.00");
+    }
+
+    #[test]
+    fn forms_as_in_c() {
+        let write = |form: &str, value| Form::C(form.parse().unwrap()).write(value, 2);
+        assert_eq!(write("f", 1.5).unwrap(), "1.500000");
+        assert_eq!(write("8.2f", -1.5).unwrap(), "   -1.50");
+        assert_eq!(write("05d", -42.4).unwrap(), "-0042");
+        assert_eq!(write("-5d", 42.0).unwrap(), "42   ");
+        assert_eq!(write(".2g", 1234.0).unwrap(), "1.23e3");
+        assert_eq!(write("x", 255.0).unwrap(), "ff");
+        assert_eq!(write("b", 5.0).unwrap(), "101");
+        assert_eq!(write("s", 0.1).unwrap(), "0.1");
+        assert_eq!(write("x", 1.5), None);
+        assert_eq!("65f".parse::<CForm>(), Err(()));
+        assert_eq!("q".parse::<CForm>(), Err(()));
+    }
+}

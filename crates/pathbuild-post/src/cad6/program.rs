@@ -1,0 +1,245 @@
+//! A job through control texts: sets the variables of each call and makes it.
+
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::call::{Call, Place, Point, What};
+use super::calls::calls;
+use super::control_text::Kind;
+use super::runner::{Called, Runner};
+use crate::PostOptions;
+use crate::arcs::Polar;
+use crate::job::{Coolant, Job, Operation, Plane, Spindle, Units};
+use crate::step::{Arc, Hole, HoleKind};
+
+/// Makes the calls of a job.
+pub(super) struct Caller<'a, 'r> {
+    job: &'a Job,
+    runner: &'r mut Runner<'a>,
+    /// The unit that is written, in mm.
+    unit: f64,
+    at: Point,
+    tool: Option<u32>,
+    contours: u32,
+    elements: u32,
+}
+
+/// Runs every text that a job calls.
+pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runner<'a>) -> Called {
+    let calls = calls(job, runner.definition)?;
+    let units = runner.definition.settings.units.unwrap_or(job.units);
+    let unit = units.millimetres();
+    let mut caller = Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0 };
+    caller.constants(units, options);
+    caller.runner.call(Kind::ProgramStart)?;
+    calls.iter().try_for_each(|call| caller.make(call))?;
+    caller.runner.call(Kind::PrimaryRun)?;
+    caller.runner.call(Kind::BeforeRepeat)?;
+    caller.runner.call(Kind::ProgramEnd)
+}
+
+impl Caller<'_, '_> {
+    fn set(&mut self, name: &str, value: f64) {
+        self.runner.variables.set(name, value);
+    }
+
+    fn length(&mut self, name: &str, millimetres: f64) {
+        self.set(name, millimetres / self.unit);
+    }
+
+    fn flag(&mut self, name: &str, is_set: bool) {
+        self.set(name, f64::from(u8::from(is_set)));
+    }
+
+    fn text(&mut self, name: &str, text: &str) {
+        self.runner.variables.set_text(name, text);
+    }
+
+    fn constants(&mut self, units: Units, options: &PostOptions<'_>) {
+        for own in &options.macros {
+            self.runner.variables.assign(&own.name, &own.value);
+        }
+        for axis in ["X", "Y", "Z"] {
+            self.runner.variables.assign(&format!("{axis}Incr"), &format!("(~{axis}1~-~Prev{axis}~)"));
+        }
+        for (name, value) in
+            [("LineNumber", 10.0), ("ToolChangeCommands", 1.0), ("MachinePosX", 0.0), ("MachinePosY", 0.0)]
+        {
+            self.set(name, value);
+        }
+        self.set("Units", if units == Units::Inches { 2.0 } else { 0.0 });
+        self.set("Decimals", self.runner.definition.settings.decimals as f64);
+        self.text("PrgName", &self.job.name);
+        self.text("SourceFile", &self.job.drawing);
+        if let Some(date) = &options.date {
+            self.text("Date", date);
+        }
+        self.operation(&self.job.operations[0]);
+        self.length("ZClearance", self.job.operations[0].clearance);
+    }
+
+    fn operation(&mut self, operation: &Operation) {
+        self.text("PathName", &operation.name);
+        self.text("ToolName", &operation.tool.name);
+        self.set("MachineToolNo", f64::from(operation.tool.index));
+        self.length("ToolDiameter", operation.tool.diameter);
+        self.flag("MillingSpindleDir", operation.spindle == Some(Spindle::CounterClockwise));
+        match operation.speed {
+            Some(speed) => self.set("MillingSpindleRate", speed),
+            None => self.runner.variables.remove("MillingSpindleRate"),
+        }
+        self.flag("ToolControl1", matches!(operation.coolant, Some(Coolant::Flood | Coolant::Mist)));
+        self.flag("ToolControl2", operation.coolant == Some(Coolant::Mist));
+        self.length("ZWorking", operation.retract);
+        let feeds =
+            [("LoweringVel", self.job.plunge_feed(operation)), ("MovingVel", self.job.cut_feed(operation))];
+        for (name, feed) in feeds {
+            if let Some(feed) = feed {
+                self.length(name, feed);
+            }
+        }
+    }
+
+    fn make(&mut self, call: &Call<'_>) -> Called {
+        let operation = &self.job.operations[call.operation];
+        self.operation(operation);
+        match &call.what {
+            What::Start { at, clearance, working, feed } => {
+                self.length("ZClearance", clearance.max(self.at[2]));
+                self.change_tool(operation)?;
+                self.start(*at, *clearance, *working, *feed)
+            }
+            What::Line { to, feed, place } => {
+                self.change_tool(operation)?;
+                self.element(*to, *feed, *place);
+                self.runner.call(Kind::Line)
+            }
+            What::Arc { arc, place } => {
+                self.change_tool(operation)?;
+                self.arc(arc);
+                self.element(arc.to, arc.feed, *place);
+                self.runner.call(Kind::Arc)?;
+                self.forget_arc();
+                Ok(())
+            }
+            What::End { clearance } => {
+                self.length("ZClearance", *clearance);
+                self.at[2] = *clearance;
+                self.runner.call(Kind::ContourEnd)
+            }
+            What::Hole { hole, clearance } => {
+                self.length("ZClearance", *clearance);
+                self.change_tool(operation)?;
+                self.hole(hole)
+            }
+            What::Rapid { to } => {
+                self.length("ZClearance", operation.clearance);
+                self.change_tool(operation)?;
+                self.move_to(*to);
+                self.runner.call(Kind::Rapid)
+            }
+            What::Dwell(seconds) => {
+                self.set("DwellTime", *seconds);
+                self.require(Kind::Dwell, operation)?;
+                self.runner.call(Kind::Dwell)
+            }
+            What::Stop => {
+                self.require(Kind::Stop, operation)?;
+                self.runner.call(Kind::Stop)
+            }
+            What::Comment(text) => {
+                self.text("CommentText", text);
+                self.runner.call(Kind::Comment)
+            }
+        }
+    }
+
+    fn require(&self, kind: Kind, operation: &Operation) -> Called {
+        if self.runner.definition.text(kind).is_some() {
+            return Ok(());
+        }
+        let diagnostic = Diagnostic::new(&posts::NO_TEXT_FOR).with("operation", &*operation.name);
+        Err(Box::new(diagnostic.with("text", kind.name())))
+    }
+
+    fn change_tool(&mut self, operation: &Operation) -> Called {
+        let is_new = self.tool != Some(operation.tool.index);
+        self.flag("ToolChanged", is_new);
+        self.tool = Some(operation.tool.index);
+        if is_new { self.runner.call(Kind::ToolChange) } else { Ok(()) }
+    }
+
+    fn start(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) -> Called {
+        self.contours += 1;
+        self.elements = 0;
+        self.set("ContourNo", f64::from(self.contours));
+        self.flag("UpdateXYPosition", true);
+        self.flag("UseAuxPoint", false);
+        self.flag("UpdateCutterRotationOnly", false);
+        self.length("ZClearance", clearance);
+        self.length("ZWorking", working);
+        if let Some(feed) = feed {
+            self.length("LoweringVel", feed);
+        }
+        self.move_to(at);
+        self.runner.call(Kind::ContourStart)
+    }
+
+    fn move_to(&mut self, to: Point) {
+        for (axis, (from, to)) in ["X", "Y", "Z"].into_iter().zip(self.at.into_iter().zip(to)) {
+            self.length(&format!("Prev{axis}"), from);
+            self.length(&format!("{axis}1"), to);
+        }
+        self.at = to;
+    }
+
+    fn element(&mut self, to: Point, feed: Option<f64>, place: Place) {
+        self.elements += 1;
+        self.set("ElementNo", f64::from(self.elements));
+        self.flag("FirstContourElement", place.is_first);
+        self.flag("LastContourElement", place.is_last);
+        if let Some(feed) = feed {
+            self.length("MovingVel", feed);
+        }
+        self.move_to(to);
+    }
+
+    fn arc(&mut self, arc: &Arc) {
+        let polar = Polar::of(arc, Plane::Xy);
+        let turn = if arc.clockwise { -polar.sweep } else { polar.sweep };
+        self.length("XC", arc.centre[0]);
+        self.length("YC", arc.centre[1]);
+        self.length("IRel", arc.centre[0] - arc.from[0]);
+        self.length("JRel", arc.centre[1] - arc.from[1]);
+        self.length("Radius", polar.radius);
+        self.set("StartAngle", polar.start.to_degrees().rem_euclid(360.0));
+        self.set("EndAngle", (polar.start + turn).to_degrees().rem_euclid(360.0));
+        self.set("SweepAngle", turn.to_degrees());
+        self.flag("ArcDir", !arc.clockwise);
+    }
+
+    /// What only an arc has must not seem to be there for the next element.
+    fn forget_arc(&mut self) {
+        for name in ["XC", "YC", "IRel", "JRel", "Radius", "StartAngle", "EndAngle", "SweepAngle", "ArcDir"] {
+            self.runner.variables.remove(name);
+        }
+    }
+
+    fn hole(&mut self, hole: &Hole) -> Called {
+        let (peck, dwell) = match hole.kind {
+            HoleKind::Plain => (0.0, 0.0),
+            HoleKind::Dwell { seconds } => (0.0, seconds),
+            HoleKind::Peck { depth } => (depth, 0.0),
+        };
+        self.length("PeckDepth", peck);
+        self.set("DwellTime", dwell);
+        self.length("ZWorking", hole.retract);
+        if let Some(feed) = hole.feed {
+            self.length("LoweringVel", feed);
+        }
+        self.move_to([hole.at[0], hole.at[1], hole.bottom]);
+        let has_cycle = self.runner.definition.text(Kind::Cycle).is_some();
+        self.runner.call(if has_cycle { Kind::Cycle } else { Kind::Point })?;
+        self.at[2] = hole.exit;
+        Ok(())
+    }
+}

@@ -1,0 +1,178 @@
+//! Calling control texts: variables in, lines out.
+
+use std::ops::Range;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::control_text::{ControlText, Kind};
+use super::definition::Definition;
+use super::evaluate::{Outcome, ResultLine, Surroundings, run};
+use super::expand::Expanded;
+use super::fault::Fault;
+use super::marks::byte_of;
+use super::report::locate;
+use super::term::Doubt;
+use super::variables::{KNOWN, Variables};
+use crate::PostFiles;
+use crate::suggest::nearest;
+
+/// Success, or the diagnostic that ends the writing.
+pub(super) type Called = Result<(), Box<Diagnostic>>;
+
+/// What stands in front of lines when the definition has no text for it.
+const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
+/// Bytes that texts may come to whatever the program, and more for each call.
+const FUEL: usize = 1 << 20;
+const FUEL_PER_CALL: usize = 1 << 12;
+/// Nobody reads more warnings.
+const MOST_WARNINGS: usize = 50;
+
+/// Runs control texts and collects the lines.
+pub(super) struct Runner<'a> {
+    pub(super) definition: &'a Definition,
+    file: &'a Utf8Path,
+    files: &'a dyn PostFiles,
+    pub(super) variables: Variables,
+    line_number: ControlText,
+    text: Vec<u8>,
+    /// Bytes that the texts may still come to, files that are inserted apart.
+    fuel: usize,
+    pub(super) warnings: Vec<Diagnostic>,
+    pub(super) inserted: Vec<Box<str>>,
+}
+
+impl<'a> Runner<'a> {
+    pub(super) fn new(definition: &'a Definition, file: &'a Utf8Path, files: &'a dyn PostFiles) -> Self {
+        let aliases = definition.aliases.iter().map(|(other, own)| (&**other, &**own));
+        let default = ControlText { text: LINE_NUMBER.to_owned(), begins: None };
+        Self {
+            definition,
+            file,
+            files,
+            variables: Variables::new(aliases),
+            line_number: definition.text(Kind::LineNumber).cloned().unwrap_or(default),
+            text: Vec::new(),
+            fuel: FUEL,
+            warnings: Vec::new(),
+            inserted: Vec::new(),
+        }
+    }
+
+    /// Calls a control text, if the definition has it, and adds its lines.
+    pub(super) fn call(&mut self, kind: Kind) -> Called {
+        let Some(text) = self.definition.text(kind) else { return Ok(()) };
+        self.fuel += FUEL_PER_CALL;
+        for line in self.evaluate(kind, text)? {
+            self.line(&line)?;
+        }
+        Ok(())
+    }
+
+    fn line(&mut self, line: &ResultLine) -> Called {
+        let text =
+            if self.definition.settings.trim { line.text.trim_end_matches([' ', '\t']) } else { &line.text };
+        if line.is_made && text.is_empty() {
+            return Ok(());
+        }
+        self.burn(if line.is_inserted { 0 } else { text.len() })?;
+        let has_text = text.chars().any(|c| byte_of(c).is_none());
+        if self.definition.settings.number_lines && (has_text || !line.is_inserted) && !text.is_empty() {
+            self.number()?;
+        }
+        self.push(text);
+        self.text.extend_from_slice(self.definition.settings.end_of_line.as_bytes());
+        Ok(())
+    }
+
+    fn burn(&mut self, cost: usize) -> Called {
+        match self.fuel.checked_sub(cost) {
+            Some(left) => {
+                self.fuel = left;
+                Ok(())
+            }
+            None => Err(Box::new(Diagnostic::new(&posts::MACRO_SIZE).in_file(self.file))),
+        }
+    }
+
+    fn number(&mut self) -> Called {
+        let text = self.line_number.clone();
+        for line in self.evaluate(Kind::LineNumber, &text)? {
+            self.burn(line.text.len())?;
+            self.push(&line.text);
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, text: &str) {
+        for c in text.chars() {
+            match byte_of(c) {
+                Some(byte) => self.text.push(byte),
+                None => self.text.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes()),
+            }
+        }
+    }
+
+    /// The two phases of a call.
+    fn evaluate(&mut self, kind: Kind, text: &ControlText) -> Result<Vec<ResultLine>, Box<Diagnostic>> {
+        let expanded =
+            Expanded::new(&text.text, &self.variables).map_err(|fault| self.report(*fault, kind, text))?;
+        let surroundings = Surroundings {
+            variables: &mut self.variables,
+            decimals: self.definition.settings.decimals,
+            files: self.files,
+            inserted: &mut self.inserted,
+        };
+        let Outcome { lines, doubts } = run(&expanded, surroundings).map_err(|mut fault| {
+            fault.span = in_text(&expanded, &fault.span, text.text.len());
+            self.report(*fault, kind, text)
+        })?;
+        for (at, doubt) in doubts {
+            let at = expanded.origin(at);
+            self.doubt(locate(Diagnostic::new(message(doubt)), kind, text, at..at + 1, self.file));
+        }
+        Ok(lines)
+    }
+
+    fn doubt(&mut self, doubt: Diagnostic) {
+        if self.warnings.len() < MOST_WARNINGS && !self.warnings.contains(&doubt) {
+            self.warnings.push(doubt);
+        }
+    }
+
+    fn report(&self, fault: Fault, kind: Kind, text: &ControlText) -> Box<Diagnostic> {
+        let Fault { span, mut diagnostic } = fault;
+        if diagnostic.message == &posts::VARIABLE_UNDEFINED {
+            let name =
+                diagnostic.arguments.first().map(|(_, value)| value.render(pathbuild_diagnostic::Lang::En));
+            if let Some(nearest) = name
+                .as_deref()
+                .and_then(|name| nearest(name, KNOWN.iter().copied().filter(|known| *known != name)))
+            {
+                diagnostic.message = &posts::VARIABLE_UNDEFINED_NEAREST;
+                diagnostic = diagnostic.with("nearest", nearest);
+            }
+        }
+        Box::new(locate(diagnostic, kind, text, span, self.file))
+    }
+
+    /// The content of the file.
+    pub(super) fn finish(self) -> (Vec<u8>, Vec<Diagnostic>, Vec<Box<str>>) {
+        (self.text, self.warnings, self.inserted)
+    }
+}
+
+/// A span of the expanded text as one of the control text.
+fn in_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usize> {
+    let start = expanded.origin(span.start).min(length);
+    let end = expanded.origin(span.end.max(span.start + 1) - 1).min(length);
+    start..(end + 1).max(start)
+}
+
+fn message(doubt: Doubt) -> &'static pathbuild_diagnostic::Message {
+    match doubt {
+        Doubt::TwoSigns => &posts::TERM_TWO_SIGNS,
+        Doubt::MixedBits => &posts::TERM_MIXED_BITS,
+        Doubt::Extension => &posts::TERM_EXTENSION,
+    }
+}

@@ -1,0 +1,102 @@
+//! Canned drilling cycles.
+
+use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
+use pathbuild_path::approx::{at_least, near};
+
+use super::move_values::MoveValues;
+use super::registers::Register;
+use super::section::Section;
+use super::writer::{Writer, Written};
+use crate::step::{Hole, HoleKind, Step};
+
+impl<'a> Writer<'a> {
+    /// The holes at the beginning of some steps as one group; returns the steps after it.
+    pub(super) fn cycles(&mut self, steps: &'a [Step]) -> Result<&'a [Step], Box<Diagnostic>> {
+        let (group, rest) = steps.split_at(group_length(steps));
+        let holes = || group.iter().filter_map(as_hole);
+        let Some(first) = holes().next() else { return Ok(rest) };
+        self.go(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
+        self.go(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
+        self.lines_of(Section::CannedCycleStart)?;
+        self.machine.forget(&[Register::X, Register::Y, Register::Z, Register::R]);
+        for step in group {
+            match as_hole(step) {
+                Some(hole) => self.cycle(hole)?,
+                None => self.step(step)?,
+            }
+        }
+        self.lines_of(Section::CannedCycleEnd)?;
+        let exit = holes().next_back().map(|hole| hole.exit);
+        self.go(Section::Rapid, [None, None, exit], MoveValues::default())?;
+        Ok(rest)
+    }
+
+    fn cycle(&mut self, hole: &Hole) -> Written {
+        let section = match hole.kind {
+            HoleKind::Plain => Section::Drill,
+            HoleKind::Dwell { .. } => Section::DrillDwell,
+            HoleKind::Peck { .. } => Section::DrillPeck,
+        };
+        let is_below = self.is_below_surface(hole.bottom);
+        if is_below {
+            self.lines_of(Section::StartCut)?;
+        }
+        self.set_move([Some(hole.at[0]), Some(hole.at[1]), Some(hole.bottom)], self.cycle_values(hole));
+        self.empty_code = None;
+        self.lines_of(section)?;
+        self.check_drilled(hole, section)?;
+        if is_below {
+            self.lines_of(Section::EndCut)?;
+        }
+        Ok(())
+    }
+
+    fn cycle_values(&self, hole: &Hole) -> MoveValues {
+        let mut values = self.with_feed(hole.feed);
+        values.set(Register::R, Some(self.scaled(hole.retract)));
+        match hole.kind {
+            HoleKind::Plain => {}
+            HoleKind::Dwell { seconds } => values.set(Register::P, Some(seconds)),
+            HoleKind::Peck { depth } => values.set(Register::Q, Some(self.scaled(depth))),
+        }
+        values
+    }
+
+    /// A hole must not vanish because its section, or the word of its cycle, is empty.
+    fn check_drilled(&self, hole: &Hole, section: Section) -> Written {
+        let is_blank = self.plan.definition.section(section).is_blank();
+        let Some(empty) = is_blank.then_some(section).or(self.empty_code) else { return Ok(()) };
+        let diagnostic =
+            Diagnostic::new(&posts::DRILLING_LOST).with("place", Point::new(hole.at[0], hole.at[1]));
+        Err(Box::new(self.plan.locate(diagnostic, empty, 0)))
+    }
+}
+
+/// Whether a hole can be a canned cycle, which ends at the height where it began.
+pub(super) fn can_be_canned(hole: &Hole) -> bool {
+    at_least(hole.exit, hole.level)
+}
+
+/// How many steps belong to one group: holes between which the tool stays at one level, and remarks among them.
+fn group_length(steps: &[Step]) -> usize {
+    let mut length = 0;
+    let mut level = None;
+    for (index, step) in steps.iter().enumerate() {
+        match step {
+            Step::Hole(hole) if can_be_canned(hole) && level.is_none_or(|level| near(level, hole.level)) => {
+                level = Some(hole.exit);
+                length = index + 1;
+            }
+            Step::Comment(_) => {}
+            _ => break,
+        }
+    }
+    length
+}
+
+fn as_hole(step: &Step) -> Option<&Hole> {
+    match step {
+        Step::Hole(hole) => Some(hole),
+        _ => None,
+    }
+}

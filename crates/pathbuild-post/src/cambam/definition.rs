@@ -1,0 +1,233 @@
+//! Reading a CamBam definition: a flat XML file of templates and options.
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::macros::Macro;
+use super::names::MacroArguments;
+use super::options::{Options, Refusal};
+use super::section::Section;
+use super::template::{Fault, Template, TemplateError};
+use crate::job::Units;
+
+/// A definition as its file has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Definition {
+    /// By section; `None` where the element is absent, which is not the same as empty.
+    sections: Vec<Option<Template>>,
+    defaults: Vec<Template>,
+    pub(super) options: Options,
+    /// The user macros of `PostProcessorMacros`.
+    pub(super) macros: Vec<(Box<str>, Template)>,
+}
+
+/// No definition has as many elements; a file that has is hostile.
+const MOST_ELEMENTS: u32 = 10_000;
+
+impl Definition {
+    /// Reads a definition. Elements that are not understood are warnings beside it.
+    pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let limits = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+        let document =
+            Document::parse_with_options(text, limits).map_err(|error| vec![syntax(&error, file)])?;
+        let root = document.root_element();
+        if root.tag_name().name() != "PostProcessor" {
+            let found = root.tag_name().name();
+            return Err(vec![Diagnostic::new(&posts::POST_WRONG_ROOT).with("found", found).in_file(file)]);
+        }
+        let mut reader = Reader::new(file);
+        root.children().filter(Node::is_element).for_each(|element| reader.element(element));
+        reader.finish()
+    }
+
+    /// Extension of the files it writes.
+    pub(crate) fn extension(&self) -> &str {
+        &self.options.extension
+    }
+
+    /// The dialect that it names.
+    pub(crate) fn dialect(&self) -> Option<&str> {
+        self.options.dialect.as_deref()
+    }
+
+    /// Whether paths are wrapped round a cylinder.
+    pub(crate) fn is_wrapped(&self) -> bool {
+        self.options.rotary.wrap
+    }
+
+    /// Decimals of the numbers that are written.
+    pub(crate) fn decimals(&self) -> u8 {
+        self.options.number_format.most_decimals()
+    }
+
+    /// Greatest distance in mm of a line from the arc that it stands for.
+    pub(crate) fn chord(&self, units: Units) -> f64 {
+        self.options.arc_tolerance * units.millimetres()
+    }
+
+    /// Whether a hole becomes the word of a cycle.
+    pub(crate) fn writes_cycles(&self) -> bool {
+        !self.section(Section::G81).is_blank()
+    }
+
+    /// What it says about itself.
+    pub(crate) fn description(&self) -> &str {
+        &self.options.notes
+    }
+
+    /// The text of a section: the file's own, else the one that stands in for an absent element.
+    pub(super) fn section(&self, section: Section) -> &Template {
+        let index = section as usize;
+        self.sections[index].as_ref().unwrap_or(&self.defaults[index])
+    }
+
+    /// Every template of the file and those that stand in for absent ones.
+    pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
+        Section::ALL
+            .iter()
+            .map(|&section| self.section(section))
+            .chain(self.macros.iter().map(|(_, text)| text))
+    }
+}
+
+fn syntax(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
+    let at = error.pos();
+    let reason = error.to_string();
+    Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason).in_file(file).at_line(at.row, Some(at.col))
+}
+
+struct Reader<'a> {
+    file: &'a Utf8Path,
+    definition: Definition,
+    seen: Vec<String>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(file: &'a Utf8Path) -> Self {
+        let default = |&section: &Section| {
+            Template::parse(section, section.default_text(), 0).expect("the built-in sections are templates")
+        };
+        let definition = Definition {
+            sections: vec![None; Section::ALL.len()],
+            defaults: Section::ALL.iter().map(default).collect(),
+            options: Options::default(),
+            macros: Vec::new(),
+        };
+        Self { file, definition, seen: Vec::new(), diagnostics: Vec::new() }
+    }
+
+    fn element(&mut self, element: Node<'_, '_>) {
+        let name = element.tag_name().name();
+        let (text, line) = text_of(element);
+        self.notice_repetition(name, line);
+        if let Some(&section) = Section::ALL.iter().find(|section| section.name() == name) {
+            let template = self.template(section, &text, line);
+            self.definition.sections[section as usize] = template;
+        } else if name == Section::UserMacro.name() {
+            self.user_macros(&text, line);
+        } else {
+            self.option(name, &text, line);
+        }
+    }
+
+    fn notice_repetition(&mut self, name: &str, line: u32) {
+        if self.seen.iter().any(|seen| seen == name) {
+            self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).with("element", name), line);
+        } else {
+            self.seen.push(name.to_owned());
+        }
+    }
+
+    fn template(&mut self, section: Section, text: &str, line: u32) -> Option<Template> {
+        match Template::parse(section, text, line) {
+            Ok(template) => Some(template),
+            Err(errors) => {
+                self.diagnostics.extend(errors.iter().map(|error| template_error(section, error, self.file)));
+                None
+            }
+        }
+    }
+
+    fn user_macros(&mut self, text: &str, first_line: u32) {
+        for (line, definition) in (first_line..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty())
+        {
+            match user_macro(definition) {
+                None => {
+                    self.report(
+                        Diagnostic::new(&posts::POST_MACRO_LINE).with("text", definition.trim()),
+                        line,
+                    );
+                }
+                Some((name, _)) if is_built_in(name) => {
+                    self.report(
+                        Diagnostic::new(&posts::POST_SHADOWED_MACRO).with("macro", format!("${name}")),
+                        line,
+                    );
+                }
+                Some((name, value)) => {
+                    if let Some(value) = self.template(Section::UserMacro, value, line) {
+                        self.definition.macros.retain(|(known, _)| **known != *name);
+                        self.definition.macros.push((name.into(), value));
+                    }
+                }
+            }
+        }
+    }
+
+    fn option(&mut self, name: &str, text: &str, line: u32) {
+        match self.definition.options.set(name, text) {
+            Ok(()) => {}
+            Err(Refusal::Unknown) => {
+                self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);
+            }
+            Err(Refusal::Expected(expected)) => {
+                let diagnostic = Diagnostic::new(&posts::POST_OPTION).with("option", name);
+                self.report(diagnostic.with("value", text.trim()).with("expected", expected), line);
+            }
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic, line: u32) {
+        self.diagnostics.push(diagnostic.in_file(self.file).at_line(line, None));
+    }
+
+    fn finish(self) -> Result<(Definition, Vec<Diagnostic>), Vec<Diagnostic>> {
+        if self.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(self.diagnostics);
+        }
+        Ok((self.definition, self.diagnostics))
+    }
+}
+
+/// The text of an element, and the line in which it begins.
+fn text_of(element: Node<'_, '_>) -> (String, u32) {
+    let first = element.children().find(Node::is_text);
+    let start = first.map_or(element.range().start, |text| text.range().start);
+    let text = element.children().filter_map(|child| child.is_text().then(|| child.text())?).collect();
+    (text, element.document().text_pos_at(start).row)
+}
+
+/// `$name=value`.
+fn user_macro(line: &str) -> Option<(&str, &str)> {
+    let (name, value) = line.trim().strip_prefix('$')?.split_once('=')?;
+    let name = name.trim();
+    (!name.is_empty() && !name.contains(['{', '}', '(', ')', '$'])).then_some((name, value.trim()))
+}
+
+/// Whether a macro of that name stands for something without anybody defining it.
+pub(super) fn is_built_in(name: &str) -> bool {
+    !matches!(Macro::parse(name), Ok(Macro::User(_)))
+}
+
+/// What is wrong in a template, as it is reported.
+pub(super) fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> Diagnostic {
+    let diagnostic = match &error.fault {
+        Fault::Unclosed => Diagnostic::new(&posts::POST_UNCLOSED_MACRO),
+        Fault::Arguments(MacroArguments { call, expected }) => Diagnostic::new(&posts::POST_MACRO_ARGUMENTS)
+            .with("macro", format!("{{${call}}}"))
+            .with("expected", *expected),
+    };
+    diagnostic.with("section", section.name()).in_file(file).at_line(error.line, None)
+}

@@ -1,0 +1,179 @@
+//! The moves of an operation: entry, rapids, feeds, dwells, probes.
+
+use super::cycles::can_be_canned;
+use super::macros::Argument;
+use super::move_values::MoveValues;
+use super::registers::Register;
+use super::section::Section;
+use super::values::plain;
+use super::writer::{Writer, Written};
+use crate::holes;
+use crate::job::Entry;
+use crate::step::Step;
+
+impl Writer<'_> {
+    /// The present operation's moves.
+    pub(super) fn blocks(&mut self) -> Written {
+        match self.operation().entry {
+            Entry::Clearance => self.clearance()?,
+            Entry::At(start) => self.check(start.map(Some))?,
+        }
+        let steps = &self.operation().steps;
+        let mut rest = steps.as_slice();
+        while let Some((step, after)) = rest.split_first() {
+            rest = match step {
+                Step::Hole(hole) if self.plan.options.cycles && can_be_canned(hole) => self.cycles(rest)?,
+                _ => {
+                    self.step(step)?;
+                    after
+                }
+            };
+        }
+        Ok(())
+    }
+
+    /// Any step but a canned cycle.
+    pub(super) fn step(&mut self, step: &Step) -> Written {
+        match step {
+            Step::Rapid { to } => self.go(Section::Rapid, to.axes(), MoveValues::default()),
+            Step::Feed { to, feed } => self.feed(to.axes(), *feed),
+            Step::Arc(arc) => self.arc(arc),
+            Step::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
+            Step::Dwell { seconds } => {
+                let mut values = MoveValues::default();
+                values.set(Register::P, Some(*seconds));
+                self.go(Section::Dwell, [None; 3], values)
+            }
+            Step::Probe { to, feed } => {
+                let values = self.with_feed(*feed);
+                self.go(Section::Probe, to.axes(), values)
+            }
+            Step::Stop => self.lines_of(Section::Stop),
+            Step::Comment(text) => self.comment(text),
+        }
+    }
+
+    fn comment(&mut self, text: &str) -> Written {
+        self.section(Section::Comment)?;
+        self.text(&format!(" {} ", plain(text)))?;
+        self.section(Section::EndComment)?;
+        self.end_line();
+        Ok(())
+    }
+
+    /// Straight, cutting.
+    pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> Written {
+        let values = self.with_feed(feed);
+        self.go(Section::FeedMove, to, values)
+    }
+
+    /// The numbers of a move that has none but a feed.
+    pub(super) fn with_feed(&self, feed: Option<f64>) -> MoveValues {
+        let mut values = MoveValues::default();
+        values.set(Register::F, feed.map(|feed| self.scaled(feed)));
+        values
+    }
+
+    /// A move through a section: sets the numbers of the registers, and writes the texts of cutting's start and end round it.
+    ///
+    /// Axes without a target stay where the machine is as far as the lines written so far tell.
+    pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> Written {
+        let was_cutting = self.is_cutting;
+        if let Some(z) = to[2] {
+            self.is_cutting = self.is_below_surface(z);
+        }
+        if self.is_cutting && !was_cutting {
+            self.lines_of(Section::StartCut)?;
+        }
+        self.set_move(to, values);
+        self.lines_of(section)?;
+        if was_cutting && !self.is_cutting {
+            self.lines_of(Section::EndCut)?;
+        }
+        Ok(())
+    }
+
+    /// Sets the numbers of the registers for a move.
+    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) {
+        self.move_values = values;
+        for (register, target) in Register::AXES.into_iter().zip(to) {
+            let value = target.map(|target| self.scaled(target)).or_else(|| self.machine.number(register));
+            self.move_values.set(register, value);
+        }
+        self.wrap(to);
+    }
+
+    /// A section on lines of its own.
+    pub(super) fn lines_of(&mut self, section: Section) -> Written {
+        self.section(section)?;
+        self.end_line();
+        Ok(())
+    }
+
+    /// Whether a height is below the stock surface, as written.
+    pub(super) fn is_below_surface(&self, z: f64) -> bool {
+        let format = self.number_format();
+        format.round(self.scaled(z)) < format.round(self.scaled(self.operation().surface))
+    }
+
+    /// Turns the coordinate across a rotary axis into its angle.
+    fn wrap(&mut self, to: [Option<f64>; 3]) {
+        let rotary = self.plan.definition.options.rotary;
+        let radius = self.operation().surface;
+        if rotary.wrap && radius > 0.0 {
+            let angle = to[1 - rotary.along].map(|across| (across / radius).to_degrees());
+            let register = [Register::A, Register::B, Register::C][rotary.letter];
+            self.move_values.set(register, angle.or_else(|| self.machine.number(register)));
+        }
+    }
+
+    /// Up to the clearance plane, unless the tool is there.
+    pub(super) fn clearance(&mut self) -> Written {
+        let axis = self.plan.definition.options.clearance_axis;
+        let register = Register::AXES[axis];
+        let height = self.length(self.operation().clearance);
+        if self.machine.written(register) == Some(height.as_str()) {
+            return Ok(());
+        }
+        let mut to = [None; 3];
+        to[axis] = Some(self.operation().clearance);
+        let is_down =
+            self.machine.number(register).is_some_and(|now| now > self.scaled(self.operation().clearance));
+        if is_down && !self.plan.definition.options.rapid_down {
+            return self.feed(to, self.operation().plunge_feed);
+        }
+        self.go(Section::Rapid, to, MoveValues::default())
+    }
+
+    /// `{$check(x,y,z)}`.
+    pub(super) fn check_macro(&mut self, target: [Argument; 3]) -> Written {
+        let unit = self.plan.unit();
+        let mut to = [None; 3];
+        for ((coordinate, argument), register) in to.iter_mut().zip(target).zip(Register::AXES) {
+            *coordinate = match argument {
+                Argument::Any => None,
+                Argument::Own => self.move_values.get(register).map(|value| value * unit),
+                Argument::Number(value) => Some(value * unit),
+            };
+        }
+        self.check(to)
+    }
+
+    /// Goes somewhere by way of the clearance plane, unless the tool is there.
+    pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> Written {
+        let is_there = Register::AXES.into_iter().zip(target).all(|(register, target)| {
+            target.is_none_or(|target| self.machine.written(register) == Some(self.length(target).as_str()))
+        });
+        if is_there {
+            return Ok(());
+        }
+        self.clearance()?;
+        self.go(Section::Rapid, [target[0], target[1], None], MoveValues::default())?;
+        match target[2] {
+            Some(z) if self.is_below_surface(z) => {
+                self.feed([None, None, Some(z)], self.operation().plunge_feed)
+            }
+            z => self.go(Section::Rapid, [None, None, z], MoveValues::default()),
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What is written through what: a program, a definition, and the macros that both and the configuration bring, checked together.
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::definition::{Definition, is_built_in, template_error};
+use super::macros::Macro;
+use super::section::Section;
+use super::template::Template;
+use crate::job::{Job, Texts};
+use crate::suggest::nearest;
+use crate::{PostMacro, PostOptions};
+
+/// Everything that a writer reads.
+pub(super) struct Plan<'a> {
+    pub(super) file: &'a Utf8Path,
+    pub(super) definition: &'a Definition,
+    pub(super) job: &'a Job,
+    pub(super) options: &'a PostOptions<'a>,
+    /// The configuration's macros; they win over the definition's.
+    macros: Vec<(Box<str>, Template)>,
+    /// Custom text of the program.
+    pub(super) texts: CustomTexts,
+    /// Custom text of each operation.
+    pub(super) operation_texts: Vec<CustomTexts>,
+}
+
+/// [`Texts`] as templates.
+pub(super) struct CustomTexts {
+    pub(super) header: Template,
+    pub(super) footer: Template,
+}
+
+impl<'a> Plan<'a> {
+    /// Brings everything together. Every macro that nobody defines is reported, used or not.
+    pub(super) fn new(
+        definition: &'a Definition,
+        file: &'a Utf8Path,
+        job: &'a Job,
+        options: &'a PostOptions<'a>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        let mut template = |section: Section, text: &str| {
+            Template::parse(section, text, 0).unwrap_or_else(|errors| {
+                diagnostics.extend(errors.iter().map(|error| template_error(section, error, file)));
+                Template { section, pieces: Vec::new() }
+            })
+        };
+        let mut custom = |texts: &Texts| CustomTexts {
+            header: template(Section::Custom, &texts.header),
+            footer: template(Section::Custom, &texts.footer),
+        };
+        let texts = custom(&job.texts);
+        let operation_texts = job.operations.iter().map(|operation| custom(&operation.texts)).collect();
+        let own = options.macros.iter().filter(|own| !is_built_in(&own.name));
+        let macros = own
+            .map(|PostMacro { name, value }| (name.clone(), template(Section::UserMacro, value)))
+            .collect();
+        let plan = Self { file, definition, job, options, macros, texts, operation_texts };
+        diagnostics.extend(plan.unknown_macros());
+        if diagnostics.is_empty() { Ok(plan) } else { Err(diagnostics) }
+    }
+
+    /// The unit that is written, in mm.
+    pub(super) fn unit(&self) -> f64 {
+        self.job.units.millimetres()
+    }
+
+    /// Greatest distance of a line from the arc that it stands for, in mm.
+    pub(super) fn arc_tolerance(&self) -> f64 {
+        self.definition.options.arc_tolerance * self.unit()
+    }
+
+    /// The text of a user macro.
+    pub(super) fn user_macro(&self, name: &str) -> Option<&Template> {
+        let all = self.macros.iter().chain(&self.definition.macros);
+        all.into_iter().find(|(known, _)| **known == *name).map(|(_, text)| text)
+    }
+
+    /// Every template that may be expanded.
+    pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
+        let texts = std::iter::once(&self.texts).chain(&self.operation_texts);
+        let custom = texts.flat_map(|texts| [&texts.header, &texts.footer]);
+        self.definition.templates().chain(self.macros.iter().map(|(_, text)| text)).chain(custom)
+    }
+
+    fn unknown_macros(&self) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        for template in self.templates() {
+            for (what, line) in template.macros() {
+                let Macro::User(name) = what else { continue };
+                if self.user_macro(name).is_none() {
+                    diagnostics.push(self.unknown_macro(name, template.section, line));
+                }
+            }
+        }
+        diagnostics
+    }
+
+    fn unknown_macro(&self, name: &str, section: Section, line: u32) -> Diagnostic {
+        let users = self.macros.iter().chain(&self.definition.macros).map(|(name, _)| &**name);
+        let bare = name.split('(').next().unwrap_or(name);
+        let diagnostic = match nearest(bare, users).or_else(|| Macro::nearest(bare)) {
+            Some(nearest) => Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).with("nearest", framed(nearest)),
+            None => Diagnostic::new(&posts::UNKNOWN_MACRO),
+        };
+        self.locate(diagnostic.with("macro", framed(name)), section, line)
+    }
+
+    /// Puts a diagnostic where the definition has what it is about.
+    pub(super) fn locate(&self, diagnostic: Diagnostic, section: Section, line: u32) -> Diagnostic {
+        let diagnostic = diagnostic.with("section", section.name()).in_file(self.file);
+        if line > 0 { diagnostic.at_line(line, None) } else { diagnostic }
+    }
+}
+
+/// A macro's name as it is written in a template.
+pub(super) fn framed(name: &str) -> String {
+    format!("{{${name}}}")
+}

@@ -1,0 +1,111 @@
+//! Macros whose text depends on the state of the machine: registers, codes, and what is written only when it changes.
+
+use super::macros::{Choice, State};
+use super::registers::{Code, Form, Register};
+use super::section::{Section, coolant_section, spindle_section};
+use super::writer::{Writer, Written};
+use crate::job::{Coolant, Plane, Spindle, Units, VelocityMode};
+use crate::number::NumberFormat;
+
+impl Writer<'_> {
+    pub(super) fn register(&mut self, register: Register, form: Form) -> Written {
+        self.line.asked = true;
+        let Some(value) = self.move_values.get(register) else { return Ok(()) };
+        let value = match form {
+            Form::Always | Form::Changed => value,
+            Form::Reversed => -value,
+            Form::Positive => value.abs(),
+        };
+        let text = self.number_format().format(value);
+        if form == Form::Changed && self.machine.written(register) == Some(text.as_str()) {
+            return Ok(());
+        }
+        self.line.answered = true;
+        self.text(&format!("{}{text}", register.letter()))
+    }
+
+    pub(super) fn speed(&mut self) -> Written {
+        match self.operation().speed {
+            Some(speed) => self.text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn code(&mut self, code: Code, modal: bool) -> Written {
+        self.line.code = Some(code);
+        if self.plan.definition.section(code.section()).is_blank() {
+            self.empty_code = Some(code.section());
+        }
+        if modal && self.machine.is_in(code) {
+            return Ok(());
+        }
+        self.line.is_in_code = true;
+        self.section(code.section())?;
+        self.line.is_in_code = false;
+        Ok(())
+    }
+
+    pub(super) fn named_section(&mut self, section: Section) -> Written {
+        match section {
+            Section::SpindleCw => self.machine.spindle = Some(Spindle::Clockwise),
+            Section::SpindleCcw => self.machine.spindle = Some(Spindle::CounterClockwise),
+            Section::SpindleOff => self.machine.spindle = Some(Spindle::Off),
+            Section::CoolantFlood => self.machine.coolant = Some(Coolant::Flood),
+            Section::CoolantMist => self.machine.coolant = Some(Coolant::Mist),
+            Section::CoolantOff => self.machine.coolant = Some(Coolant::Off),
+            _ => {}
+        }
+        self.section(section)
+    }
+
+    pub(super) fn chosen(&self, choice: Choice) -> Section {
+        let options = &self.plan.definition.options;
+        match choice {
+            Choice::Units if self.plan.job.units == Units::Inches => Section::UnitsInches,
+            Choice::Units => Section::UnitsMm,
+            Choice::ArcCentre if options.absolute_centres => Section::ArcCenterAbsolute,
+            Choice::ArcCentre => Section::ArcCenterIncremental,
+            Choice::LatheX if options.lathe_diameter => Section::XModeDiameter,
+            Choice::LatheX => Section::XModeRadius,
+        }
+    }
+
+    pub(super) fn state(&mut self, state: State) -> Written {
+        let operation = self.operation();
+        let section = match state {
+            State::Velocity
+                if self.machine.velocity.replace(operation.velocity) != Some(operation.velocity) =>
+            {
+                velocity_section(operation.velocity)
+            }
+            State::WorkPlane if self.machine.plane.replace(operation.plane) != Some(operation.plane) => {
+                plane_section(operation.plane)
+            }
+            State::Spindle if operation.spindle.is_some() && self.machine.spindle != operation.spindle => {
+                self.machine.spindle = operation.spindle;
+                operation.spindle.map_or(Section::SpindleOff, spindle_section)
+            }
+            State::Coolant if operation.coolant.is_some() && self.machine.coolant != operation.coolant => {
+                self.machine.coolant = operation.coolant;
+                operation.coolant.map_or(Section::CoolantOff, coolant_section)
+            }
+            _ => return Ok(()),
+        };
+        self.section(section)
+    }
+}
+
+fn velocity_section(mode: VelocityMode) -> Section {
+    match mode {
+        VelocityMode::ExactStop => Section::VelocityModeExactStop,
+        VelocityMode::ConstantVelocity => Section::VelocityModeConstantVelocity,
+    }
+}
+
+fn plane_section(plane: Plane) -> Section {
+    match plane {
+        Plane::Xy => Section::WorkPlaneXy,
+        Plane::Xz => Section::WorkPlaneXz,
+        Plane::Yz => Section::WorkPlaneYz,
+    }
+}

@@ -1,0 +1,104 @@
+//! Macros that stand for a number or a name of the program, without a letter.
+
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::macros::Value;
+use super::move_values::ArcValues;
+use super::plan::framed;
+use super::registers::Register;
+use super::section::Section;
+use super::writer::{Writer, Written};
+use crate::job::Stock;
+use crate::step::{Hole, HoleKind};
+
+impl Writer<'_> {
+    /// The text of a value; `None` where the program has none.
+    pub(super) fn value(&self, value: Value) -> Option<String> {
+        let operation = self.operation();
+        let tool = self.tool;
+        match value {
+            Value::FileName => Some(plain(&self.plan.job.name)),
+            Value::Date => self.plan.options.date.as_deref().map(plain),
+            Value::OutFile => self.plan.options.output.as_deref().map(plain),
+            Value::PartName => Some(plain(&operation.part)),
+            Value::MopName => Some(plain(&operation.name)),
+            Value::MopTag => Some(plain(&operation.tag)),
+            Value::MopClearancePlane => Some(self.length(operation.clearance)),
+            Value::MopRetractHeight => Some(self.length(operation.retract)),
+            Value::MopPlungeFeedrate => self.plan.job.plunge_feed(operation).map(|feed| self.length(feed)),
+            Value::MopCutFeedrate => self.plan.job.cut_feed(operation).map(|feed| self.length(feed)),
+            Value::MopDepthIncrement => operation.depth_increment.map(|depth| self.length(depth)),
+            Value::MopDwell => {
+                Some(self.number_format().format(operation.holes().find_map(dwell).unwrap_or(0.0)))
+            }
+            Value::MopHoleDiameter | Value::ToolDiameter => Some(self.length(tool.diameter)),
+            Value::MopPeckDistance => Some(self.length(operation.holes().find_map(peck).unwrap_or(0.0))),
+            Value::MopStockSurface => Some(self.length(operation.surface)),
+            Value::MopTargetDepth => operation.target_depth.map(|depth| self.length(depth)),
+            Value::MopFirst(axis) => operation.first_point().axes()[axis as usize].map(|at| self.length(at)),
+            Value::ToolIndex => Some(tool.index.to_string()),
+            Value::ToolName => Some(plain(&tool.name)),
+            Value::ToolRadius => Some(self.length(tool.radius)),
+            Value::ToolLength => tool.length.map(|length| self.length(length)),
+            Value::ToolProfile => Some(plain(&tool.profile)),
+            Value::ToolComment => Some(plain(&tool.comment)),
+            Value::ToolVeeAngle => tool.vee_angle.map(|angle| self.number_format().format(angle)),
+            Value::MoveAxis(register) | Value::ArcOffset(register) => self.register_value(register),
+            Value::ArcRadius => self.arc_value(|arc| arc.radius),
+            Value::ArcStart => self.arc_value(|arc| arc.start),
+            Value::ArcEnd => self.arc_value(|arc| arc.end),
+            Value::ArcSweep => self.arc_value(|arc| arc.sweep),
+            Value::StockSize(axis) => self.stock_value(|stock| stock.size[axis]),
+            Value::StockCorner(axis) => self.stock_value(|stock| stock.corner[axis]),
+            Value::StockCornerReversed(axis) => self.stock_value(|stock| -stock.corner[axis]),
+        }
+    }
+
+    fn register_value(&self, register: Register) -> Option<String> {
+        self.move_values.get(register).map(|value| self.number_format().format(value))
+    }
+
+    fn arc_value(&self, value: fn(&ArcValues) -> f64) -> Option<String> {
+        self.move_values.arc.as_ref().map(|arc| self.number_format().format(value(arc)))
+    }
+
+    fn stock_value(&self, value: impl Fn(&Stock) -> f64) -> Option<String> {
+        self.plan.job.stock.as_ref().map(|stock| self.length(value(stock)))
+    }
+
+    /// What becomes of a macro without a value: a date may be left out, anything else would leave a gap in the program.
+    pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> Written {
+        if value == Value::Date {
+            self.line.leave_out();
+            return Ok(());
+        }
+        let diagnostic = Diagnostic::new(&posts::VALUE_MISSING)
+            .with("macro", framed(value.name()))
+            .with("operation", &*self.operation().name);
+        Err(Box::new(self.plan.locate(diagnostic, section, line)))
+    }
+}
+
+fn dwell(hole: &Hole) -> Option<f64> {
+    match hole.kind {
+        HoleKind::Dwell { seconds } => Some(seconds),
+        _ => None,
+    }
+}
+
+fn peck(hole: &Hole) -> Option<f64> {
+    match hole.kind {
+        HoleKind::Peck { depth } => Some(depth),
+        _ => None,
+    }
+}
+
+/// A name as it may stand in a comment: in one line, without the end of a comment.
+pub(super) fn plain(text: &str) -> String {
+    let harmless = |c: char| match c {
+        ')' => ']',
+        c if c.is_control() => ' ',
+        c => c,
+    };
+    text.chars().map(harmless).collect()
+}

@@ -1,0 +1,238 @@
+//! A definition of either language, and what it writes.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
+
+use super::built_in::Language;
+use super::job::{Coolant, Job, Spindle};
+use super::options::PostOptions;
+use super::suggest::nearest;
+use super::target::{self, Target};
+use super::{cad6, cambam, read_back};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::verify::{Ends, Tolerance};
+
+/// A definition that was read, ready to write programs.
+#[derive(Clone, Debug)]
+pub struct Post {
+    file: Utf8PathBuf,
+    engine: Engine,
+    warnings: Vec<Diagnostic>,
+}
+
+#[derive(Clone, Debug)]
+enum Engine {
+    CamBam(Box<cambam::Definition>),
+    Cad6(Box<cad6::Definition>),
+}
+
+/// What a post wrote.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The content of the file.
+    pub text: Vec<u8>,
+    /// The extension of its name, without point.
+    pub extension: Box<str>,
+    /// What the user should know.
+    pub notes: Vec<Note>,
+    /// What is doubtful in the definition or the text.
+    pub warnings: Vec<Diagnostic>,
+    /// The command that the definition wants to be run on the file: the program, then its arguments, for no shell.
+    pub post_build: Option<Vec<String>>,
+    /// The files that are part of the text, relative to the definition's directory: the text must be made again when they change.
+    pub inserted: Vec<Box<str>>,
+}
+
+/// Larger definitions are refused unread.
+const LARGEST: usize = 1 << 20;
+
+impl Post {
+    /// Reads a definition. `file` is where it comes from, for diagnostics.
+    ///
+    /// # Errors
+    /// Everything that is wrong in it, with lines.
+    pub fn read(bytes: &[u8], file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
+        if bytes.len() > LARGEST {
+            let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());
+            return Err(vec![diagnostic.with("limit", LARGEST).in_file(file)]);
+        }
+        let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
+            .map_err(|_| vec![Diagnostic::new(&posts::POST_NOT_UTF8).in_file(file)])?;
+        let (engine, warnings) = if text.trim_start().starts_with('<') {
+            let (definition, warnings) = cambam::Definition::parse(text, file)?;
+            (Engine::CamBam(Box::new(definition)), warnings)
+        } else {
+            let (definition, warnings) = cad6::Definition::parse(text, file)?;
+            (Engine::Cad6(Box::new(definition)), warnings)
+        };
+        Ok(Self { file: file.to_owned(), engine, warnings })
+    }
+
+    /// The dialect that the definition says its output is in.
+    pub fn dialect(&self) -> Option<&str> {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.dialect(),
+            Engine::Cad6(definition) => definition.dialect(),
+        }
+    }
+
+    /// What the definition says about itself, in several lines.
+    pub fn description(&self) -> &str {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.description(),
+            Engine::Cad6(definition) => definition.description(),
+        }
+    }
+
+    /// The extension of the files that it writes, without point.
+    pub fn extension(&self) -> &str {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.extension(),
+            Engine::Cad6(definition) => definition.extension(),
+        }
+    }
+
+    /// What it is written in.
+    pub fn language(&self) -> Language {
+        match &self.engine {
+            Engine::CamBam(_) => Language::CamBam,
+            Engine::Cad6(_) => Language::Cad6,
+        }
+    }
+
+    /// The dialect in which its output is read back, if it names its own or `named` is one; and whether that is the target's own, or only
+    /// understands its moves.
+    pub fn reader(&self, named: Option<&str>) -> Option<(Dialect, bool)> {
+        Target::of(named.or(self.dialect())?).map(|target| (target.reader, target.is_read_exactly()))
+    }
+
+    /// Writes a program.
+    ///
+    /// # Errors
+    /// Every macro that nobody defines, else the first thing that would make the text wrong.
+    pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
+        job.check().map_err(|error| vec![*error])?;
+        let target = self.target(options)?;
+        let options = &self.within(options, target.as_ref());
+        let mut output = Output {
+            text: Vec::new(),
+            extension: self.extension().into(),
+            notes: Vec::new(),
+            warnings: self.warnings.clone(),
+            post_build: None,
+            inserted: Vec::new(),
+        };
+        match &self.engine {
+            Engine::CamBam(definition) => self.write_cambam(definition, job, options, &mut output)?,
+            Engine::Cad6(definition) => {
+                let written = cad6::write(definition, &self.file, job, options)?;
+                output.text = written.text;
+                output.warnings.extend(written.warnings);
+                output.inserted = written.inserted;
+                output.note_switches(definition, job);
+            }
+        }
+        output.text = target::plain(&output.text, target.as_ref(), options.charset);
+        match target {
+            None => output.notes.push(Note { message: &posts::POST_WITHOUT_DIALECT, arguments: Vec::new() }),
+            Some(target) => {
+                let errors = target::check(&output.text, &target);
+                let found =
+                    if errors.is_empty() { self.read_back(&output.text, job, &target) } else { Err(errors) };
+                found.map_err(|errors| {
+                    errors.into_iter().map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
+                })?;
+            }
+        }
+        Ok(output)
+    }
+
+    /// Whether the text makes the machine do what the job says.
+    fn read_back(&self, text: &[u8], job: &Job, target: &Target) -> Result<(), Vec<Diagnostic>> {
+        let (decimals, chord) = match &self.engine {
+            Engine::CamBam(definition) if definition.is_wrapped() => return Ok(()),
+            Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
+            Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
+        };
+        let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
+        let tolerance = Tolerance { place: half, feed: half, chord, ends: Ends::Cutting };
+        read_back::check(text, job, target, &tolerance)
+    }
+
+    /// The unit that is written, in mm.
+    fn unit(&self, job: &Job) -> f64 {
+        match &self.engine {
+            Engine::CamBam(_) => job.units.millimetres(),
+            Engine::Cad6(definition) => definition.units().unwrap_or(job.units).millimetres(),
+        }
+    }
+
+    /// Whom the output is for, if that is said.
+    fn target(&self, options: &PostOptions<'_>) -> Result<Option<Target>, Vec<Diagnostic>> {
+        let Some(name) = options.dialect.as_deref().or(self.dialect()) else { return Ok(None) };
+        Target::of(name).map(Some).ok_or_else(|| vec![unknown_dialect(name).in_file(&self.file)])
+    }
+
+    /// The options within what the target knows: a control without cycles gets their moves, unless the definition has a text of its own
+    /// in place of the cycle's word.
+    fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
+        let writes_cycles = match &self.engine {
+            Engine::CamBam(definition) => definition.writes_cycles(),
+            Engine::Cad6(_) => false,
+        };
+        let has_cycles = target.is_none_or(Target::has_cycles);
+        PostOptions { cycles: options.cycles && (has_cycles || !writes_cycles), ..options.clone() }
+    }
+
+    fn write_cambam(
+        &self,
+        definition: &cambam::Definition,
+        job: &Job,
+        options: &PostOptions<'_>,
+        output: &mut Output,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let written = cambam::write(definition, &self.file, job, options)?;
+        output.text = written.text.into_bytes();
+        output.warnings.extend(written.warnings);
+        if written.leaves_out_coolant {
+            output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
+        }
+        match written.post_build {
+            Some(command) if !options.run_post_build => {
+                output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
+            }
+            command => output.post_build = command,
+        }
+        Ok(())
+    }
+}
+
+fn unknown_dialect(name: &str) -> Diagnostic {
+    let diagnostic = match nearest(name, Target::names()) {
+        Some(nearest) => Diagnostic::new(&posts::DIALECT_UNKNOWN_NEAREST).with("nearest", nearest),
+        None => Diagnostic::new(&posts::DIALECT_UNKNOWN),
+    };
+    diagnostic.with("name", name).with("known", Target::names().into_iter().collect::<Value>())
+}
+
+impl Output {
+    /// Tells what the job switches and the texts do not.
+    fn note_switches(&mut self, definition: &cad6::Definition, job: &Job) {
+        let cools =
+            job.operations.iter().any(|it| matches!(it.coolant, Some(Coolant::Flood | Coolant::Mist)));
+        let turns = job
+            .operations
+            .iter()
+            .any(|it| matches!(it.spindle, Some(Spindle::Clockwise | Spindle::CounterClockwise)));
+        if cools && !definition.uses("ToolControl1") && !definition.uses("ToolControl2") {
+            self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
+        }
+        if turns && !definition.uses("MillingSpindleDir") {
+            self.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");
+        }
+    }
+
+    fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
+        self.notes.push(Note { message, arguments: vec![(name, Value::from(value))] });
+    }
+}

@@ -1,0 +1,309 @@
+//! A program that was read as a job, to be written for another machine. (spec/90-gcode-import.md, `post FILE --post X`)
+
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
+use super::job::{Coolant, Entry, Job, Operation, Plane, Spindle, Tool, describe};
+use super::recognise;
+use super::step::{Arc, Hole, Position, Step};
+use pathbuild_gcode::interpret::{self, Action, Axes, Move, Pace, Path, Turning};
+
+/// What a remark of the program that was read means for the job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remark<'a> {
+    /// It stays where it is.
+    Stays,
+    /// The post says the same itself.
+    Goes,
+    /// An operation of this name begins.
+    Operation(&'a str),
+    /// It ends; what follows belongs to the one round it.
+    End,
+}
+
+/// What remarks mean in programs of the native dialect; others stay.
+pub fn native_remark(text: &str) -> Remark<'_> {
+    let text = text.trim();
+    match text.strip_prefix("START Subpath ") {
+        Some(name) => Remark::Operation(name),
+        None if text.starts_with("END Subpath ") => Remark::End,
+        None => Remark::Stays,
+    }
+}
+
+impl Job {
+    /// The steps of a program that was read. Operations begin where the tool, the spindle or the coolant changes, and where `remark`
+    /// says so. Several moves of one line are taken for a drilled hole where they are one. The upper face of the material is taken to
+    /// be at Z 0, as a program does not say where it is.
+    ///
+    /// # Errors
+    /// What a job cannot say: other coordinate systems, places that only the machine knows, arcs of several turns.
+    pub fn from_steps(
+        name: &str,
+        steps: &[interpret::Step],
+        remark: &dyn Fn(&str) -> Remark<'_>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut builder = Builder::new(name, steps);
+        let mut rest = steps;
+        // A line of which the beginning is no hole has none further on either.
+        let mut plain_line = None;
+        while let Some((step, after)) = rest.split_first() {
+            let hole = if plain_line == Some(step.line) { None } else { recognise::hole(rest) };
+            plain_line = hole.is_none().then_some(step.line);
+            rest = match hole {
+                Some((hole, behind)) => {
+                    builder.hole(hole);
+                    behind
+                }
+                None if step.action == Action::End => &[],
+                None => {
+                    builder.step(step, remark);
+                    after
+                }
+            };
+        }
+        builder.finish()
+    }
+}
+
+/// What the machine is set to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct State {
+    tool: u32,
+    spindle: Option<Spindle>,
+    speed: Option<f64>,
+    coolant: Option<Coolant>,
+    plane: Plane,
+}
+
+struct Builder {
+    job: Job,
+    state: State,
+    /// M6 changes tools; in programs without it, T does.
+    has_tool_changes: bool,
+    at: interpret::Position,
+    clearance: f64,
+    /// The last operation has cut something.
+    has_cut: bool,
+    /// The operations that are under way, outermost first.
+    names: Vec<Box<str>>,
+    /// The last operation is over.
+    has_ended: bool,
+    errors: Vec<Diagnostic>,
+}
+
+impl Builder {
+    fn new(name: &str, steps: &[interpret::Step]) -> Self {
+        let rapids =
+            steps.iter().filter_map(interpret::Step::as_move).filter(|(_, it)| it.pace == Pace::Rapid);
+        let heights =
+            rapids.filter(|(_, it)| it.to.known.has(Axes::Z) && it.named.is_none()).map(|(_, it)| it.to.z());
+        let state = State { tool: 0, spindle: None, speed: None, coolant: None, plane: Plane::Xy };
+        Self {
+            job: Job { name: name.into(), ..Job::default() },
+            state,
+            has_tool_changes: steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_))),
+            at: interpret::Position::default(),
+            clearance: heights.reduce(f64::max).unwrap_or(0.0),
+            has_cut: false,
+            names: Vec::new(),
+            has_ended: false,
+            errors: Vec::new(),
+        }
+    }
+
+    fn step(&mut self, step: &interpret::Step, remark: &dyn Fn(&str) -> Remark<'_>) {
+        match &step.action {
+            Action::Move(it) => self.go(step.line, it),
+            Action::Dwell(seconds) => self.push(Step::Dwell { seconds: *seconds }),
+            Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(*tool),
+            Action::ChangeTool(tool) => self.change_tool(*tool),
+            Action::Spindle(spindle) => self.set_spindle(spindle),
+            Action::Coolant(coolant) => self.set_coolant(*coolant),
+            Action::System(system) if *system != interpret::WorkSystem::default() => {
+                self.refuse(step.line, &posts::JOB_SYSTEM);
+            }
+            Action::Comment(text) => match remark(text) {
+                Remark::Stays => self.push(Step::Comment(text.trim().into())),
+                Remark::Goes => {}
+                Remark::Operation(name) => {
+                    self.names.push(name.into());
+                    self.begin(name);
+                }
+                Remark::End => {
+                    self.names.pop();
+                    self.has_ended = true;
+                }
+            },
+            Action::Stop { .. } => self.push(Step::Stop),
+            Action::SelectTool(_) | Action::System(_) | Action::End => {}
+        }
+    }
+
+    fn refuse(&mut self, line: u32, message: &'static pathbuild_diagnostic::Message) {
+        self.errors.push(Diagnostic::new(message).at_line(line, None));
+    }
+
+    /// Begins an operation where the tool is. One that has cut nothing yet gives way to it.
+    fn begin(&mut self, name: &str) {
+        let mut operation = Operation::new(name, Tool::new(self.state.tool, 0.0, ""));
+        operation.part.clone_from(&self.job.name);
+        if !self.has_cut {
+            let idle = self.job.operations.pop();
+            operation.steps = idle.into_iter().flat_map(|idle| idle.steps).filter(is_no_way).collect();
+        }
+        operation.clearance = self.clearance;
+        operation.entry = self.entry();
+        self.has_cut = false;
+        self.has_ended = false;
+        self.job.operations.push(operation);
+        self.update();
+    }
+
+    fn entry(&self) -> Entry {
+        if self.at.known == Axes::ALL { Entry::At(self.at.at) } else { Entry::Clearance }
+    }
+
+    /// Sets the last operation to the state of the machine, while it has cut nothing.
+    fn update(&mut self) {
+        let State { tool, spindle, speed, coolant, plane } = self.state;
+        if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
+            operation.tool.index = tool;
+            operation.spindle = spindle;
+            operation.speed = speed;
+            operation.coolant = coolant;
+            operation.plane = plane;
+        }
+    }
+
+    fn operation(&mut self) -> &mut Operation {
+        if self.has_ended || self.job.operations.is_empty() {
+            let name = self.names.last().unwrap_or(&self.job.name).clone();
+            self.begin(&name);
+        }
+        self.job.operations.last_mut().expect("one was begun if there was none")
+    }
+
+    /// The operation for a cut: a new one when the machine was set otherwise since the last cut.
+    fn cutting(&mut self) -> &mut Operation {
+        let State { tool, spindle, speed, coolant, plane } = self.state;
+        let is_same = |last: &Operation| {
+            let set = (last.tool.index, last.spindle, last.speed, last.coolant, last.plane);
+            set == (tool, spindle, speed, coolant, plane)
+        };
+        self.operation();
+        if let Some(last) = self.job.operations.last().filter(|last| self.has_cut && !is_same(last)) {
+            let name = last.name.clone();
+            self.begin(&name);
+        }
+        self.has_cut = true;
+        self.operation()
+    }
+
+    fn push(&mut self, step: Step) {
+        self.operation().steps.push(step);
+    }
+
+    /// What was moved since the last cut was the way to the change.
+    fn change_tool(&mut self, tool: u32) {
+        self.state.tool = tool;
+        if self.has_cut {
+            let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
+            self.begin(&name);
+        } else {
+            self.update();
+            let entry = self.entry();
+            if let Some(operation) = self.job.operations.last_mut() {
+                operation.steps.retain(is_no_way);
+                operation.entry = entry;
+            }
+        }
+    }
+
+    fn set_spindle(&mut self, spindle: &interpret::Spindle) {
+        self.state.spindle = match spindle.turning {
+            Turning::Unstated => None,
+            Turning::Off => Some(Spindle::Off),
+            Turning::Clockwise => Some(Spindle::Clockwise),
+            Turning::Counterclockwise => Some(Spindle::CounterClockwise),
+        };
+        self.state.speed = (spindle.speed > 0.0).then_some(spindle.speed);
+        self.update();
+    }
+
+    fn set_coolant(&mut self, coolant: interpret::Coolant) {
+        self.state.coolant = Some(match coolant {
+            interpret::Coolant { flood: true, .. } => Coolant::Flood,
+            interpret::Coolant { mist: true, .. } => Coolant::Mist,
+            interpret::Coolant { .. } => Coolant::Off,
+        });
+        self.update();
+    }
+
+    fn hole(&mut self, hole: Hole) {
+        self.at = interpret::Position::known(hole.at[0], hole.at[1], hole.exit);
+        self.cutting().steps.push(Step::Hole(hole));
+    }
+
+    fn go(&mut self, line: u32, it: &Move) {
+        if it.named.is_some() {
+            return self.refuse(line, &posts::JOB_NAMED_PLACE);
+        }
+        let to =
+            Position::from([0, 1, 2].map(|axis| it.to.known.has(Axes::of(axis)).then_some(it.to.at[axis])));
+        let feed = it.pace.feed().filter(|feed| *feed > 0.0);
+        let step = match (it.path, it.pace) {
+            (Path::Line, Pace::Rapid) => Step::Rapid { to },
+            (Path::Line, Pace::Feed(_)) => Step::Feed { to, feed },
+            (Path::Line, Pace::Probe { toward: true, must_answer: true, .. }) => Step::Probe { to, feed },
+            (Path::Arc(arc), _) if arc.extra_turns == 0 => {
+                self.state.plane = plane_of(arc.plane);
+                self.update();
+                Step::Arc(arc_of(it, &arc, feed))
+            }
+            _ => return self.refuse(line, &posts::JOB_MOVE),
+        };
+        if it.pace == Pace::Rapid {
+            self.push(step);
+        } else {
+            self.cutting().steps.push(step);
+        }
+        self.at = it.to;
+    }
+
+    fn finish(mut self) -> Result<Job, Vec<Diagnostic>> {
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        if !self.has_cut && self.job.operations.len() > 1 {
+            // The way home is the post's.
+            self.job.operations.pop();
+        }
+        for operation in &mut self.job.operations {
+            describe(operation, 0.0);
+            let retract = operation.holes().map(|hole| hole.retract).next();
+            operation.retract = retract.unwrap_or(operation.retract);
+        }
+        Ok(self.job)
+    }
+}
+
+/// Whether a step is none of those that only lead somewhere.
+fn is_no_way(step: &Step) -> bool {
+    !matches!(step, Step::Rapid { .. })
+}
+
+fn plane_of(plane: interpret::Plane) -> Plane {
+    match plane {
+        interpret::Plane::Xy => Plane::Xy,
+        interpret::Plane::Zx => Plane::Xz,
+        interpret::Plane::Yz => Plane::Yz,
+    }
+}
+
+fn arc_of(it: &Move, arc: &interpret::Arc, feed: Option<f64>) -> Arc {
+    let [u, v, _] = plane_of(arc.plane).axes();
+    let mut centre = [0.0; 3];
+    centre[u] = arc.centre[0];
+    centre[v] = arc.centre[1];
+    Arc { clockwise: arc.clockwise, from: it.from.at, centre, to: it.to.at, feed }
+}

@@ -1,0 +1,71 @@
+//! What a post is told beside the program.
+
+use std::fmt;
+
+use camino::Utf8Path;
+
+use pathbuild_gcode::native::Charset;
+
+/// How a program is written through a post.
+#[derive(Clone, Debug)]
+pub struct PostOptions<'a> {
+    /// The text of `{$date}`; without it the date is left out, so that output depends on input only.
+    pub date: Option<Box<str>>,
+    /// User macros of the configuration; they win over the definition's. In control texts they are variables.
+    pub macros: Vec<PostMacro>,
+    /// Holes become canned cycles, where the target knows them.
+    pub cycles: bool,
+    /// The name of the file that will be written, for the post's own command.
+    pub output: Option<Box<str>>,
+    /// The post's own command will be run: it is handed out instead of a note that it was skipped.
+    pub run_post_build: bool,
+    /// Characters that are written; targets that act on other bytes get ASCII in any case.
+    pub charset: Charset,
+    /// The dialect of the output, where the definition does not name one or names another.
+    pub dialect: Option<Box<str>>,
+    /// Where files are that the definition inserts.
+    pub files: &'a dyn PostFiles,
+}
+
+impl Default for PostOptions<'_> {
+    fn default() -> Self {
+        Self {
+            date: None,
+            macros: Vec::new(),
+            cycles: false,
+            output: None,
+            run_post_build: false,
+            charset: Charset::Ascii,
+            dialect: None,
+            files: &NoFiles,
+        }
+    }
+}
+
+/// A user macro: `{$name}`, or `~name~` in control texts, stands for `value`, which may use macros itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the type says it")]
+pub struct PostMacro {
+    pub name: Box<str>,
+    pub value: Box<str>,
+}
+
+/// The files below the directory of a definition.
+pub trait PostFiles: fmt::Debug {
+    /// The content of a file. The path is relative and leads nowhere but down; links that lead elsewhere are the implementation's to
+    /// refuse.
+    ///
+    /// # Errors
+    /// Why there is none, as the system says it.
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, String>;
+}
+
+/// No files at all.
+#[derive(Clone, Copy, Debug)]
+pub struct NoFiles;
+
+impl PostFiles for NoFiles {
+    fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, String> {
+        Err("this post has no directory".to_owned())
+    }
+}

@@ -1,0 +1,123 @@
+//! Reading a post's text back, and comparing its moves with those of the job. (spec/85-post-processors.md, last paragraph)
+
+use pathbuild_diagnostic::{Diagnostic, Note, messages::posts};
+
+use super::holes;
+use super::job::{Entry, Job, Operation, Plane};
+use super::step::{Arc, Position, Step};
+use super::target::Target;
+use pathbuild_gcode::interpret::{self, Axes, Move, Named, Options, Pace, Path};
+use pathbuild_gcode::verify::{Tolerance, compare};
+
+/// What is wrong with a text: what the target's reader says, else the first place where it moves otherwise than the job.
+pub(super) fn check(
+    text: &[u8],
+    job: &Job,
+    target: &Target,
+    tolerance: &Tolerance,
+) -> Result<(), Vec<Diagnostic>> {
+    let read = interpret::interpret(text, target.reader, &Options::default());
+    let problems: Vec<Diagnostic> =
+        read.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
+    if target.is_read_exactly() && !problems.is_empty() {
+        return Err(problems.into_iter().map(as_post_s).collect());
+    }
+    let expected = moves(job).map_err(|error| vec![*error])?;
+    match compare(&read.moves(), &expected, tolerance) {
+        None => Ok(()),
+        Some(difference) => Err(vec![as_post_s(difference.diagnostic())]),
+    }
+}
+
+/// A line of the output is no line of the definition.
+fn as_post_s(found: Diagnostic) -> Diagnostic {
+    let line = u64::from(found.place.line.unwrap_or(0));
+    let mut diagnostic = Diagnostic::new(&posts::POST_DIFFERS).with("line", line);
+    diagnostic.text = found.text;
+    diagnostic.notes.push(Note { message: found.message, arguments: found.arguments });
+    diagnostic
+}
+
+/// The moves of a job, each with the number of its step.
+fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
+    let mut mover = Mover { at: interpret::Position::default(), moves: Vec::new(), number: 0 };
+    for operation in &job.operations {
+        mover.enter(operation);
+        for step in &operation.steps {
+            mover.number += 1;
+            mover.step(step, operation.plane)?;
+        }
+    }
+    Ok(mover.moves)
+}
+
+struct Mover {
+    at: interpret::Position,
+    moves: Vec<(u32, Move)>,
+    number: u32,
+}
+
+impl Mover {
+    /// The way to where an operation begins, if the tool is not there.
+    fn enter(&mut self, operation: &Operation) {
+        match operation.entry {
+            Entry::At([x, y, z]) => {
+                let is_there = self.at == interpret::Position::known(x, y, z);
+                if !is_there {
+                    self.rapid([None, None, Some(operation.clearance)]);
+                    self.rapid([Some(x), Some(y), None]);
+                    self.rapid([None, None, Some(z)]);
+                }
+            }
+            Entry::Clearance => self.rapid([None, None, Some(operation.clearance)]),
+        }
+    }
+
+    fn rapid(&mut self, to: [Option<f64>; 3]) {
+        self.go(to, Path::Line, Pace::Rapid);
+    }
+
+    fn go(&mut self, to: [Option<f64>; 3], path: Path, pace: Pace) {
+        let from = self.at;
+        for (axis, target) in to.into_iter().enumerate() {
+            if let Some(target) = target {
+                self.at.at[axis] = target;
+                self.at.known = self.at.known.with(Axes::of(axis));
+            }
+        }
+        let named: Option<Named> = None;
+        self.moves.push((self.number, Move { from, to: self.at, path, pace, named }));
+    }
+
+    fn step(&mut self, step: &Step, plane: Plane) -> Result<(), Box<Diagnostic>> {
+        let feed = |feed: Option<f64>| Pace::Feed(feed.unwrap_or(0.0));
+        match step {
+            Step::Rapid { to } => self.rapid(Position::axes(*to)),
+            Step::Feed { to, feed: f } => self.go(to.axes(), Path::Line, feed(*f)),
+            Step::Arc(arc) => self.go(arc.to.map(Some), Path::Arc(arc_of(arc, plane)), feed(arc.feed)),
+            Step::Hole(hole) => {
+                for step in holes::moves(hole)? {
+                    self.step(&step, plane)?;
+                }
+            }
+            Step::Probe { to, feed } => {
+                let pace = Pace::Probe { feed: feed.unwrap_or(0.0), toward: true, must_answer: true };
+                self.go(to.axes(), Path::Line, pace);
+                // Where it stops is known when the machine is there.
+                self.at.known = Axes::NONE;
+            }
+            Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
+        }
+        Ok(())
+    }
+}
+
+fn arc_of(arc: &Arc, plane: Plane) -> interpret::Arc {
+    let [u, v, _] = plane.axes();
+    let plane = match plane {
+        Plane::Xy => interpret::Plane::Xy,
+        Plane::Xz => interpret::Plane::Zx,
+        Plane::Yz => interpret::Plane::Yz,
+    };
+    interpret::Arc { plane, centre: [arc.centre[u], arc.centre[v]], clockwise: arc.clockwise, extra_turns: 0 }
+}

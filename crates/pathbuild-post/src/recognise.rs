@@ -1,0 +1,91 @@
+//! Drilling cycles among the moves of a program that was read: its reader turns them into the moves that they stand for.
+
+use super::step::{Hole, HoleKind};
+use pathbuild_gcode::interpret::{Action, Axes, Move, Pace, Path, Step};
+
+/// The hole that some steps begin with, and the steps behind it. All its moves come from one line, which no other line's do.
+pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
+    let line = steps.first()?.line;
+    let length = steps.iter().take_while(|step| step.line == line).count();
+    if length < 2 {
+        return None;
+    }
+    let mut moves = Moves { steps: &steps[..length] };
+    let mut level = None;
+    while let Some(way) = moves.take(|it| it.pace == Pace::Rapid) {
+        level = Some(if way.to.z() < way.from.z() && is_vertical(&way) { way.from.z() } else { way.to.z() });
+    }
+    let first = moves.take(is_drilling)?;
+    let (mut last, mut pecks) = (first, false);
+    while let Some(next) = moves.peck(first.from.z()) {
+        (last, pecks) = (next, true);
+    }
+    let dwell = moves.dwell();
+    let retract = first.from.z();
+    let exit = moves.take(|it| it.pace == Pace::Rapid && is_vertical(it) && it.to.z() >= retract)?;
+    let kind = match (pecks, dwell) {
+        (false, None) => HoleKind::Plain,
+        (false, Some(seconds)) => HoleKind::Dwell { seconds },
+        (true, None) => HoleKind::Peck { depth: retract - first.to.z() },
+        (true, Some(_)) => return None,
+    };
+    let hole = Hole {
+        at: [first.to.x(), first.to.y()],
+        level: level.unwrap_or(retract),
+        retract,
+        bottom: last.to.z(),
+        exit: exit.to.z(),
+        feed: first.pace.feed().filter(|feed| *feed > 0.0),
+        kind,
+    };
+    Some((hole, &steps[length - moves.steps.len()..]))
+}
+
+struct Moves<'a> {
+    steps: &'a [Step],
+}
+
+impl Moves<'_> {
+    /// Takes the next move, if it is a straight one to a known place and as wanted.
+    fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
+        let (step, rest) = self.steps.split_first()?;
+        let Action::Move(it) = step.action else { return None };
+        let is_plain = it.path == Path::Line && it.named.is_none() && it.to.known == Axes::ALL;
+        (is_plain && is_wanted(&it)).then(|| {
+            self.steps = rest;
+            it
+        })
+    }
+
+    /// Out of the hole, down again, and deeper.
+    fn peck(&mut self, retract: f64) -> Option<Move> {
+        let before = self.steps;
+        let is_rapid = |it: &Move| it.pace == Pace::Rapid && is_vertical(it);
+        let deeper = self.take(|it| is_rapid(it) && it.to.z() == retract).and_then(|_| {
+            self.take(|it| is_rapid(it) && it.to.z() <= retract);
+            self.take(is_drilling)
+        });
+        if deeper.is_none() {
+            self.steps = before;
+        }
+        deeper
+    }
+
+    fn dwell(&mut self) -> Option<f64> {
+        let (step, rest) = self.steps.split_first()?;
+        let Action::Dwell(seconds) = step.action else { return None };
+        self.steps = rest;
+        Some(seconds)
+    }
+}
+
+fn is_vertical(it: &Move) -> bool {
+    it.from.at[..2] == it.to.at[..2]
+}
+
+fn is_drilling(it: &Move) -> bool {
+    matches!(it.pace, Pace::Feed(_))
+        && is_vertical(it)
+        && it.to.z() < it.from.z()
+        && it.from.known == Axes::ALL
+}

@@ -1,0 +1,131 @@
+//! The controls that posts write for: what they take, and the check of a text before it is written.
+
+mod check;
+mod plain;
+mod table;
+
+pub(super) use check::check;
+pub(super) use plain::plain;
+
+use pathbuild_gcode::dialect::{Acceptance, Dialect, LineLength, Percent, Style, Words};
+
+/// What a control takes.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
+pub(super) struct Target {
+    /// The name of its dialect.
+    pub(super) name: &'static str,
+    words: &'static Words,
+    comments: Comments,
+    /// `!`, `?`, `~` and bytes above 127 act at once wherever they stand.
+    has_real_time_bytes: bool,
+    /// A line may begin with `%`.
+    percent: bool,
+    longest: Option<LineLength>,
+    /// The tool's number stands bare behind M6.
+    bare_tool_number: bool,
+    /// Lines may begin with N.
+    line_numbers: bool,
+    /// The dialect that reads its moves.
+    pub(super) reader: Dialect,
+}
+
+/// How a control's comments are spelt.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
+struct Comments {
+    /// `( )`.
+    round: bool,
+    /// `(` within a round comment is an ordinary character.
+    nested: bool,
+    /// `;` to the end of the line.
+    semicolon: bool,
+    /// `//` to the end of the line.
+    slashes: bool,
+}
+
+impl Target {
+    /// The target of a dialect's name.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        let own = table::TARGETS.iter().find(|target| target.name == name).copied();
+        own.or_else(|| name.parse().ok().map(Self::of_dialect))
+    }
+
+    /// The names of all, for messages.
+    pub(super) fn names() -> Vec<&'static str> {
+        let dialects = Dialect::ALL.iter().map(|dialect| dialect.name());
+        dialects.chain(table::TARGETS.iter().map(|target| target.name)).collect()
+    }
+
+    fn of_dialect(dialect: Dialect) -> Self {
+        let rules = dialect.rules();
+        let spelling = &rules.spelling;
+        Self {
+            name: dialect.name(),
+            words: rules.words,
+            comments: Comments {
+                round: spelling.round_comments == Style::Usual,
+                nested: spelling.nested_comments,
+                semicolon: spelling.semicolon_comments == Style::Usual,
+                slashes: spelling.slash_comments == Style::Usual,
+            },
+            has_real_time_bytes: spelling.real_time_bytes,
+            percent: spelling.percent != Percent::Refused,
+            longest: spelling.line_length,
+            bare_tool_number: spelling.bare_tool_number,
+            line_numbers: spelling.block_numbers.is_some(),
+            reader: dialect,
+        }
+    }
+
+    /// Whether the reader knows the target's own rules, and not only its moves.
+    pub(super) fn is_read_exactly(&self) -> bool {
+        self.reader.name() == self.name
+    }
+
+    /// Whether it knows the cycle G81.
+    pub(super) fn has_cycles(&self) -> bool {
+        self.words.g(810) == Acceptance::Taken
+    }
+
+    /// Only ASCII may be written, whatever the configuration says.
+    pub(super) fn needs_ascii(&self) -> bool {
+        self.has_real_time_bytes
+    }
+
+    /// The length of the comment at the beginning of a text; `None` if there is none.
+    fn comment_length(&self, text: &str) -> Option<usize> {
+        if self.comments.round && text.starts_with('(') {
+            return Some(text.find(')').map_or(text.len(), |end| end + 1));
+        }
+        let is_semicolon = self.comments.semicolon && text.starts_with(';');
+        (is_semicolon || (self.comments.slashes && text.starts_with("//"))).then_some(text.len())
+    }
+
+    /// A line in pieces.
+    fn pieces<'a>(&self, line: &'a str) -> Vec<Piece<'a>> {
+        let mut pieces = Vec::new();
+        let mut begins = 0;
+        let mut at = 0;
+        while at < line.len() {
+            match self.comment_length(&line[at..]) {
+                Some(length) => {
+                    pieces.push(Piece::Code(&line[begins..at]));
+                    pieces.push(Piece::Comment(&line[at..at + length]));
+                    at += length;
+                    begins = at;
+                }
+                None => at += line[at..].chars().next().map_or(1, char::len_utf8),
+            }
+        }
+        pieces.push(Piece::Code(&line[begins..]));
+        pieces
+    }
+}
+
+/// A part of a line.
+#[derive(Clone, Copy, Debug)]
+enum Piece<'a> {
+    Code(&'a str),
+    Comment(&'a str),
+}

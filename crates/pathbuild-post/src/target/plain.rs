@@ -1,0 +1,58 @@
+//! Characters as the target may have them.
+
+use super::{Piece, Target};
+use pathbuild_gcode::native::{Charset, transliterated};
+
+/// The text with characters that the target, or the configuration, does not allow written otherwise. In comments, characters that the
+/// target would act on are replaced; in code they are left for the check to find. Lines that are no UTF-8 stay as they are.
+pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
+    let is_ascii = charset == Charset::Ascii || target.is_some_and(Target::needs_ascii);
+    let mut plain = Vec::with_capacity(text.len());
+    for line in text.split_inclusive(|&byte| byte == b'\n') {
+        match std::str::from_utf8(line) {
+            Ok(line) => plain.extend(self::line(line, target, is_ascii).into_bytes()),
+            Err(_) => plain.extend_from_slice(line),
+        }
+    }
+    plain
+}
+
+fn line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
+    let line = if is_ascii { ascii(line) } else { line.to_owned() };
+    let Some(target) = target else { return line };
+    let piece = |piece| match piece {
+        Piece::Code(code) => code.to_owned(),
+        Piece::Comment(comment) => harmless(comment, target),
+    };
+    target.pieces(&line).into_iter().map(piece).collect()
+}
+
+fn ascii(text: &str) -> String {
+    let mut ascii = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    let mut is_after_capital = false;
+    while let Some(c) = characters.next() {
+        let is_before_letter = characters.peek().is_some_and(|next| next.is_alphabetic());
+        let is_among_capitals = characters.peek().is_some_and(|next| next.is_uppercase())
+            || (is_after_capital && !is_before_letter);
+        match c {
+            c if c.is_ascii() => ascii.push(c),
+            c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
+            c => ascii.push_str(transliterated(c)),
+        }
+        is_after_capital = c.is_uppercase();
+    }
+    ascii
+}
+
+fn harmless(comment: &str, target: &Target) -> String {
+    let is_round = comment.starts_with('(');
+    let replace = |(at, c): (usize, char)| match c {
+        '(' if is_round && at > 0 && !target.comments.nested => '[',
+        '!' | '?' if target.has_real_time_bytes => '.',
+        '~' if target.has_real_time_bytes => '-',
+        '%' if !target.percent => '-',
+        c => c,
+    };
+    comment.char_indices().map(replace).collect()
+}

@@ -1,0 +1,320 @@
+//! Moves through a CamBam definition: registers, arcs, cycles, cutting's start and end.
+
+use pathbuild_post::{Arc, Entry, Hole, HoleKind, Job, Plane, PostOptions, Step, Units};
+
+use crate::support::{bare, errors, feed, job, lines, lines_with, operation, output, rapid, texts};
+
+/// The lines behind the way to (0, 0, 5).
+#[track_caller]
+fn moves(elements: &str, steps: Vec<Step>) -> Vec<String> {
+    lines(&bare(elements), &job(steps)).split_off(2)
+}
+
+fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Arc {
+    Arc { clockwise: false, from, centre: [centre[0], centre[1], 0.0], to, feed: Some(100.0) }
+}
+
+fn quarter() -> Arc {
+    arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, 10.0, 5.0])
+}
+
+#[test]
+fn only_numbers_that_would_be_written_differently_are_written() {
+    let steps = vec![feed(1.234, 0.0, 5.0), feed(1.233, 0.0, 5.0), feed(1.233, 1.0, 5.0)];
+    assert_eq!(moves("<NumberFormat>0.0#</NumberFormat>", steps), ["G1 F100.0 X1.23", "G1 Y1.0"]);
+}
+
+#[test]
+fn a_move_that_comes_to_nothing_but_its_word_is_not_written() {
+    assert_eq!(moves("", vec![rapid(0.0, 0.0, 5.0), rapid(0.0, 0.0, 4.0)]), ["G0 Z4.0"]);
+    let flat = "<Rapid>G00 {$_x} {$_y}</Rapid>";
+    assert_eq!(
+        lines(&bare(flat), &job(vec![rapid(0.0, 0.0, 4.0), rapid(1.0, 0.0, 4.0)])),
+        ["G00 X0.0 Y0.0", "G00 X1.0"]
+    );
+}
+
+#[test]
+fn codes_are_modal_where_the_template_says_so() {
+    let modal = "<FeedMove>{$_g1} {$_x}</FeedMove>";
+    let steps = vec![feed(1.0, 0.0, 5.0), feed(2.0, 0.0, 5.0), rapid(3.0, 0.0, 5.0), feed(4.0, 0.0, 5.0)];
+    assert_eq!(moves(modal, steps.clone()), ["G1 X1.0", "X2.0", "G0 X3.0", "G1 X4.0"]);
+    let named = format!("{modal}<G1>FEED</G1><SuppressParserErrors>true</SuppressParserErrors>");
+    assert_eq!(
+        moves(&named, steps),
+        ["FEED X1.0", "X2.0", "G0 X3.0", "FEED X4.0"],
+        "however the word is spelt"
+    );
+}
+
+#[test]
+fn registers_have_other_signs_on_demand() {
+    let signs = "<FeedMove>{$g1} {$x} {$-x} {$+x} {$move.x}</FeedMove><SuppressParserErrors>true</SuppressParserErrors>";
+    assert_eq!(moves(signs, vec![feed(-1.5, 0.0, 5.0)]), ["G1 X-1.5 X1.5 X1.5 -1.5"]);
+}
+
+#[test]
+fn axes_that_are_not_known_are_not_written() {
+    let mut job = job(vec![Step::Rapid { to: [None, None, Some(2.0)].into() }]);
+    job.operations[0].entry = Entry::Clearance;
+    assert_eq!(lines(&bare("<Rapid>{$g0} {$x} {$y} {$z}</Rapid>"), &job), ["G0 Z5.0", "G0 Z2.0"]);
+}
+
+#[test]
+fn an_operation_that_begins_in_the_material_is_not_lifted() {
+    let mut second = operation("b", 1, vec![feed(1.0, 0.0, -1.0)]);
+    second.entry = Entry::At([0.0, 0.0, -1.0]);
+    let operations = vec![operation("a", 1, vec![feed(0.0, 0.0, -1.0)]), second];
+    let job = Job { operations, ..job(vec![]) };
+    assert_eq!(lines(&bare(""), &job)[2..], ["G1 F100.0 Z-1.0", "G1 X1.0"]);
+    let away = bare("<MOP>{$blocks}\nG0 Z9 X9</MOP>").replace("<MOP>{$blocks}</MOP>", "");
+    let expected = ["G0 Z9 X9", "G0 Z5.0", "G0 X0.0", "G1 Z-1.0", "G1 X1.0", "G0 Z9 X9"];
+    assert_eq!(lines(&away, &job)[3..], expected, "unless the post moved it");
+}
+
+#[test]
+fn arcs_have_incremental_centres_unless_absolute_ones_are_asked_for() {
+    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())];
+    assert_eq!(moves("", steps.clone())[1], "G3 X0.0 Y10.0 I-10.0 J0.0");
+    assert_eq!(moves("<ArcCenterMode>Absolute</ArcCenterMode>", steps)[1], "G3 X0.0 Y10.0 I0.0 J0.0");
+}
+
+#[test]
+fn arc_macros_give_radius_and_angles() {
+    let elements = "<ArcCCW>(r{$arc.radius} {$arc.start} {$arc.end} {$arc.sweep} {$arc.i} {$arc.j})</ArcCCW>\
+                    <ArcCW>({$arc.sweep} {$arc.i})</ArcCW>";
+    let back = Arc { clockwise: true, ..arc([0.0, 10.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]) };
+    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter()), Step::Arc(back)];
+    assert_eq!(moves(elements, steps)[1..], ["(r10.0 0.0 90.0 -90.0 -10.0 0.0)", "(90.0 0.0)"]);
+}
+
+#[test]
+fn arcs_written_by_radius_are_cut_below_half_a_turn() {
+    let elements = "<ArcCCW>{$g3} {$_x} {$_y} R{$arc.radius}</ArcCCW>";
+    let circle = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]);
+    let expected = ["G3 X-5.0 Y8.6603 R10.0", "G3 Y-8.6603 R10.0", "G3 X10.0 Y0.0 R10.0"];
+    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(circle)])[1..], expected);
+    assert_eq!(
+        moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())])[1..],
+        ["G3 X0.0 Y10.0 R10.0"]
+    );
+}
+
+#[test]
+fn arcs_become_lines_within_the_tolerance() {
+    let elements = "<ArcOutput>Convert To Lines</ArcOutput><ArcToLinesTolerance>1</ArcToLinesTolerance>";
+    let expected = ["G1 X7.0711 Y7.0711", "G1 X0.0 Y10.0"];
+    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())])[1..], expected);
+    let fine = bare(
+        "<ArcOutput>Convert To Lines</ArcOutput><ArcToLinesTolerance>0.000000000001</ArcToLinesTolerance>",
+    );
+    assert_eq!(
+        errors(&fine, &job(vec![Step::Arc(quarter())])),
+        ["PB753 an arc of radius 10 takes more than 100000 lines (raise the post's tolerance for arcs)"]
+    );
+}
+
+#[test]
+fn short_arcs_and_flat_arcs_become_lines() {
+    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())];
+    assert_eq!(moves("<MinimumArcLength>15.71</MinimumArcLength>", steps.clone())[1], "G1 X0.0 Y10.0");
+    assert_eq!(
+        moves("<MinimumArcLength>15.70</MinimumArcLength>", steps.clone())[1],
+        "G3 X0.0 Y10.0 I-10.0 J0.0"
+    );
+    assert_eq!(moves("<MaximumArcRadius>9.9</MaximumArcRadius>", steps.clone())[1], "G1 X0.0 Y10.0");
+    assert_eq!(
+        moves("<MaximumArcRadius>10</MaximumArcRadius>", steps.clone())[1],
+        "G3 X0.0 Y10.0 I-10.0 J0.0"
+    );
+    let flat = output(&bare("<MaximumArcRadius>9</MaximumArcRadius>"), &job(steps), &PostOptions::default())
+        .unwrap();
+    assert_eq!(texts(&flat.warnings).len(), 1);
+    assert!(texts(&flat.warnings)[0].starts_with(
+        "PB757 the arc to (0, 10) has the radius 10; the post writes a line that is up to 2.929 mm"
+    ));
+}
+
+#[test]
+fn an_arc_whose_ends_are_written_alike_is_no_full_circle() {
+    let tiny = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.004, 5.0]);
+    let two_decimals = "<NumberFormat>0.0#</NumberFormat>";
+    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), Step::Arc(tiny)]), ["G1 F100.0 X10.0"]);
+    let circle = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]);
+    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), Step::Arc(circle)])[1], "G3 I-10.0 J0.0");
+}
+
+#[test]
+fn an_arc_whose_rounded_numbers_are_no_circle_is_an_error() {
+    let (sin, cos) = libm::sincos(1.0);
+    let steps = vec![
+        feed(10.0, 0.0, 5.0),
+        Step::Arc(arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0 * cos, 10.0 * sin, 5.0])),
+    ];
+    let coarse = bare("<NumberFormat>0.0</NumberFormat>");
+    let expected = "PB756 as written, the arc to (5.403, 8.415) has the radius 10.0000 at its start and 9.9860 at its end (give the post's number format more decimals)";
+    assert_eq!(errors(&coarse, &job(steps.clone())), [expected]);
+    assert_eq!(moves("<NumberFormat>0.0##</NumberFormat>", steps)[1], "G3 X5.403 Y8.415 I-10.0 J0.0");
+}
+
+#[test]
+fn the_tolerance_of_rounded_arcs_is_two_micrometres() {
+    let written = |to: f64| {
+        let arc = arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, to, 5.0]);
+        output(&bare(""), &job(vec![feed(10.0, 0.0, 5.0), Step::Arc(arc)]), &PostOptions::default())
+    };
+    assert!(written(10.0019).is_ok());
+    assert!(written(10.0021).is_err());
+    let inches = |to: f64| {
+        let arc = arc([254.0, 0.0, 5.0], [0.0, 0.0], [0.0, to * 25.4, 5.0]);
+        let job = Job { units: Units::Inches, ..job(vec![feed(254.0, 0.0, 5.0), Step::Arc(arc)]) };
+        output(&bare("<NumberFormat>0.0#####</NumberFormat>"), &job, &PostOptions::default())
+    };
+    assert!(inches(10.00019).is_ok());
+    assert!(inches(10.00021).is_err());
+}
+
+#[test]
+fn arcs_of_other_planes_have_their_own_offsets() {
+    let turn = Arc {
+        clockwise: true,
+        from: [0.0, 0.0, 5.0],
+        centre: [5.0, 0.0, 5.0],
+        to: [5.0, 0.0, 10.0],
+        feed: None,
+    };
+    let mut job = job(vec![Step::Arc(turn)]);
+    job.operations[0].plane = Plane::Xz;
+    assert_eq!(lines(&bare(""), &job)[2], "G2 X5.0 Z10.0 I5.0 K0.0");
+    assert_eq!(lines(&bare("<InvertArcs>true</InvertArcs>"), &job)[2], "G3 X5.0 Z10.0 I5.0 K0.0");
+    job.operations[0].plane = Plane::Xy;
+    job.operations[0].steps = vec![Step::Arc(quarter())];
+    assert!(lines(&bare("<InvertArcs>true</InvertArcs>"), &job)[2].starts_with("G3"), "only in the XZ plane");
+}
+
+#[test]
+fn the_texts_of_cutting_stand_round_the_moves_through_the_surface() {
+    let elements = "<StartCut>M3</StartCut><EndCut>M5</EndCut>";
+    let steps = vec![
+        rapid(0.0, 0.0, 0.0),
+        feed(0.0, 0.0, -1.0),
+        feed(1.0, 0.0, -1.0),
+        rapid(1.0, 0.0, 0.0),
+        rapid(1.0, 0.0, 5.0),
+    ];
+    let expected = ["G0 Z0.0", "M3", "G1 F100.0 Z-1.0", "G1 X1.0", "G0 Z0.0", "M5", "G0 Z5.0"];
+    assert_eq!(moves(elements, steps), expected);
+}
+
+#[test]
+fn a_beam_without_z_is_switched_all_the_same() {
+    let elements = "<StartCut>M3</StartCut><EndCut>M5</EndCut><Rapid>{$g0} {$_x} {$_y}</Rapid><FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove>";
+    let steps = vec![feed(0.0, 0.0, -1.0), feed(1.0, 0.0, -1.0), rapid(1.0, 0.0, 5.0)];
+    let expected = ["G0 X0.0 Y0.0", "M3", "G1 F100.0", "G1 X1.0", "M5"];
+    assert_eq!(lines(&bare(elements), &job(steps)), expected);
+}
+
+#[test]
+fn clearance_goes_along_another_axis_and_down_by_feed_on_demand() {
+    let mut job = job(vec![]);
+    job.operations[0].entry = Entry::Clearance;
+    assert_eq!(lines(&bare("<ClearancePlaneAxis>X</ClearancePlaneAxis>"), &job), ["G0 X5.0"]);
+    job.operations[0].plunge_feed = Some(60.0);
+    let slow = bare("<MOP>G0 Z9\n{$blocks}</MOP><RapidDownToClearance>false</RapidDownToClearance>")
+        .replace("<MOP>{$blocks}</MOP>", "");
+    assert_eq!(lines(&slow, &job), ["G0 Z9", "G1 F60.0 Z5.0"]);
+    assert_eq!(lines(&slow.replace("Z9", "Z1"), &job), ["G0 Z1", "G0 Z5.0"], "up it is a rapid");
+}
+
+#[test]
+fn paths_are_wrapped_round_a_cylinder() {
+    let elements = "<RotaryWrap>true</RotaryWrap><AxisOfRotation>X</AxisOfRotation><RotaryAxis>A</RotaryAxis>\
+                    <FeedMove>{$g1} {$_x} {$_z} {$_a}</FeedMove>";
+    let mut job = job(vec![feed(3.0, 10.0 * std::f64::consts::PI, -1.0)]);
+    job.operations[0].surface = 10.0;
+    assert_eq!(lines(&bare(elements), &job)[2], "G1 X3.0 Z-1.0 A180.0");
+}
+
+#[test]
+fn dwells_and_probes_have_sections_of_their_own() {
+    let steps =
+        vec![Step::Dwell { seconds: 1.5 }, Step::Probe { to: [0.0, 0.0, -5.0].into(), feed: Some(40.0) }];
+    assert_eq!(moves("", steps.clone()), ["G4 P1.5", "G38.2 F40.0 X0.0 Y0.0 Z-5.0"]);
+    assert_eq!(moves("<Dwell>G4 S{$move.p}</Dwell>", steps)[0], "G4 S1.5");
+}
+
+fn hole(x: f64, kind: HoleKind) -> Hole {
+    Hole { at: [x, 0.0], level: 5.0, retract: 1.0, bottom: -3.0, exit: 5.0, feed: Some(60.0), kind }
+}
+
+#[track_caller]
+fn cycles(elements: &str, holes: Vec<Hole>) -> Vec<String> {
+    let steps = holes.into_iter().map(Step::Hole).collect();
+    lines_with(&bare(elements), &job(steps), &PostOptions { cycles: true, ..PostOptions::default() })
+        .split_off(2)
+}
+
+#[test]
+fn holes_become_cycles_in_one_group() {
+    let holes = vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Plain)];
+    let expected = ["G98", "G81 X0.0 Y0.0 Z-3.0 R1.0 F60.0", "G81 X8.0 Z-3.0", "G80", "G0 Z5.0"];
+    assert_eq!(cycles("", holes), expected, "Z is at R after each hole, so it is written every time");
+}
+
+#[test]
+fn pecks_and_dwells_have_their_own_cycles() {
+    let holes = vec![hole(0.0, HoleKind::Peck { depth: 1.5 }), hole(8.0, HoleKind::Dwell { seconds: 2.0 })];
+    let expected = ["G83 X0.0 Y0.0 Z-3.0 Q1.5 R1.0 F60.0", "G82 X8.0 Z-3.0 P2.0"];
+    assert_eq!(cycles("", holes)[1..3], expected);
+}
+
+#[test]
+fn cycles_may_be_modal() {
+    let modal = "<Drill>{$_g81} {$_x} {$_y} {$_z} {$_r} {$_f}</Drill>";
+    let holes = vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Plain)];
+    assert_eq!(cycles(modal, holes)[1..3], ["G81 X0.0 Y0.0 Z-3.0 R1.0 F60.0", "X8.0 Z-3.0"]);
+}
+
+#[test]
+fn a_hole_that_ends_lower_than_it_began_is_no_cycle() {
+    let low = Hole { exit: 2.0, ..hole(8.0, HoleKind::Plain) };
+    assert_eq!(cycles("", vec![low]), ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-3.0", "G0 Z2.0"]);
+}
+
+#[test]
+fn holes_are_moves_where_cycles_are_not_asked_for() {
+    let steps = vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 3.0 }))];
+    let expected = ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-2.0", "G0 Z1.0", "G0 Z-1.746", "G1 Z-3.0", "G0 Z5.0"];
+    assert_eq!(moves("", steps), expected);
+}
+
+#[test]
+fn a_template_of_moves_stands_for_a_cycle() {
+    let elements = "<G81/><CannedCycleStart/><CannedCycleEnd/><Drill>
+        {$g0} {$_x} {$_y}
+        {$g0} Z{$mop.retractheight}
+        {$g1} {$_z} {$_f}
+        {$g0} Z{$mop.clearanceplane}
+        </Drill>";
+    let expected =
+        ["G0 X0.0 Y0.0", "G0 Z1.0", "G1 Z-3.0 F60.0", "G0 Z5.0", "G0 X8.0", "G0 Z1.0", "G1 Z-3.0", "G0 Z5.0"];
+    assert_eq!(cycles(elements, vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Plain)]), expected);
+}
+
+#[test]
+fn a_hole_that_would_not_be_drilled_is_an_error() {
+    let drilled = |elements: &str| {
+        let job = job(vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 1.0 }))]);
+        output(&bare(elements), &job, &PostOptions { cycles: true, ..PostOptions::default() })
+    };
+    let expected = |section: &str| {
+        vec![format!(
+            "PB755 the post writes nothing that drills the hole at (8, 0): {section} is empty \
+             (write the hole as moves (cycles = false), or give the post a text for it)"
+        )]
+    };
+    assert_eq!(texts(&drilled("<G83/>").unwrap_err()), expected("G83"));
+    assert_eq!(texts(&drilled("<DrillPeck/>").unwrap_err()), expected("DrillPeck"));
+    assert!(drilled("<G81/>").is_ok(), "another cycle's word");
+    assert!(drilled("<G83/><DrillPeck>G1 {$z}\nG0 Z{$mop.clearanceplane}</DrillPeck>").is_ok());
+}

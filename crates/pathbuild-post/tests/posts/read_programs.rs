@@ -1,0 +1,291 @@
+//! Programs that were read as jobs, and built-in posts against the native program.
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret, moves_of};
+use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::verify::{Ends, Tolerance, compare};
+use pathbuild_post::{
+    BUILT_IN, Coolant, Entry, Hole, HoleKind, Job, Language, PostOptions, Remark, Spindle, Step, ToolTable,
+    load, native_remark,
+};
+use pathbuild_toolpath::{
+    Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
+};
+
+use crate::support::{rapid, texts};
+
+fn read(text: &str) -> Job {
+    let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
+    match Job::from_steps("job", &steps, &|_| Remark::Stays) {
+        Ok(job) => job,
+        Err(errors) => panic!("{}", texts(&errors).join("\n")),
+    }
+}
+
+#[test]
+fn a_program_without_tools_is_one_operation() {
+    let job = read("G21 G90\nG0 Z5\nG0 X1 Y2\nG1 Z-1 F60\nG1 X9 F200\nG0 Z5\nM2\nG0 X99");
+    let [operation] = &*job.operations else { panic!("{:?}", job.operations) };
+    let known_in_part = Step::Rapid { to: [None, None, Some(5.0)].into() };
+    let cut = |to: [f64; 3], feed| Step::Feed { to: to.into(), feed: Some(feed) };
+    let down = cut([1.0, 2.0, -1.0], 60.0);
+    let expected =
+        [known_in_part, rapid(1.0, 2.0, 5.0), down, cut([9.0, 2.0, -1.0], 200.0), rapid(9.0, 2.0, 5.0)];
+    assert_eq!(operation.steps, expected, "nothing is read behind the end");
+    assert_eq!((operation.clearance, operation.entry), (5.0, Entry::Clearance));
+    assert_eq!(
+        (operation.plunge_feed, operation.cut_feed, operation.target_depth),
+        (Some(60.0), Some(200.0), Some(-1.0))
+    );
+}
+
+#[test]
+fn tools_spindle_and_coolant_divide_operations() {
+    let job = read(
+        "G21 G90 G0 X0 Y0 Z5\nT2 M6\nM3 S900\nG1 Z-1 F60\nG0 Z5\nT3\nG1 X1 F60\nG0 X0 Y0\nT3 M6\nM3\nM8\nG1 Z-1\nM4\nG1 X5\nG0 Z5\nM5\nM9",
+    );
+    let found: Vec<_> =
+        job.operations.iter().map(|it| (it.tool.index, it.spindle, it.speed, it.coolant)).collect();
+    let (cw, ccw, flood) = (Some(Spindle::Clockwise), Some(Spindle::CounterClockwise), Some(Coolant::Flood));
+    let speed = Some(900.0);
+    assert_eq!(
+        found,
+        [(2, cw, speed, None), (3, cw, speed, flood), (3, ccw, speed, flood)],
+        "T alone only preselects"
+    );
+    assert_eq!(
+        job.operations[1].entry,
+        Entry::At([0.0, 0.0, 5.0]),
+        "the way to the tool change is the post's"
+    );
+}
+
+#[test]
+fn t_alone_changes_the_tool_where_there_is_no_m6() {
+    let job = read("G21 G90 G0 X0 Y0 Z5\nT2\nG1 Z-1 F60\nG0 Z5\nT3\nG1 Z-2\n");
+    assert_eq!(job.operations.iter().map(|it| it.tool.index).collect::<Vec<_>>(), [2, 3]);
+}
+
+#[test]
+fn remarks_say_where_operations_begin_and_end() {
+    let text = "G21 G90\nG0 X0 Y0 Z5\n(START Subpath A)\n(Q:a)\nG1 Z-1 F60\n(START Subpath B)\nG1 X1\n(END Subpath B)\nG1 X2\n(END Subpath A)\nG1 X3\nG0 Z5\nM30";
+    let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
+    let job = Job::from_steps("outer", &steps, &native_remark).unwrap();
+    let names: Vec<_> = job.operations.iter().map(|it| (&*it.name, it.steps.len())).collect();
+    assert_eq!(names, [("A", 2), ("B", 1), ("A", 1), ("outer", 2)]);
+    assert_eq!(job.operations[0].steps[0], Step::Comment("Q:a".into()));
+}
+
+#[test]
+fn waits_stay() {
+    let job = read("G21 G90 G0 X0 Y0 Z5\nG1 Z-1 F60\nG4 P2.5\nM0\nG1 X1");
+    assert_eq!(job.operations[0].steps[2..4], [Step::Dwell { seconds: 2.5 }, Step::Stop]);
+}
+
+fn holes(cycles: &str) -> Vec<Hole> {
+    read(&format!("G21 G90 G0 X0 Y0 Z5\n{cycles}\nG80\nG0 Z9")).operations[0].holes().copied().collect()
+}
+
+#[test]
+fn cycles_are_holes() {
+    let hole = |x, exit, kind| Hole {
+        at: [x, 0.0],
+        level: 5.0,
+        retract: 1.0,
+        bottom: -3.0,
+        exit,
+        feed: Some(60.0),
+        kind,
+    };
+    let plain = HoleKind::Plain;
+    let two = [hole(2.0, 5.0, plain), hole(4.0, 5.0, plain)];
+    assert_eq!(holes("G98 G81 X2 Z-3 R1 F60\nX4"), two);
+    assert_eq!(holes("G98 G81 X0 Z-3 R1 F60")[0].at, [0.0, 0.0], "also where the tool is");
+    assert_eq!(holes("G98 G82 X2 Z-3 R1 P1.5 F60"), [hole(2.0, 5.0, HoleKind::Dwell { seconds: 1.5 })]);
+    assert_eq!(holes("G98 G83 X2 Z-3 R1 Q1.5 F60"), [hole(2.0, 5.0, HoleKind::Peck { depth: 1.5 })]);
+    let next = Hole { level: 1.0, ..hole(4.0, 1.0, plain) };
+    assert_eq!(holes("G99 G81 X2 Z-3 R1 F60\nX4"), [hole(2.0, 1.0, plain), next]);
+}
+
+#[test]
+fn cycles_of_other_kinds_are_moves() {
+    assert_eq!(holes("G98 G73 X2 Z-3 R1 Q1 F60"), [], "it does not leave the hole");
+    assert_eq!(holes("G98 G85 X2 Z-3 R1 F60"), [], "it comes out by feed");
+    assert_eq!(holes("G1 Z-3 F60\nG0 Z5"), []);
+}
+
+#[test]
+fn what_a_job_cannot_say_is_an_error_with_its_line() {
+    let errors = |text: &str| {
+        let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
+        texts(&Job::from_steps("job", &steps, &|_| Remark::Stays).unwrap_err())
+    };
+    let start = "G21 G90 G54 G0 X0 Y0 Z5\n";
+    assert!(
+        errors(&format!("{start}G28"))[0]
+            .starts_with("2: PB765 a move to a place that only the machine knows")
+    );
+    assert!(
+        errors(&format!("{start}G55 G0 X1"))[0]
+            .starts_with("2: PB765 a program in several coordinate systems")
+    );
+    assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
+}
+
+/// A move that is long enough to be one; nothing else of its length is asked for.
+fn go(to: Move) -> ProgramStep {
+    ProgramStep::Move { to, count: Count { class: Class::Milling, length: 99.0, feed: None } }
+}
+
+fn height(z: f64) -> Height {
+    Height { z, at: Xy::new(0.0, 0.0) }
+}
+
+/// Lines, bars, arcs, a helical circle and holes, in two embedded paths.
+fn program() -> Program {
+    let mut names = Names::default();
+    let (a, b, clamp) = (names.intern("1234.1A"), names.intern("1234.2B"), names.intern("Spannpratze?"));
+    let sweep = |x: f64, y: f64| go(Move::Sweep { to: Xy::new(x, y) });
+    let lift = |z| go(Move::Lift { z: height(z) });
+    let drill = |z| go(Move::Drill { z: height(z) });
+    let line = |x: f64, y: f64, z| go(Move::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
+    let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
+        let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));
+        go(Move::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral })
+    };
+    let hole = |peck| {
+        let at = Xy::new(0.0, 0.0);
+        ProgramStep::Comment(Comment::Element {
+            kind: ElementKind::DrilledHole,
+            at,
+            bottom: 1.0,
+            surface: 6.0,
+            peck,
+        })
+    };
+    let steps = vec![
+        lift(20.0),
+        ProgramStep::Comment(Comment::StartSubpath(a)),
+        sweep(10.0 / 3.0, -7.123_456),
+        lift(6.0),
+        drill(4.5),
+        ProgramStep::Comment(Comment::Question(clamp)),
+        line(30.0, -7.123_456, 4.5),
+        line(31.5, -7.123_456, 6.0),
+        line(33.0, -7.123_456, 4.5),
+        arc(
+            false,
+            [0.0, 10.0],
+            [33.0 + 10.0 * libm::sin(1.0), 2.876_544 - 10.0 * libm::cos(1.0)],
+            4.5,
+            false,
+        ),
+        drill(3.0),
+        lift(11.0),
+        ProgramStep::Comment(Comment::EndSubpath(a)),
+        ProgramStep::Comment(Comment::StartSubpath(b)),
+        lift(20.0),
+        sweep(50.0, 45.0),
+        lift(6.0),
+        arc(true, [0.0, 5.0], [50.0, 55.0], 5.0, true),
+        arc(true, [0.0, -5.0], [50.0, 45.0], 4.0, true),
+        arc(true, [0.0, 5.0], [50.0, 55.0], 4.0, true),
+        arc(true, [0.0, -5.0], [50.0, 45.0], 4.0, true),
+        sweep(50.0, 50.0),
+        lift(20.0),
+        sweep(70.0, 0.0),
+        hole(Some(2.0)),
+        lift(6.0),
+        drill(1.0),
+        lift(20.0),
+        sweep(80.0, 0.0),
+        hole(None),
+        lift(6.0),
+        drill(1.0),
+        ProgramStep::Comment(Comment::EndSubpath(b)),
+    ];
+    let (path, drawing) = ("8001.1P".into(), "8001.dxf".into());
+    Program {
+        path,
+        drawing,
+        tool: 2.0,
+        sweep_height: 20.0,
+        thickness: 6.0,
+        names,
+        steps,
+        ..Program::default()
+    }
+}
+
+/// The dialect that reads a built-in post's moves.
+fn reader(post: &str) -> Dialect {
+    match post {
+        "grbl" | "marlin" => Dialect::Grbl,
+        "xpertmill" => Dialect::Xpertmill,
+        _ => Dialect::LinuxCnc,
+    }
+}
+
+#[track_caller]
+fn assert_moves_alike(name: &str, text: &[u8], program: &Program) {
+    let read = interpret(text, reader(name), &Options::default());
+    // The native program has three decimals; xpertmill writes a helix as chords.
+    let tolerance = Tolerance { chord: 0.01, ends: Ends::Cutting, ..Tolerance::of_decimals(3) };
+    if let Some(difference) = compare(&read.moves(), &moves_of(program), &tolerance) {
+        panic!("{name}: {}\n{}", difference.diagnostic().text(Lang::En), String::from_utf8_lossy(text));
+    }
+}
+
+fn definitions() -> impl Iterator<Item = &'static str> {
+    BUILT_IN.iter().filter(|post| post.language != Language::Native).map(|post| post.name)
+}
+
+#[test]
+fn built_in_posts_move_as_the_native_program() {
+    let program = program();
+    let (job, _) =
+        Job::from_programs("8001.1P", std::slice::from_ref(&program), &ToolTable::default(), false);
+    let mut compared = 0;
+    for name in definitions() {
+        let output = load(name).unwrap().write(&job, &PostOptions::default());
+        let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
+        assert_moves_alike(name, &output.text, &program);
+        compared += 1;
+    }
+    assert_eq!(compared, 7);
+}
+
+#[test]
+fn built_in_posts_with_cycles_move_as_the_native_program() {
+    let program = program();
+    let (job, _) =
+        Job::from_programs("8001.1P", std::slice::from_ref(&program), &ToolTable::default(), false);
+    let options = PostOptions { cycles: true, ..PostOptions::default() };
+    for name in ["linuxcnc", "mach3", "fanuc", "haas"] {
+        let output = load(name).unwrap().write(&job, &options);
+        let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
+        assert!(String::from_utf8(output.text.clone()).unwrap().contains("G81 X"), "{name}");
+        assert_moves_alike(name, &output.text, &program);
+    }
+}
+
+#[test]
+fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
+    let program = program();
+    let options = WriteOptions {
+        lang: Lang::En,
+        charset: Charset::Ascii,
+        rapid: 1000.0,
+        correction: pathbuild_toolpath::Correction::default(),
+    };
+    let text = native::program(&program, &Header::default(), &options);
+    let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
+    let job = Job::from_steps("8001.1P", &read.steps, &native_remark).unwrap();
+    assert_eq!(job.operations.iter().map(|it| &*it.name).collect::<Vec<_>>(), ["1234.1A", "1234.2B"]);
+    for name in definitions() {
+        let output = load(name).unwrap().write(&job, &PostOptions::default());
+        let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
+        assert_moves_alike(name, &output.text, &program);
+    }
+}

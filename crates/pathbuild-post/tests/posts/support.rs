@@ -1,0 +1,106 @@
+//! Jobs, definitions and files for the tests.
+
+use std::io::Write;
+use std::path::Path;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_post::{Entry, Job, Operation, Output, Position, Post, PostOptions, Step, Tool};
+
+/// A file of `../shared` beside the project; `None`, with a message, where that is absent and not required.
+pub(crate) fn shared(name: &str) -> Option<String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(name);
+    #[expect(clippy::disallowed_methods, reason = "a test's own files")]
+    match std::fs::read_to_string(&path) {
+        Ok(text) => Some(text),
+        Err(error) if is_required() => panic!("{}: {error}", path.display()),
+        Err(_) => {
+            // Written past libtest, which would keep what a passed test prints.
+            writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
+            None
+        }
+    }
+}
+
+#[expect(clippy::disallowed_methods, reason = "tells whether an absent oracle is a failure")]
+fn is_required() -> bool {
+    std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"))
+}
+
+/// A CamBam definition with these elements.
+pub(crate) fn definition(elements: &str) -> String {
+    format!("<?xml version=\"1.0\"?>\n<PostProcessor Version=\"0.9.8.0\">\n{elements}\n</PostProcessor>")
+}
+
+/// A CamBam definition that writes nothing but the moves.
+pub(crate) fn bare(elements: &str) -> String {
+    definition(&format!(
+        "<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><EndOfLine>\\n</EndOfLine>{elements}"
+    ))
+}
+
+pub(crate) fn read(text: &str) -> Result<Post, Vec<Diagnostic>> {
+    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
+}
+
+/// What a definition makes of a job.
+pub(crate) fn output(
+    definition: &str,
+    job: &Job,
+    options: &PostOptions<'_>,
+) -> Result<Output, Vec<Diagnostic>> {
+    read(definition)?.write(job, options)
+}
+
+/// The lines that a definition makes of a job.
+#[track_caller]
+pub(crate) fn lines(definition: &str, job: &Job) -> Vec<String> {
+    lines_with(definition, job, &PostOptions::default())
+}
+
+#[track_caller]
+pub(crate) fn lines_with(definition: &str, job: &Job, options: &PostOptions<'_>) -> Vec<String> {
+    match output(definition, job, options) {
+        Ok(output) => String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect(),
+        Err(diagnostics) => panic!("{}", texts(&diagnostics).join("\n")),
+    }
+}
+
+/// The errors that a definition makes of a job: `line: code text (help)`.
+#[track_caller]
+pub(crate) fn errors(definition: &str, job: &Job) -> Vec<String> {
+    texts(&output(definition, job, &PostOptions::default()).expect_err("the post must fail"))
+}
+
+/// Diagnostics as `line: code text (help)`.
+pub(crate) fn texts(diagnostics: &[Diagnostic]) -> Vec<String> {
+    let text = |diagnostic: &Diagnostic| {
+        let line = diagnostic.place.line.map_or(String::new(), |line| format!("{line}: "));
+        let help = diagnostic.help(Lang::En).map_or(String::new(), |help| format!(" ({help})"));
+        format!("{line}{} {}{help}", diagnostic.code(), diagnostic.text(Lang::En))
+    };
+    diagnostics.iter().map(text).collect()
+}
+
+/// A job of one operation that begins at (0, 0, 5), the clearance plane; the material's face is at 0.
+pub(crate) fn job(steps: Vec<Step>) -> Job {
+    Job { name: "part".into(), operations: vec![operation("mill", 1, steps)], ..Job::default() }
+}
+
+pub(crate) fn operation(name: &str, tool: u32, steps: Vec<Step>) -> Operation {
+    Operation {
+        clearance: 5.0,
+        retract: 1.0,
+        entry: Entry::At([0.0, 0.0, 5.0]),
+        steps,
+        ..Operation::new(name, Tool::new(tool, 3.0, "cutter"))
+    }
+}
+
+pub(crate) fn rapid(x: f64, y: f64, z: f64) -> Step {
+    Step::Rapid { to: [x, y, z].into() }
+}
+
+pub(crate) fn feed(x: f64, y: f64, z: f64) -> Step {
+    Step::Feed { to: Position::from([x, y, z]), feed: Some(100.0) }
+}

@@ -1,0 +1,254 @@
+//! What the target of a post takes, and what is done about what it does not.
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::native::Charset;
+use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
+
+use crate::support::{definition, feed, job, rapid, texts};
+
+/// A text written as it is, for a target.
+fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
+    let text = definition(&format!(
+        "<PostFile>{text}</PostFile><EndOfLine>\\n</EndOfLine><SuppressParserErrors>true</SuppressParserErrors>{target}"
+    ));
+    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), options)
+}
+
+fn dialect(name: &str) -> String {
+    format!("<Dialect>{name}</Dialect>")
+}
+
+#[track_caller]
+fn written(target: &str, text: &str) -> String {
+    match write_with(&dialect(target), text, &PostOptions::default()) {
+        Ok(output) => String::from_utf8(output.text).unwrap(),
+        Err(errors) => panic!("{}", texts(&errors).join("\n")),
+    }
+}
+
+#[track_caller]
+fn refused(target: &str, text: &str) -> Vec<String> {
+    let errors =
+        write_with(&dialect(target), text, &PostOptions::default()).expect_err("the text must be refused");
+    errors.iter().map(|error| error.text(Lang::En)).collect()
+}
+
+fn rejected(line: u32, target: &str, word: &str) -> String {
+    format!("line {line} of the output: {target} does not take \"{word}\"")
+}
+
+#[test]
+fn words_that_the_target_does_not_know_are_errors() {
+    assert_eq!(
+        refused("grbl", "G21\nT1 M6\nG64 X1"),
+        [rejected(2, "grbl", "M6"), rejected(3, "grbl", "G64")]
+    );
+    assert_eq!(refused("grbl", "A1"), [rejected(1, "grbl", "A1")]);
+    assert_eq!(refused("grbl", "G81 X1 Z-1 R1"), [rejected(1, "grbl", "G81")]);
+    assert_eq!(refused("linuxcnc", "M30 G22.5"), [rejected(1, "linuxcnc", "G22.5")]);
+    assert_eq!(refused("marlin", "M30"), [rejected(1, "marlin", "M30")]);
+    assert_eq!(refused("fanuc", "G90.1"), [rejected(1, "fanuc", "G90.1")]);
+    assert_eq!(
+        refused("xpertmill", "G00 X1\nM3\nG90"),
+        [rejected(2, "xpertmill", "M3"), rejected(3, "xpertmill", "G90")]
+    );
+}
+
+#[test]
+fn text_that_is_no_words_is_an_error() {
+    assert_eq!(refused("linuxcnc", "G0 X = 1")[0], rejected(1, "linuxcnc", "X"));
+    assert_eq!(refused("haas", "G0 X1,5"), [rejected(1, "haas", ","), rejected(1, "haas", "5")]);
+}
+
+#[test]
+fn what_the_target_takes_passes() {
+    assert_eq!(written("grbl", "n10 g0x1 y-2.5 ; a\nG38.2 Z -1 F5"), "n10 g0x1 y-2.5 ; a\nG38.2 Z -1 F5\n");
+    assert_eq!(written("haas", "/ O01000 (a)"), "/ O01000 (a)\n");
+}
+
+#[test]
+fn comments_are_no_words_but_in_the_target_s_own_form() {
+    assert_eq!(written("linuxcnc", "G0 (M999) X1 ; M999"), "G0 (M999) X1 ; M999\n");
+    assert_eq!(written("xpertmill", "% // M999"), "% // M999\n");
+    assert_eq!(refused("xpertmill", "(a)").len(), 3);
+    assert_eq!(refused("marlin", "(a)").len(), 3);
+    assert_eq!(refused("fanuc", "; M0").first(), Some(&rejected(1, "fanuc", ";")));
+}
+
+#[test]
+fn percent_frames_a_program_where_the_target_knows_it() {
+    assert_eq!(written("linuxcnc", "%\nM2\n%"), "%\nM2\n%\n");
+    assert_eq!(refused("grbl", "%\nM2"), [rejected(1, "grbl", "%")]);
+}
+
+#[test]
+fn a_bare_number_is_a_tool_where_the_target_knows_that() {
+    assert_eq!(written("xpertmill", "M06 05"), "M06 05\n");
+    assert_eq!(
+        refused("xpertmill", "G00 05"),
+        [rejected(1, "xpertmill", "0"), rejected(1, "xpertmill", "5")]
+    );
+    assert_eq!(refused("fanuc", "M06 05").len(), 2);
+}
+
+#[test]
+fn lines_are_as_long_as_the_target_takes_them() {
+    let line = |letters: usize| format!("G0 (a remark) X{}", "0".repeat(letters));
+    assert!(write_with(&dialect("grbl"), &line(76), &PostOptions::default()).is_ok());
+    assert_eq!(refused("grbl", &line(77)), ["line 1 of the output has 80 characters; grbl takes 79"]);
+    assert!(write_with(&dialect("rs274"), &line(240), &PostOptions::default()).is_ok());
+    assert_eq!(refused("rs274", &line(242)), ["line 1 of the output has 257 characters; rs274 takes 256"]);
+}
+
+#[test]
+fn grbl_gets_no_byte_that_it_would_act_on() {
+    assert_eq!(written("grbl", "(Über 5 µm? ~80% „ja“!) G0 X1"), "(Ueber 5 um. -80- .ja..) G0 X1\n");
+    assert_eq!(refused("grbl", "G0 X1 !"), [rejected(1, "grbl", "!")]);
+    let utf8 = PostOptions { charset: Charset::Utf8, ..PostOptions::default() };
+    assert_eq!(
+        write_with(&dialect("grbl"), "(Ä)", &utf8).unwrap().text,
+        b"(Ae)\n",
+        "whatever the configuration says"
+    );
+}
+
+#[test]
+fn raw_bytes_that_grbl_would_act_on_are_errors() {
+    let post = Post::read(
+        b"[post]\ndialect = \"grbl\"\nnumber-lines = false\n[text]\nprogram-start = '(\\\\\\~84)'",
+        Utf8Path::new("t.toml"),
+    )
+    .unwrap();
+    assert!(post.write(&job(vec![]), &PostOptions::default()).is_err());
+}
+
+#[test]
+fn umlauts_are_written_as_the_configuration_says() {
+    assert_eq!(written("linuxcnc", "(Öse ÖSE Ö ÜBÜ)"), "(Oese OESE Oe UEBUE)\n");
+    let utf8 = PostOptions { charset: Charset::Utf8, ..PostOptions::default() };
+    assert_eq!(write_with(&dialect("linuxcnc"), "(Öse)", &utf8).unwrap().text, "(Öse)\n".as_bytes());
+    assert_eq!(write_with("", "(Öse)", &PostOptions::default()).unwrap().text, b"(Oese)\n");
+}
+
+#[test]
+fn comments_within_comments_are_no_such_where_that_is_an_error() {
+    assert_eq!(written("linuxcnc", "(a (b) M0"), "(a [b) M0\n");
+    assert_eq!(written("grbl", "(a (b) M0"), "(a (b) M0\n");
+}
+
+#[test]
+fn without_a_dialect_a_note_says_that_nothing_was_checked() {
+    let notes = |target: &str, dialect: Option<&str>| {
+        let options = PostOptions { dialect: dialect.map(Into::into), ..PostOptions::default() };
+        let notes = write_with(target, "M2", &options).unwrap().notes;
+        notes.iter().map(|note| note.text(Lang::En)).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        notes("", None),
+        [
+            "the post names no dialect, so its output was not checked; --dialect (of `post`: --target) names one"
+        ]
+    );
+    assert_eq!(notes(&dialect("grbl"), None), [""; 0]);
+    assert_eq!(notes("", Some("grbl")), [""; 0]);
+}
+
+#[test]
+fn the_dialect_given_wins_over_the_definition_s() {
+    let options = |name: &str| PostOptions { dialect: Some(name.into()), ..PostOptions::default() };
+    assert!(write_with(&dialect("grbl"), "T1 M6", &options("linuxcnc")).is_ok());
+    assert!(write_with(&dialect("linuxcnc"), "T1 M6", &options("grbl")).is_err());
+}
+
+#[test]
+fn an_unknown_dialect_is_an_error_that_names_the_nearest() {
+    let errors = write_with(&dialect("linuxcmc"), "M2", &PostOptions::default()).unwrap_err();
+    assert!(texts(&errors)[0].starts_with("PB750 there is no dialect linuxcmc"), "{:?}", texts(&errors));
+    assert!(texts(&errors)[0].ends_with("(did you mean linuxcnc?)"), "{:?}", texts(&errors));
+}
+
+fn pecked() -> Job {
+    let kind = HoleKind::Peck { depth: 2.0 };
+    job(vec![Step::Hole(Hole {
+        at: [0.0, 0.0],
+        level: 5.0,
+        retract: 1.0,
+        bottom: -3.0,
+        exit: 5.0,
+        feed: Some(60.0),
+        kind,
+    })])
+}
+
+#[test]
+fn a_control_without_cycles_gets_their_moves() {
+    let options =
+        |name: &str| PostOptions { dialect: Some(name.into()), cycles: true, ..PostOptions::default() };
+    let cycle = |definition_text: &str, name: &str| {
+        let text =
+            definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{definition_text}"));
+        let output = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp"))
+            .unwrap()
+            .write(&pecked(), &options(name))
+            .unwrap();
+        String::from_utf8(output.text).unwrap()
+    };
+    assert!(cycle("", "linuxcnc").contains("G83 X0.0 Y0.0 Z-3.0 Q2.0 R1.0 F60.0"));
+    let moves = cycle("", "grbl");
+    assert!(
+        !moves.contains("G83") && moves.contains("G1 F60.0 Z-1.0") && moves.contains("G1 Z-3.0"),
+        "{moves}"
+    );
+}
+
+#[test]
+fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
+    let kind = HoleKind::Plain;
+    let plain =
+        Hole { at: [0.0, 0.0], level: 5.0, retract: 1.0, bottom: -3.0, exit: 5.0, feed: Some(60.0), kind };
+    let text = definition(
+        "<PostFile>{$mops}</PostFile><MOP>{$blocks}</MOP><G81/><CannedCycleStart/><CannedCycleEnd/>\
+         <Drill>(by hand)\n{$g0} Z{$mop.retractheight}\n{$g1} {$z} {$f}\n{$g0} Z{$mop.clearanceplane}</Drill>",
+    );
+    let options = PostOptions { dialect: Some("grbl".into()), cycles: true, ..PostOptions::default() };
+    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let output = post.write(&job(vec![Step::Hole(plain)]), &options).unwrap();
+    assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
+}
+
+/// Writes without a dialect, when anything may be written, and with one, when the text is read back.
+fn read_back(elements: &str, steps: Vec<Step>) -> Result<(), Vec<String>> {
+    let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
+    let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    post.write(&job(steps.clone()), &PostOptions::default()).unwrap();
+    let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    post.write(&job(steps), &options).map(drop).map_err(|errors| {
+        let notes =
+            |error: &Diagnostic| error.notes.iter().map(|note| note.text(Lang::En)).collect::<String>();
+        errors.iter().map(|error| format!("{} {}", error.text(Lang::En), notes(error))).collect()
+    })
+}
+
+#[test]
+fn what_moves_otherwise_than_the_program_is_not_written() {
+    let steps = || vec![feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0), rapid(10.0, 0.0, 5.0)];
+    assert_eq!(read_back("", steps()), Ok(()));
+    let errors = read_back("<FeedMove>{$g1} {$_f} {$-x} {$_y} {$_z}</FeedMove>", steps()).unwrap_err();
+    assert!(errors[0].starts_with("line 4 of the output does not do what the program says"), "{errors:?}");
+    assert!(read_back("<FeedMove>{$g1} F99 {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "another feed");
+    assert!(read_back("<FeedMove>{$g0} {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "a rapid");
+    assert!(read_back("<FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove>", steps()).is_err(), "no Z");
+    let between = vec![feed(0.4, 0.0, -1.0), feed(9.4, 0.0, -1.0)];
+    assert_eq!(
+        read_back("<NumberFormat>0</NumberFormat>", between),
+        Ok(()),
+        "within half a unit of the last digit"
+    );
+}
+
+#[test]
+fn what_the_reader_refuses_is_not_written() {
+    let errors = read_back("<MOP>G1 X1\n{$blocks}</MOP>", vec![feed(0.0, 0.0, -1.0)]).unwrap_err();
+    assert!(errors[0].contains("a cutting move without a feed"), "{errors:?}");
+}
