@@ -11,7 +11,6 @@ mod graph;
 mod inputs;
 mod misc;
 mod reading;
-mod unbuilt;
 mod watch;
 
 use clap::{Parser, Subcommand};

@@ -1,0 +1,416 @@
+//! Kept results: the same as without, whatever changed in between; never trusted when they are not whole.
+
+use std::collections::BTreeMap;
+#[cfg(target_os = "linux")]
+use std::ffi::OsStr;
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+use crate::support::{Place, Run};
+use camino::Utf8PathBuf;
+use pathbuild::session::{by_name, by_place};
+use pathbuild_draw::Sheet;
+
+const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
+
+/// Drawings, by file: their paths with T and what they embed.
+type Drawings = BTreeMap<&'static str, Vec<(String, u32, Vec<String>)>>;
+
+fn dxf(paths: &[(String, u32, Vec<String>)]) -> Vec<u8> {
+    let mut text = String::new();
+    for (index, (name, thickness, embeds)) in paths.iter().enumerate() {
+        let y = 30 * index;
+        let length = 40 * embeds.len().max(1);
+        writeln!(text, "layer {name}\nstart 0,{y} \"T{thickness} O2 I1 B0 MPlate\"").unwrap();
+        if embeds.is_empty() {
+            writeln!(text, "mill 0,{y} 40,{y}").unwrap();
+        }
+        for (index, embedded) in embeds.iter().enumerate() {
+            let (from, to) = (40 * index, 40 * index + 40);
+            writeln!(text, "subpath {from},{y} {to},{y} \">{embedded}\"").unwrap();
+        }
+        writeln!(text, "end {length},{y}").unwrap();
+    }
+    Sheet::parse(&text).unwrap().to_dxf()
+}
+
+fn path(name: &str, thickness: u32, embeds: &[&str]) -> (String, u32, Vec<String>) {
+    (name.to_owned(), thickness, embeds.iter().map(|&name| name.to_owned()).collect())
+}
+
+fn drawings() -> Drawings {
+    BTreeMap::from([
+        ("library/parts/1001.dxf", vec![path("1001.1P", 5, &[])]),
+        ("library/parts/1002-1003.dxf", vec![path("1002.1P", 5, &[]), path("1003.1P", 5, &["1001.1P"])]),
+        ("library/projects/8001.dxf", vec![path("8001.1P", 5, &["1001.1P", "1003.1P"])]),
+        ("library/projects/8002.dxf", vec![path("8002.1P", 5, &["1002.1P", "1009.1P"])]),
+        ("spare/1004.dxf", vec![path("1004.1P", 5, &[])]),
+        ("library/projects/8003.dxf", vec![path("8003.1P", 5, &["1004.1P"])]),
+    ])
+}
+
+fn library() -> Place {
+    let place = Place::new().file("pathbuild.toml", CONFIGURATION);
+    drawings().iter().fold(place, |place, (file, paths)| place.file(file, dxf(paths)))
+}
+
+/// What a run says, but for the time it took.
+fn said(run: &Run) -> (Option<i32>, String, String) {
+    let stderr: Vec<&str> = run.stderr.lines().filter(|line| !line.contains(" paths in ")).collect();
+    (run.status, run.stdout.clone(), stderr.join("\n"))
+}
+
+#[track_caller]
+fn assert_same(place: &Place, what: &str) {
+    let without = place.run("check --format json --no-cache");
+    assert_eq!(said(&place.run("check --format json")), said(&without), "first after {what}");
+    assert_eq!(said(&place.run("check --format json -j 1")), said(&without), "then after {what}");
+}
+
+/// How many drawings were not checked again.
+fn held(place: &Place) -> String {
+    let run = place.run("check -v");
+    run.stderr
+        .lines()
+        .find_map(|line| line.strip_prefix("drawings whose results still hold: "))
+        .unwrap()
+        .to_owned()
+}
+
+/// Numbers that look like chance and are the same in every run.
+struct Chance(u64);
+
+impl Chance {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        usize::try_from(self.0 % bound as u64).unwrap()
+    }
+}
+
+/// An edit, creation, deletion or renaming, a third of which make a path ambiguous, missing or cyclic; what was done.
+fn edit(place: &Place, chance: &mut Chance) -> String {
+    let names = ["1001.1P", "1002.1P", "1003.1P", "1004.1P", "1009.1P", "8001.1P"];
+    let files = [
+        "library/parts/1001.dxf",
+        "library/parts/1002-1003.dxf",
+        "library/parts/1009.dxf",
+        "library/projects/8001.dxf",
+        "library/projects/8002.dxf",
+        "library/projects/8003.dxf",
+        "library/projects/1001 copy.dxf",
+        "library/deep/er/1004.dxf",
+        "spare/1004.dxf",
+        "spare/1009.dxf",
+        "library/parts/unnamed.dxf",
+    ];
+    let file = place.path().join(files[chance.below(files.len())]);
+    let name = names[chance.below(names.len())];
+    let other = names[chance.below(names.len())];
+    match chance.below(9) {
+        0 | 1 => write(&file, &[path(name, 5, &[])]),
+        2 => write(&file, &[path(name, 4, &[])]),
+        3 => write(&file, &[path(name, 5, &[other])]),
+        4 => write(&file, &[path(name, 5, &[]), path("8009.1P", 5, &[name, other])]),
+        5 => {
+            _ = fs::remove_file(&file);
+            format!("removing {}", file.display())
+        }
+        6 => {
+            let to = place.path().join(files[chance.below(files.len())]);
+            _ = fs::create_dir_all(to.parent().unwrap());
+            _ = fs::rename(&file, &to);
+            format!("renaming {} to {}", file.display(), to.display())
+        }
+        7 => {
+            for (file, paths) in &drawings() {
+                write(&place.path().join(file), paths);
+            }
+            "mending".to_owned()
+        }
+        _ => {
+            fs::write(&file, "no drawing").ok();
+            format!("breaking {}", file.display())
+        }
+    }
+}
+
+#[test]
+fn after_any_edits_results_are_those_without_the_cache() {
+    let mut chance = Chance(0x5EED);
+    let place = library();
+    for step in 0..60 {
+        let what = edit(&place, &mut chance);
+        assert_same(&place, &format!("step {step}: {what}"));
+    }
+}
+
+/// As above; and programs are written, removed and edited by hand.
+#[test]
+fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
+    const OPTIONS: &str = "./library --feed 150 --rapid 1000 --sweep-height 20 --format json";
+    let mut chance = Chance(0xE417);
+    let place = library();
+    let mut programs = Vec::new();
+    for step in 0..40 {
+        let what = match chance.below(6) {
+            0 | 1 => {
+                place.run(&format!("emit {OPTIONS}"));
+                programs = written(&place);
+                "emit".to_owned()
+            }
+            2 if !programs.is_empty() => {
+                let program = &programs[chance.below(programs.len())];
+                _ = fs::remove_file(program);
+                format!("removing {}", program.display())
+            }
+            3 if !programs.is_empty() => {
+                let program = &programs[chance.below(programs.len())];
+                fs::write(program, format!("(edited {step})\n")).unwrap();
+                format!("editing {}", program.display())
+            }
+            _ => edit(&place, &mut chance),
+        };
+        let without = said(&place.run(&format!("emit --check --no-cache {OPTIONS}")));
+        for time in ["first", "then"] {
+            let with = said(&place.run(&format!("emit --check {OPTIONS}")));
+            assert_eq!(with, without, "{time} after step {step}: {what}");
+        }
+    }
+}
+
+/// The programs on disk.
+fn written(place: &Place) -> Vec<PathBuf> {
+    let directories = ["library/parts", "library/projects", "library/deep/er"];
+    let entries = directories.iter().filter_map(|directory| fs::read_dir(place.path().join(directory)).ok());
+    let files = entries.flatten().map(|entry| entry.unwrap().path());
+    let mut programs: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|extension| extension == "gcode")).collect();
+    programs.sort();
+    programs
+}
+
+fn write(file: &PathBuf, paths: &[(String, u32, Vec<String>)]) -> String {
+    fs::create_dir_all(file.parent().unwrap()).unwrap();
+    fs::write(file, dxf(paths)).unwrap();
+    format!("writing {} with {paths:?}", file.display())
+}
+
+#[test]
+fn only_what_depends_on_a_change_is_checked_again() {
+    let place = library();
+    assert_eq!(held(&place), "0 / 5");
+    assert_eq!(held(&place), "5 / 5");
+    write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 4, &[])]);
+    // 1001, 1002-1003 and 8001, which embed it.
+    assert_eq!(held(&place), "2 / 5");
+    // A file that may hold what 8002 looks for in vain.
+    write(&place.path().join("spare/1009.dxf"), &[path("1009.2P", 5, &[])]);
+    assert_eq!(held(&place), "4 / 5");
+    write(&place.path().join("spare/7000.dxf"), &[path("7000.1P", 5, &[])]);
+    assert_eq!(held(&place), "5 / 5");
+    write(&place.path().join("spare/1004.dxf"), &[path("1004.1P", 4, &[])]);
+    assert_eq!(held(&place), "4 / 5");
+}
+
+#[test]
+fn a_drawing_that_was_touched_is_not_checked_again() {
+    let place = library();
+    assert_eq!(held(&place), "0 / 5");
+    let file = place.path().join("library/parts/1001.dxf");
+    fs::write(&file, fs::read(&file).unwrap()).unwrap();
+    assert_eq!(held(&place), "5 / 5");
+}
+
+#[test]
+fn settings_that_matter_ask_another_question() {
+    let place = library();
+    assert_eq!(held(&place), "0 / 5");
+    let place = place.file("pathbuild.toml", format!("{CONFIGURATION}restrict = [\"8*:9\"]\n"));
+    assert_eq!(held(&place), "0 / 5");
+    assert_same(&place, "forbidding an embedding");
+    // What becomes of findings afterwards does not matter.
+    let place = place.file("pathbuild.toml", format!("{CONFIGURATION}[severity]\nPB210 = \"ignore\"\n"));
+    assert_eq!(held(&place), "5 / 5");
+}
+
+fn results(place: &Place) -> Vec<PathBuf> {
+    let listed = fs::read_dir(place.path().join(".pathbuild")).unwrap().map(|entry| entry.unwrap().path());
+    let mut results: Vec<PathBuf> =
+        listed.filter(|path| path.extension().is_some_and(|it| it == "results")).collect();
+    results.sort();
+    results
+}
+
+#[test]
+fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
+    let place = library();
+    let clean = said(&place.run("check --format json"));
+    let [file] = results(&place).try_into().unwrap();
+    let whole = fs::read(&file).unwrap();
+    let mut damages: Vec<Vec<u8>> =
+        vec![Vec::new(), b"nothing of ours".to_vec(), whole[..whole.len() - 1].to_vec()];
+    for at in (0..whole.len()).step_by(whole.len() / 40) {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 1;
+        damages.push(damaged);
+    }
+    for damaged in damages {
+        fs::write(&file, &damaged).unwrap();
+        let run = place.run("check --format json");
+        let (status, stdout, stderr) = said(&run);
+        assert_eq!((status, &stdout), (clean.0, &clean.1));
+        assert!(stderr.contains("made anew"), "{stderr}");
+        assert_eq!(said(&place.run("check --format json")), clean);
+    }
+    fs::remove_file(&file).unwrap();
+    fs::create_dir(&file).unwrap();
+    assert_eq!(place.run("check --format json").stdout, clean.1);
+}
+
+#[test]
+fn without_a_configuration_or_with_no_cache_nothing_is_kept() {
+    let place = library();
+    place.run("check --no-cache");
+    assert!(!place.path().join(".pathbuild").exists());
+    fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
+    place.run("check ./library");
+    assert!(!place.path().join(".pathbuild").exists());
+}
+
+#[test]
+fn the_cache_says_what_it_is_and_keeps_out_of_repositories() {
+    let place = library();
+    place.run("check");
+    assert!(place.read(".pathbuild/CACHEDIR.TAG").starts_with("Signature: 8a477f597d28d172789f06886806bc55"));
+    assert_eq!(place.read(".pathbuild/.gitignore"), "*\n");
+}
+
+#[test]
+fn several_processes_at_once_do_each_other_no_harm() {
+    let place = library();
+    let expected = said(&place.run("check --format json --no-cache"));
+    std::thread::scope(|scope| {
+        let run = || (0..6).map(|_| said(&place.run("check --format json"))).collect::<Vec<_>>();
+        let threads: Vec<_> = (0..4).map(|_| scope.spawn(run)).collect();
+        for thread in threads {
+            for found in thread.join().unwrap() {
+                assert_eq!(found, expected);
+            }
+        }
+    });
+    assert_eq!(results(&place).len(), 1);
+}
+
+#[test]
+fn the_cache_can_be_looked_at_and_removed() {
+    let place = library();
+    assert_eq!(place.run("cache size").stdout, "0 bytes\n");
+    place.run("check");
+    assert_eq!(place.run("cache dir").stdout, "<PLACE>/.pathbuild\n");
+    let [file] = results(&place).try_into().unwrap();
+    assert_eq!(place.run("cache size").stdout, format!("{} bytes\n", fs::metadata(&file).unwrap().len()));
+    let run = place.run("cache verify");
+    assert!(run.stdout.contains(": whole, ") && run.status == Some(0), "{run}");
+    assert_eq!(place.run("cache prune").stderr, "removed: 0\n");
+
+    let mut bytes = fs::read(&file).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    fs::write(&file, bytes).unwrap();
+    let run = place.run("cache verify");
+    assert!(run.stdout.contains(": damaged, ") && run.status == Some(1), "{run}");
+    assert_eq!(place.run("cache prune").stderr, "removed: 1\n");
+
+    assert_eq!(place.run("cache clean").stderr, "removed: 1\n");
+    assert!(!place.path().join(".pathbuild").exists());
+    assert_eq!(place.run("cache clean").stderr, "removed: 0\n");
+}
+
+#[test]
+fn a_directory_that_is_no_cache_is_not_removed() {
+    let place = library().file(".pathbuild/drawing.dxf", "precious");
+    let run = place.run("cache clean");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert_eq!(place.read(".pathbuild/drawing.dxf"), "precious");
+}
+
+#[test]
+fn without_a_configuration_there_is_no_cache_to_look_at() {
+    let run = Place::new().run("cache dir");
+    assert_eq!(run.status, Some(2), "{run}");
+}
+
+#[test]
+fn paths_are_ordered_part_by_part() {
+    let mut paths: Vec<Utf8PathBuf> = [
+        "a", "a/b", "a/b.dxf", "a b", "a-b", "a.dxf", "ab", "a/b/c", "A", "ä", "a/ä", "../a", "/a", "/",
+        "/a/b", "a/b c", "a\u{1}",
+    ]
+    .map(Utf8PathBuf::from)
+    .to_vec();
+    paths.sort();
+    for (index, a) in paths.iter().enumerate() {
+        for (other, b) in paths.iter().enumerate() {
+            assert_eq!(by_place(a, b), index.cmp(&other), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn names_are_ordered_as_texts() {
+    let mut names = [
+        "",
+        "a",
+        "1000.1P",
+        "1000.1P.",
+        "1000.1P.dxf",
+        "1000.11P",
+        "1000.11P.dxf",
+        "1000.1p.dxf",
+        "1000.1Pä",
+        "1000.1P\u{1}",
+        "ä",
+        "Ä1234567",
+        "\u{ffff}1234567",
+    ];
+    names.sort_unstable();
+    for (index, a) in names.iter().enumerate() {
+        for (other, b) in names.iter().enumerate() {
+            assert_eq!(by_name(a, b), index.cmp(&other), "{a} {b}");
+        }
+    }
+}
+
+/// Where there are files of rules directories are walked in another way, which finds the same.
+#[test]
+fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
+    let drawing = |name: &str| dxf(&[path(name, 5, &[])]);
+    let place = Place::new()
+        .file("pathbuild.toml", CONFIGURATION)
+        .file("library/1001.DXF", drawing("1001.1P"))
+        .file("library/a/b/1002.dxf", drawing("1002.1P"))
+        .file("library/a/b.dxf/1003.dxf", drawing("1003.1P"))
+        .file("library/.hidden/1004.dxf", drawing("1004.1P"))
+        .file("library/a/.1005.dxf", drawing("1005.1P"))
+        .file("elsewhere/1006.dxf", drawing("1006.1P"));
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../elsewhere", place.path().join("library/linked")).unwrap();
+        std::os::unix::fs::symlink("../elsewhere/1006.dxf", place.path().join("library/1006.dxf")).unwrap();
+    }
+    #[cfg(target_os = "linux")]
+    {
+        // No argument could name it either.
+        let unspeakable: &OsStr = std::os::unix::ffi::OsStrExt::from_bytes(b"library/\xff.dxf");
+        fs::write(place.path().join(unspeakable), drawing("1007.1P")).unwrap();
+    }
+    let summary = |place: &Place| place.run("check --no-cache").stderr.split(':').next().unwrap().to_owned();
+    let without = summary(&place);
+    assert_eq!(without, if cfg!(unix) { "4 paths in 4 drawings" } else { "3 paths in 3 drawings" });
+    let place = place.file("library/.ignore", "nothing\n");
+    assert_eq!(summary(&place), without);
+    let place = place.file("library/.ignore", "b\n");
+    assert_ne!(summary(&place), without);
+}

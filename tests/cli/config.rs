@@ -1,0 +1,339 @@
+//! The configuration: finding it, reading it strictly, the command line over it. (spec/06-configuration.md)
+
+use crate::support::{Place, Run, runs};
+use insta::assert_snapshot;
+
+/// `config show --origin` with this configuration.
+fn show(text: &str, arguments: &str) -> Run {
+    Place::new().file("pathbuild.toml", text).run(&format!("config show --origin {arguments}"))
+}
+
+/// The concise complaints about this configuration.
+fn complaints(text: &str) -> String {
+    let run = Place::new().file("pathbuild.toml", text).run("config show --format concise");
+    assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
+    run.stderr
+}
+
+/// The line that `config show` prints for a key.
+fn line(run: &Run, key: &str) -> String {
+    let lines = run.stdout.lines();
+    lines
+        .filter(|line| line.contains(key))
+        .map(str::to_owned)
+        .next()
+        .unwrap_or_else(|| panic!("no {key} in {run}"))
+}
+
+#[test]
+fn without_a_configuration_defaults_hold() {
+    assert_snapshot!(Place::new().run("config show"));
+}
+
+#[test]
+fn every_value_is_shown_with_where_it_comes_from() {
+    let text = r#"
+feed = 150
+rapid = 1_000.5
+library = ["components", "../projects"]
+restrict = ["8*:[0-9.]*P"]
+units = "mm"
+out-dir = "out"
+z-model = "tin"
+
+[line-types]
+"MITTE" = "CENTER"
+
+[emit]
+targets = ["8*"]
+
+[severity]
+PB210 = "ignore"
+turn-marker-without-effect = "error"
+
+[[severity-in]]
+files = ["old/**"]
+PB112 = "ignore"
+
+[limits]
+file-size = "2 MB"
+
+[machine]
+x = [0, 300.5]
+
+[watch]
+debounce = "1 s"
+
+[tool."T 2"]
+diameter = 2
+coolant = "mist"
+"#;
+    assert_snapshot!(show(text, "--feed 120,5 --search parts --restrict a:b --lang=de"));
+}
+
+#[test]
+fn what_is_shown_is_a_configuration_that_says_the_same() {
+    let text = "feed = 150\n[severity]\nPB210 = \"ignore\"\n[[severity-in]]\nfiles = ['a\"b']\nPB112 = \"error\"\n[tool.a]\ndiameter = 2\n";
+    let first = Place::new().file("pathbuild.toml", text).run("config show");
+    let second = Place::new().file("pathbuild.toml", &first.stdout).run("config show");
+    assert_eq!(first, second);
+    assert_eq!(first.status, Some(0), "{first}");
+}
+
+#[test]
+fn init_writes_a_configuration_that_changes_nothing_but_the_library() {
+    let place = Place::new();
+    assert_snapshot!(format!("{}\n{}", place.run("init"), place.read("pathbuild.toml")));
+    let run = place.run("config show --origin");
+    let set: Vec<_> = run.stdout.lines().filter(|line| line.contains("  # line ")).collect();
+    assert_eq!(set, ["library = [\"<PLACE>\"]  # line 9"], "{run}");
+}
+
+#[test]
+fn init_shows_every_key_with_a_right_value() {
+    let place = Place::new();
+    assert_eq!(place.run("init").status, Some(0));
+    let all: String = place
+        .read("pathbuild.toml")
+        .lines()
+        .map(|line| match line.strip_prefix('#') {
+            Some(value) if !value.starts_with(' ') => format!("{value}\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let run = Place::new().file("pathbuild.toml", &all).run("config show --origin");
+    assert_eq!(run.status, Some(0), "{run}\n{all}");
+    assert!(!run.stdout.contains("# default") && !run.stdout.contains("is not set"), "{run}");
+    let schema: serde_json::Value = serde_json::from_str(&place.run("config schema").stdout).unwrap();
+    let read: toml::Table = toml::from_str(&all).unwrap();
+    let read = serde_json::to_value(read).unwrap();
+    assert_eq!(jsonschema::validate(&schema, &read).map_err(|error| error.to_string()), Ok(()));
+    for (table, keys) in schema["properties"].as_object().unwrap() {
+        assert!(read.get(table).is_some(), "init lacks {table}");
+        for key in keys["properties"].as_object().into_iter().flat_map(serde_json::Map::keys) {
+            assert!(read[table].get(key).is_some(), "init lacks {table}.{key}");
+        }
+    }
+}
+
+#[test]
+fn init_leaves_a_configuration_alone() {
+    let place = Place::new().file("pathbuild.toml", "feed = 1\n");
+    let run = place.run("init");
+    assert_snapshot!(run);
+    assert_eq!(place.read("pathbuild.toml"), "feed = 1\n");
+}
+
+#[test]
+fn the_schema_refuses_what_the_reader_refuses() {
+    let schema: serde_json::Value = serde_json::from_str(&Place::new().run("config schema").stdout).unwrap();
+    let wrong = [
+        "feed = 0",
+        "feed = \"1\"",
+        "fed = 1",
+        "library = \"a\"",
+        "lang = \"fr\"",
+        "units = 1",
+        "join-tolerance = -1",
+        "cycles = 1",
+        "[limits]\nentities = 0",
+        "[limits]\nentity = 1",
+        "[limits]\nfile-size = \"2 XB\"",
+        "[watch]\ndebounce = \"50\"",
+        "[severity]\nPB999 = \"error\"",
+        "[severity]\nPB210 = \"info\"",
+        "[line-types]\nA = \"B\"",
+        "[tool.a]\nnumber = 1",
+        "[tool.a]\ndiameter = 2\ncolor = 1",
+        "[machine]\nx = [1]",
+        "[[severity-in]]\nPB112 = \"ignore\"",
+        "restrict = [\"a\"]",
+    ];
+    for text in wrong {
+        let read = serde_json::to_value(toml::from_str::<toml::Table>(text).unwrap()).unwrap();
+        assert!(jsonschema::validate(&schema, &read).is_err(), "the schema takes {text}");
+        assert_ne!(complaints(text), "", "{text}");
+    }
+}
+
+#[test]
+fn everything_that_is_wrong_is_said_at_once() {
+    let text = r#"fed = 1
+rapid = "fast"
+probe-feed = -1
+join-tolerance = -0.1
+approximate-curves = inf
+library = "parts"
+search = [1]
+path-pattern = '('
+restrict = ["8", "(:a", "a:)"]
+lang = "fr"
+units = "header "
+charset = 8
+cycles = "yes"
+post = ""
+[emit]
+targets = ["[8"]
+target = []
+[limits]
+file-size = "256 QiB"
+entities = 2.5
+seconds-per-path = 0
+[line-types]
+MITTE = "CENTRE"
+[severity]
+PB203 = "warning"
+PB210 = "off"
+PB21 = "error"
+parameter-out-of-rnge = "error"
+[tool.2mm]
+number = 1
+paths = "("
+[machine]
+x = [300, 0]
+[watch]
+debounce = "fast"
+[remote]
+url = "x"
+"#;
+    assert_snapshot!(complaints(text));
+    let german = Place::new().file("pathbuild.toml", text).run("config show --format concise --lang de");
+    assert_eq!(german.stderr.lines().count(), complaints(text).lines().count());
+    assert_snapshot!(german);
+}
+
+#[test]
+fn broken_toml_is_shown_where_it_breaks() {
+    assert_snapshot!(complaints("feed = 150\nrapid = \nlibrary = [\"a\"\n[limits\n"));
+    assert_snapshot!(Place::new().file("pathbuild.toml", "feed = 150\nfeed = 1\n").run("config show"));
+}
+
+#[test]
+fn a_configuration_that_is_no_text_is_refused() {
+    let place = Place::new().file("pathbuild.toml", b"feed = 1 # \xff");
+    assert_snapshot!(place.run("config show --format concise"));
+}
+
+#[test]
+fn limits_of_values_are_where_the_page_says() {
+    let cases = [
+        ("feed = 0.001", "feed = 0.0"),
+        ("approximate-curves = 0", "approximate-curves = -0.001"),
+        ("[limits]\nentities = 1", "[limits]\nentities = 0"),
+        ("[limits]\nfile-size = \"1 B\"", "[limits]\nfile-size = \"0 B\""),
+        ("[limits]\nfile-size = 1", "[limits]\nfile-size = 0"),
+        ("[limits]\nfile-size = \"17179869183 GiB\"", "[limits]\nfile-size = \"17179869184 GiB\""),
+        ("[machine]\nz = [0, 0.1]", "[machine]\nz = [0, 0]"),
+        ("[severity]\nPB112 = \"ignore\"", "[severity]\nPB113 = \"ignore\""),
+        ("[severity]\nPB602 = \"warning\"", "[severity]\nPB511 = \"warning\""),
+        ("[severity]\nPB203 = \"error\"", "[severity]\nPB203 = \"warning\""),
+    ];
+    for (inside, outside) in cases {
+        assert_eq!(show(inside, "").status, Some(0), "{inside}");
+        assert_eq!(complaints(outside).lines().count(), 1, "{outside}");
+    }
+}
+
+#[test]
+fn sizes_are_read_in_both_kinds_of_units() {
+    for (text, shown) in [
+        ("\"1 kB\"", "1000"),
+        ("\"1 KiB\"", "\"1 KiB\""),
+        ("\"3GiB\"", "\"3 GiB\""),
+        ("2_000_000", "2000000"),
+    ] {
+        let run = show(&format!("[limits]\nfile-size = {text}"), "");
+        assert_eq!(line(&run, "file-size"), format!("file-size = {shown}  # line 2"));
+    }
+}
+
+#[test]
+fn options_take_point_or_comma_and_nothing_else() {
+    for (text, shown) in [("120.5", "120.5"), ("120,5", "120.5"), ("+7", "7"), (",5", "0.5")] {
+        let run = show("feed = 1", &format!("--feed {text}"));
+        assert_eq!(line(&run, "feed"), format!("feed = {shown}  # --feed"));
+    }
+    for text in ["0", "-1", "1e3", "1.000,5", "", "x", "nan", "inf", "1 2", "."] {
+        let run = Place::new().run_with(&["config", "show", "--format=concise", &format!("--feed={text}")]);
+        assert_eq!((run.status, run.stderr.lines().count()), (Some(2), 1), "{run}");
+    }
+}
+
+#[test]
+fn values_of_options_that_are_wrong_are_underlined() {
+    let arguments = [
+        "config",
+        "show",
+        "--feed=-1",
+        "--rapid=1,2,3",
+        "--path-pattern=(",
+        "--restrict=a",
+        "--restrict=[:b",
+    ];
+    assert_snapshot!(Place::new().run_with(&arguments));
+    assert_snapshot!(Place::new().run_with(&["config", "show", "--feed=x", "--format=json"]));
+}
+
+#[test]
+fn the_configuration_is_that_of_the_first_argument() {
+    let place = Place::new()
+        .file("a/pathbuild.toml", "feed = 1")
+        .file("a/b/x.dxf", "")
+        .file("pathbuild.toml", "feed = 2");
+    let feed = |arguments: &str| line(&place.run(&format!("config show {arguments}")), "feed");
+    assert_eq!(feed(""), "feed = 2");
+    assert_eq!(feed("a/b/x.dxf"), "feed = 1");
+    assert_eq!(feed("a/b/X.DXF"), "feed = 1");
+    assert_eq!(feed("a/b/"), "feed = 1");
+    assert_eq!(feed("a/b/../b/.."), "feed = 1");
+    assert_eq!(feed("2913.1P"), "feed = 2");
+    assert_eq!(feed("--config pathbuild.toml a/b/x.dxf"), "feed = 2");
+    assert_eq!(line(&place.run_in("a/b", &["config", "show", "x.dxf"]), "feed"), "feed = 1");
+}
+
+#[test]
+fn an_argument_under_another_configuration_is_wrong() {
+    let place = Place::new().file("a/pathbuild.toml", "").file("b/pathbuild.toml", "").file("c/x.dxf", "");
+    let lines = [
+        "config show --format concise a/x.dxf b/x.dxf b/y.dxf c/x.dxf",
+        "config show --format concise c/x.dxf a/x.dxf",
+        "config show --format concise --config a/pathbuild.toml a/x.dxf b/x.dxf",
+    ];
+    let shown = runs(&place, lines);
+    assert_snapshot!(
+        shown.lines().take_while(|line| !line.starts_with("path-pattern")).collect::<Vec<_>>().join("\n")
+    );
+}
+
+#[test]
+fn a_configuration_that_is_named_must_be_there() {
+    assert_snapshot!(Place::new().run("config show --config other.toml"));
+}
+
+#[test]
+fn names_in_the_configuration_are_relative_to_it() {
+    let place = Place::new()
+        .file("a/pathbuild.toml", "search = [\"../parts\", \"./x/./y\"]\nout-dir = \"out\"")
+        .file("a/b/x.dxf", "");
+    let run = place.run_in("a/b", &["config", "show", "x.dxf"]);
+    assert_eq!(line(&run, "search"), "search = [\"<PLACE>/a/../parts\", \"<PLACE>/a/x/y\"]");
+    assert_eq!(line(&run, "out-dir"), "out-dir = \"<PLACE>/a/out\"");
+    let run = place.run_in("a/b", &["config", "show", "x.dxf", "--out-dir=o", "--search=s", "--search=t"]);
+    assert_eq!(line(&run, "search"), "search = [\"<PLACE>/a/b/s\", \"<PLACE>/a/b/t\"]");
+    assert_eq!(line(&run, "out-dir"), "out-dir = \"<PLACE>/a/b/o\"");
+}
+
+#[test]
+fn a_key_of_an_earlier_version_names_its_successor() {
+    let run = Place::new().file("pathbuild.toml", "support-bars = \"solid\"\n").run("config show");
+    assert_eq!(run.status, Some(2), "{run}");
+    assert!(run.stderr.contains("PB003") && run.stderr.contains("`compatible = true`"), "{run}");
+}
+
+#[test]
+fn the_option_compatible_wins_over_the_key() {
+    assert_eq!(
+        line(&show("compatible = false\n", "--compatible"), "compatible"),
+        "compatible = true  # --compatible"
+    );
+}

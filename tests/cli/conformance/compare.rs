@@ -1,0 +1,132 @@
+//! One run of the program over a recorded case, and how its outcome differs from what is expected.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use tempfile::TempDir;
+
+use super::files_below;
+use super::recorded::{Run, What};
+use super::reduced::{is_same_line, reduced};
+use crate::support::program;
+
+/// What differs; nothing where the run is equal.
+pub(crate) fn differences(run: &Run) -> Vec<String> {
+    match &run.what {
+        What::Compile(arguments) => compile_differences(run, arguments),
+        What::Adjust(max_correction) => adjust_differences(run, *max_correction),
+    }
+}
+
+fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
+    let expected = run.case.join("expected").join(run.number.to_string());
+    let place = copy_of(&run.case);
+    let before = files_below(place.path());
+    let output = program()
+        .args([&arguments[0], "--compatible", "--no-cache", "--format=json"])
+        .args(&arguments[1..])
+        .current_dir(place.path())
+        .output()
+        .unwrap();
+    let mut differences = Vec::new();
+    differences.extend(odd_end(&output));
+    let fails = fs::read_to_string(expected.join("exit")).unwrap().trim() != "0";
+    differences.extend(exit_difference(&output, fails));
+    differences.extend(code_difference(&output, &fs::read_to_string(expected.join("codes")).unwrap()));
+    let written: BTreeSet<String> = &files_below(place.path()) - &before;
+    let wanted = if fails { BTreeSet::new() } else { recorded_files(&expected) };
+    if written != wanted {
+        differences.push(format!("files {written:?}, expected {wanted:?}"));
+    }
+    let both = written.intersection(&wanted);
+    differences.extend(both.filter_map(|name| file_difference(name, &expected, place.path())));
+    differences
+}
+
+/// The corrected program is compared byte for byte, line ends aside.
+fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
+    let expected = run.case.join("expected");
+    let place = copy_of(&run.case);
+    let input = files_below(place.path()).into_iter().find(|name| name.ends_with("_Clean.gcode")).unwrap();
+    let name = input.strip_suffix("_Clean.gcode").unwrap();
+    let output = program()
+        .args(["adjust", &format!("--max-correction={max_correction}"), name])
+        .current_dir(place.path())
+        .output()
+        .unwrap();
+    let mut differences = Vec::new();
+    differences.extend(odd_end(&output));
+    let fails = fs::read_to_string(expected.join("exit")).unwrap().trim() != "0";
+    differences.extend(exit_difference(&output, fails));
+    let program = format!("{name}_Milling.gcode");
+    let read = |directory: &Path| {
+        fs::read_to_string(directory.join(&program)).ok().map(|text| text.replace("\r\n", "\n"))
+    };
+    if read(&expected) != read(place.path()) {
+        differences.push(format!("{program} differs"));
+    }
+    differences
+}
+
+/// The drawings of a case in a directory of their own.
+fn copy_of(case: &Path) -> TempDir {
+    let place = TempDir::new().unwrap();
+    for name in files_below(case) {
+        if name != "case.json" && !name.starts_with("expected/") {
+            let copy = place.path().join(&name);
+            fs::create_dir_all(copy.parent().unwrap()).unwrap();
+            fs::write(copy, fs::read(case.join(&name)).unwrap()).unwrap();
+        }
+    }
+    place
+}
+
+fn recorded_files(expected: &Path) -> BTreeSet<String> {
+    let mut names = files_below(expected);
+    names.retain(|name| name != "exit" && name != "codes");
+    names
+}
+
+fn odd_end(output: &Output) -> Option<String> {
+    let is_panic = String::from_utf8_lossy(&output.stderr).contains("panicked at");
+    let is_odd = output.status.code().is_none_or(|status| status > 2);
+    (is_panic || is_odd).then(|| format!("a panic, or an odd end: {}", output.status))
+}
+
+/// The reference mixes what pathbuild tells apart as 1 and 2.
+fn exit_difference(output: &Output, fails: bool) -> Option<String> {
+    let expected = if fails { "failure" } else { "success" };
+    (output.status.success() == fails).then(|| format!("{}, expected {expected}", output.status))
+}
+
+fn code_difference(output: &Output, expected: &str) -> Option<String> {
+    let expected: BTreeSet<&str> = expected.split_whitespace().collect();
+    if expected.contains("usage") {
+        return None;
+    }
+    let text = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    let lines = text.iter().flat_map(|text| text.lines()).filter(|line| line.starts_with('{'));
+    let found: BTreeSet<String> = lines.filter_map(error_code).filter(|code| code != "PB511").collect();
+    let is_same = found.iter().map(String::as_str).eq(expected.iter().copied());
+    (!is_same).then(|| format!("codes {found:?}, expected {expected:?}"))
+}
+
+/// The code of an error, of a line of JSON.
+fn error_code(line: &str) -> Option<String> {
+    let diagnostic: serde_json::Value = serde_json::from_str(line).unwrap();
+    (diagnostic["severity"] == "error").then(|| diagnostic["code"].as_str().unwrap().to_owned())
+}
+
+/// The first line in which a file differs.
+fn file_difference(name: &str, expected: &Path, written: &Path) -> Option<String> {
+    let lines = |directory: &Path| reduced(name, &fs::read_to_string(directory.join(name)).unwrap());
+    let (expected, written) = (lines(expected), lines(written));
+    (0..expected.len().max(written.len())).find_map(|index| {
+        let line = |lines: &[String]| lines.get(index).cloned().unwrap_or_else(|| "<nothing>".to_owned());
+        let (expected, written) = (line(&expected), line(&written));
+        (!is_same_line(&expected, &written))
+            .then(|| format!("{name}, line {} of its moves: expected {expected}, got {written}", index + 1))
+    })
+}

@@ -1,0 +1,84 @@
+//! Recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, compared move for move: what pathbuild must do with the same drawings.
+//! fixtures/conformance/README.md says what is recorded and what counts as equal.
+
+mod compare;
+pub(crate) mod recorded;
+mod reduced;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use self::recorded::Run;
+use crate::support;
+
+/// Runs that are known to differ, with the reason. A run that is equal must not stand here.
+const DIFFERENT: [(&str, &str); 0] = [];
+
+#[test]
+fn recorded_runs_are_equal() {
+    let fixtures = support::project().join("fixtures/conformance");
+    let runs = recorded::runs(&["cases", "turns", "adjust"].map(|name| fixtures.join(name)));
+    assert_eq!(runs.len(), 640, "runs in {}", fixtures.display());
+    let single: BTreeSet<String> =
+        fs::read_to_string(fixtures.join("single.txt")).unwrap().lines().map(str::to_owned).collect();
+    let differences = compare_all("recorded", &runs);
+    let chosen = runs.iter().zip(&differences).filter(|(run, _)| single.contains(&run.name()));
+    say("recorded, of a single path", &chosen.map(|(_, differences)| differences).collect::<Vec<_>>());
+}
+
+/// The reference's own test drawings are not ours to keep: they are read where they lie.
+#[test]
+fn foreign_runs_are_equal() {
+    let Some(foreign) = support::shared("conformance/foreign") else { return };
+    let runs = recorded::runs(&[foreign]);
+    assert_eq!(runs.len(), 36);
+    compare_all("foreign", &runs);
+}
+
+/// The differences of each run. Fails where there is one that is not known.
+fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
+    let differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
+    say(what, &differences.iter().collect::<Vec<_>>());
+    let faults: Vec<String> =
+        runs.iter().zip(&differences).filter_map(|(run, found)| fault(run, found)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    differences
+}
+
+/// Says how many runs are equal. Not with println!, which the test harness keeps to itself where all is well.
+#[allow(clippy::explicit_write, reason = "likewise eprintln!")]
+fn say(what: &str, differences: &[&Vec<String>]) {
+    let equal = differences.iter().filter(|differences| differences.is_empty()).count();
+    writeln!(std::io::stderr(), "{what}: {equal} of {} runs equal", differences.len()).unwrap();
+}
+
+/// What is wrong with the outcome of a run: it differs, or is equal though it is listed as different.
+fn fault(run: &Run, differences: &[String]) -> Option<String> {
+    let known = DIFFERENT.iter().find(|(name, _)| *name == run.name());
+    match (known, differences) {
+        (None, []) | (Some(_), [_, ..]) => None,
+        (Some(_), []) => Some(format!("{}: equal now, and to be taken off the list", run.name())),
+        (None, _) => Some(format!("{run}:\n    {}", differences.join("\n    "))),
+    }
+}
+
+/// The files below a directory, as names relative to it.
+fn files_below(directory: &Path) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut open = vec![directory.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                names.insert(path.strip_prefix(directory).unwrap().to_str().unwrap().replace('\\', "/"));
+            }
+        }
+    }
+    names
+}

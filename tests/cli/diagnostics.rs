@@ -1,0 +1,55 @@
+//! What pathbuild says of each mistake, word for word: the examples of `explain`, run as somebody would run them.
+
+use crate::support::Place;
+use insta::assert_snapshot;
+use pathbuild_diagnostic::{Code, example};
+use pathbuild_draw::Fixture;
+
+/// A mistake of the program itself: no drawing is meant to show it.
+const WITHOUT_EXAMPLE: &[&str] = &["PB006"];
+
+/// The codes with their examples.
+fn examples() -> impl Iterator<Item = (String, Option<&'static str>)> {
+    Code::ALL.iter().map(|code| (code.to_string(), example(*code)))
+}
+
+#[test]
+fn every_code_has_an_example() {
+    let without = examples().filter(|(_, text)| text.is_none()).map(|(code, _)| code);
+    assert_eq!(without.collect::<Vec<_>>(), WITHOUT_EXAMPLE);
+}
+
+#[test]
+fn what_is_said_of_each_mistake() {
+    for (code, text) in examples() {
+        if let Some(text) = text {
+            assert_snapshot!(code, said(text, &[]));
+        }
+    }
+}
+
+/// A text that nobody translated would be the same in both languages.
+#[test]
+fn each_mistake_is_told_in_german_too() {
+    let is_told_alike = |text| messages(&said(text, &["--lang=de"])) == messages(&said(text, &[]));
+    let told_alike = examples().filter(|(_, text)| text.is_some_and(is_told_alike)).map(|(code, _)| code);
+    assert_eq!(told_alike.collect::<Vec<_>>(), Vec::<String>::new());
+}
+
+/// What the commands of a fixture print.
+fn said(text: &str, options: &[&str]) -> String {
+    let place = Place::of(text);
+    let fixture = Fixture::parse(text).unwrap();
+    let runs = fixture.commands.iter().map(|command| {
+        let arguments: Vec<&str> =
+            command.arguments.iter().map(String::as_str).chain(options.iter().copied()).collect();
+        place.run_with(&arguments).to_string()
+    });
+    runs.collect::<Vec<_>>().join("\n")
+}
+
+/// The lines that name a mistake.
+fn messages(said: &str) -> Vec<String> {
+    let is_message = |line: &&str| line.starts_with("  × ") || line.starts_with("  ⚠ ");
+    said.lines().filter(is_message).map(str::to_owned).collect()
+}

@@ -1,0 +1,153 @@
+//! The same library at another place, or looked at from another directory: byte-identical programs and, but for the names of directories,
+//! identical findings; with nothing kept, with everything kept, on one thread and on several.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::Place;
+
+/// Components with faults and without, projects, one of them with probes, and one whose component is missing.
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["components", "projects"]
+search = ["components"]
+feed = 150
+rapid = 1000
+sweep-height = 20
+[emit]
+targets = ["8*"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== components/1300.dxf ==
+layer 1300.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+layer 1300.2P
+start 0,50 "T5 O2 I1 B4"
+mill 0,50 40,50
+end 40,50
+== components/1400.dxf ==
+layer 1400.1P
+start 0,0 "T5 O2 I1 B4 MPlate Y7"
+mill 0,0 40,0
+== projects/8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+subpath 40,0 80,0 ">1300.1P"
+end 80,0
+== projects/8002.dxf ==
+layer 8002.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+probe 20,20 "LA"
+end 40,0
+== projects/8003.dxf ==
+layer 8003.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1400.1P"
+subpath 40,0 80,0 ">1999.1P"
+end 80,0
+"#;
+
+/// What a run over the library comes to.
+#[derive(Debug, PartialEq)]
+struct Outcome {
+    status: [Option<i32>; 2],
+    /// Findings of `check`, then what `emit` says, without directories.
+    said: [Vec<String>; 2],
+    programs: BTreeMap<PathBuf, Vec<u8>>,
+}
+
+/// Checks and emits the library of `root` from a directory below the place.
+fn outcome(place: &Place, root: &str, from: &str, options: &str) -> Outcome {
+    let up =
+        if from == root { "." } else { &format!("{}{root}", "../".repeat(Path::new(from).iter().count())) };
+    let run = |command: &str| {
+        let configuration = format!("{up}/pathbuild.toml");
+        let arguments = format!("{command} --config {configuration} --format concise {options}");
+        place.run_in(from, &arguments.split_whitespace().collect::<Vec<_>>())
+    };
+    let (check, emit) = (run("check"), run("emit"));
+    let bare = |text: String| {
+        let mut lines: Vec<String> = text
+            .replace("<PLACE>/", "")
+            .replace(&format!("{up}/"), "")
+            .replace(&format!("{root}/"), "")
+            .lines()
+            .map(str::to_owned)
+            .collect();
+        lines.sort();
+        lines
+    };
+    let outcome = Outcome {
+        status: [check.status, emit.status],
+        said: [check.stdout + &check.stderr, emit.stdout + &emit.stderr].map(bare),
+        programs: programs(&place.path().join(root)),
+    };
+    assert_eq!(outcome.programs.len(), 4, "{:?}", outcome.said);
+    for program in outcome.programs.keys() {
+        fs::remove_file(place.path().join(root).join(program)).unwrap();
+    }
+    outcome
+}
+
+/// The files of a library that are no drawings.
+fn programs(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let listed = fs::read_dir(root.join("projects")).unwrap().map(|entry| entry.unwrap().path());
+    let written = listed.filter(|path| path.extension().is_none_or(|extension| extension != "dxf"));
+    written.map(|path| (path.strip_prefix(root).unwrap().to_owned(), fs::read(&path).unwrap())).collect()
+}
+
+fn library_at(place: Place, root: &str) -> Place {
+    let source = Place::of(LIBRARY);
+    let mut open = vec![source.path().to_owned()];
+    let mut place = place;
+    while let Some(directory) = open.pop() {
+        for entry in fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                open.push(entry);
+            } else {
+                let name = Path::new(root).join(entry.strip_prefix(source.path()).unwrap());
+                place = place.file(name.to_str().unwrap(), fs::read(&entry).unwrap());
+            }
+        }
+    }
+    place
+}
+
+#[test]
+fn the_place_decides_nothing() {
+    let place = library_at(library_at(Place::new(), "one"), "another/place of it").file("aside/below/x", "");
+    let expected = outcome(&place, "one", "one", "--no-cache -j 1");
+    assert_eq!(expected.status, [Some(1), Some(1)]);
+    for code in ["PB503", "PB202", "1400.dxf"] {
+        assert!(expected.said[0].iter().any(|line| line.contains(code)), "{code}: {:#?}", expected.said[0]);
+    }
+    for (root, from) in [
+        ("one", "one"),
+        ("another/place of it", "another/place of it"),
+        ("one", "aside/below"),
+        ("one", "another"),
+    ] {
+        // With nothing kept, with what that run kept, and without keeping anything.
+        for options in ["-j 2", "-j 1", "", "--no-cache -j 2"] {
+            assert_eq!(outcome(&place, root, from, options), expected, "{root} from {from} {options}");
+        }
+    }
+}
+
+/// What was kept at one place is either taken at the other, or made anew: the results are the same.
+#[test]
+fn a_library_that_moves_with_its_cache_says_the_same() {
+    let place = library_at(Place::new(), "one");
+    let expected = outcome(&place, "one", "one", "");
+    fs::rename(place.path().join("one"), place.path().join("two")).unwrap();
+    assert_eq!(outcome(&place, "two", "two", ""), expected);
+    assert_eq!(outcome(&place, "two", "two", "--no-cache"), expected);
+}

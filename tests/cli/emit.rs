@@ -1,0 +1,475 @@
+//! What `emit` writes, compares and removes. (spec/05-command-line.md, spec/60-gcode.md "Files")
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use crate::conformance::recorded::{self, Run, What};
+use crate::support::{self, Place, runs};
+use insta::assert_snapshot;
+use rayon::prelude::*;
+
+/// Two components, a project of both, a drawing of two paths, and one with a Z-probe.
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["components", "projects"]
+search = ["components"]
+feed = 150
+rapid = 1000
+sweep-height = 20
+[emit]
+targets = ["8*"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== components/1300.dxf ==
+layer 1300.1P
+start 0,20 "T5 O2 I1 B4 MPlate"
+mill 0,20 40,20
+end 40,20
+layer 1300.2P
+start 0,50 "T5 O2 I1 B4 MPlate"
+mill 0,50 40,50
+end 40,50
+== projects/8001 a b.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+subpath 40,0 80,0 ">1300.1P"
+end 80,0
+== projects/8002.dxf ==
+layer 8002.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+probe 20,20 "LA"
+end 40,0
+"#;
+
+/// The same with a part of it exchanged.
+fn library(from: &str, to: &str) -> Place {
+    assert!(LIBRARY.contains(from), "{from}");
+    Place::of(&LIBRARY.replace(from, to))
+}
+
+/// The names of all files below a place, and what is in them.
+/// Every file, kept results aside.
+fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    let mut open = vec![place.path().to_owned()];
+    while let Some(directory) = open.pop() {
+        for entry in fs::read_dir(directory).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.extend((!path.ends_with(".pathbuild")).then_some(path));
+            } else {
+                let name = path.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned();
+                files.push((name, fs::read(&path).unwrap()));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// The names of the files that are no drawings and no configuration.
+fn written(place: &Place) -> Vec<String> {
+    let is_source = |name: &String| has_extension(name, "dxf") || has_extension(name, "toml");
+    files(place).into_iter().map(|(name, _)| name).filter(|name| !is_source(name)).collect()
+}
+
+fn has_extension(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
+}
+
+fn provenance(place: &Place, name: &str) -> String {
+    place.read(name).lines().nth(1).unwrap().to_owned()
+}
+
+#[test]
+fn files_are_written_once() {
+    let place = Place::of(LIBRARY);
+    assert_snapshot!(runs(
+        &place,
+        ["emit 1234.1P", "emit 1234.1P", "emit 1234.1P --lang de", "emit 1300.2P 1234.1P -q"]
+    ));
+    let expected = ["components/1234_Milling.gcode", "components/1300.2P_Milling.gcode"];
+    assert_eq!(written(&place), expected);
+    assert_snapshot!(place.read(expected[0]));
+}
+
+/// A sheet at the machine says out of what it was made: the same, wherever it was made.
+#[test]
+fn provenance_is_that_of_drawings_and_options() {
+    const PROGRAM: &str = "projects/8001 a b_Milling.gcode";
+    let of = |place: &Place, options: &str| {
+        let run = place.run(&format!("emit 8001.1P {options}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        provenance(place, PROGRAM)
+    };
+    let place = Place::of(LIBRARY);
+    let first = of(&place, "");
+    assert!(first.starts_with(concat!("(pathbuild ", env!("CARGO_PKG_VERSION"), " ")), "{first}");
+    let moved = Place::of(&LIBRARY.replace("components", "parts").replace("projects/", "x/../projects/"));
+    assert_eq!(of(&moved, "-j 1"), first);
+    // What it does not embed does not change it.
+    assert_eq!(of(&library("probe 20,20", "probe 20,30"), ""), first);
+    let [program, options] = [0, 1].map(|part| first.split('-').nth(part).unwrap().to_owned());
+    // What it embeds does, even where the moves stay the same; so does an option that matters.
+    let changed = of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), "");
+    assert!(!changed.starts_with(&program) && changed.ends_with(&options), "{first} {changed}");
+    let faster = of(&place, "--feed 200");
+    assert!(faster.starts_with(&program) && !faster.ends_with(&options), "{first} {faster}");
+}
+
+#[test]
+fn without_arguments_the_configured_targets_are_written() {
+    let place = Place::of(LIBRARY);
+    assert_snapshot!(place.run("emit"));
+    let names: Vec<String> = written(&place);
+    assert_eq!(
+        names,
+        [
+            "projects/8001 a b_Milling.gcode",
+            "projects/8002_Clean.gcode",
+            "projects/8002_Probing.gcode",
+            "projects/8002_Z.txt"
+        ]
+    );
+}
+
+#[test]
+fn a_target_that_nothing_matches_is_a_mistake() {
+    let place = library("targets = [\"8*\"]", "targets = [\"8001.1?\", \"9*\"]");
+    assert_snapshot!(runs(&place, ["emit", "emit --lang de"]));
+    assert_eq!(written(&place), ["projects/8001 a b_Milling.gcode"]);
+}
+
+#[test]
+fn without_targets_or_arguments_there_is_nothing_to_emit() {
+    assert_snapshot!(library("targets = [\"8*\"]", "targets = []").run("emit"));
+}
+
+#[test]
+fn a_drawing_that_cannot_be_read_may_hold_a_target() {
+    let place = Place::of(LIBRARY).file("components/7.dxf", "nothing");
+    let run = place.run("emit");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("PB002"), "{run}");
+    assert_eq!(written(&place).len(), 4);
+}
+
+#[test]
+fn check_says_of_each_file_whether_it_is_current_and_writes_nothing() {
+    let place = Place::of(LIBRARY);
+    place.run("emit 8002.1P");
+    let before = files(&place);
+    assert_snapshot!("nothing of 8001 is written yet", place.run("emit --check"));
+    assert_eq!(files(&place), before);
+    place.run("emit");
+    let place = place.file("projects/8001 a b_Milling.gcode", "M30\n");
+    assert_snapshot!(
+        "another file is in its place",
+        runs(&place, ["emit --check 8001.1P", "emit --check --lang de"])
+    );
+    place.run("emit");
+    assert_eq!(place.run("emit --check").status, Some(0));
+    assert_eq!(place.run("emit --check --rapid 2000").status, Some(1));
+}
+
+/// Measured values are a person's: they make no file outdated.
+#[test]
+fn measured_values_are_current() {
+    let place = Place::of(LIBRARY);
+    place.run("emit 8002.1P");
+    let values = place.read("projects/8002_Z.txt");
+    let place = place.file("projects/8002_Z.txt", values.replace("=\n", "=5.125\r\n"));
+    assert_eq!(place.run("emit --check 8002.1P").status, Some(0));
+    assert_eq!(place.run("emit 8002.1P").status, Some(0));
+    assert!(place.read("projects/8002_Z.txt").contains("=5.125"));
+}
+
+#[test]
+fn measured_values_of_other_probes_are_kept_unless_forced() {
+    let place = library("probe 20,20", "probe 21,20");
+    place.run("emit 8002.1P");
+    let values = place.read("projects/8002_Z.txt").replace('=', "=5.125");
+    let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &values);
+    assert_snapshot!(place.run("emit 8002.1P"));
+    assert_eq!(written(&place), ["projects/8002_Z.txt"], "nothing of that path is written");
+    assert_eq!(place.read("projects/8002_Z.txt"), values);
+    assert_eq!(place.run("emit 8002.1P --force").status, Some(0));
+    assert!(!place.read("projects/8002_Z.txt").contains("5.125"));
+}
+
+/// G-code of the original tool has other comments, head and line ends. (issue 4)
+#[test]
+fn moves_are_compared_with_a_program_whoever_wrote_it() {
+    let place = Place::of(LIBRARY);
+    place.run("emit 1234.1P");
+    let ours = place.read("components/1234_Milling.gcode");
+    let foreign = ours
+        .lines()
+        .filter(|line| !line.starts_with("(pathbuild") && !line.starts_with("T1"))
+        .map(|line| format!("{}  (as drawn)\r\n", line.replace("X40.000", "X40.001")))
+        .collect::<Vec<_>>()
+        .concat();
+    let place = place.file("components/1234_Milling.gcode", &foreign);
+    assert_eq!(place.run("emit --check 1234.1P").status, Some(1));
+    let lines = ["emit --check --moves 1234.1P", "emit --check --moves 1234.1P --feed 151"];
+    assert_snapshot!("one unit of the last digit is nothing", runs(&place, lines));
+    let far = foreign.replace("X40.001", "X40.002");
+    let place = place.file("components/1234_Milling.gcode", far);
+    assert_snapshot!("two are another place", place.run("emit --check --moves 1234.1P"));
+    let broken = foreign.replace("G01 F", "G01 F F");
+    let place = place.file("components/1234_Milling.gcode", broken);
+    assert_snapshot!(
+        "what cannot be read is not current",
+        place.run("emit --check --moves 1234.1P --lang de")
+    );
+}
+
+#[test]
+fn comparing_moves_needs_no_rapid_feed() {
+    let place = library("rapid = 1000", "");
+    assert_snapshot!(runs(&place, ["emit 1234.1P", "emit --check 1234.1P", "emit --check --moves 1234.1P"]));
+}
+
+/// A workshop's library with the G-code that the original tool made of it: all of it is current, and nothing is written.
+#[test]
+fn gcode_of_the_original_tool_is_current() {
+    let cases = support::project().join("fixtures/conformance/cases");
+    let runs = recorded::runs(&[cases]);
+    let emitting: Vec<&Run> = runs.iter().filter(|run| !expected_files(run).is_empty()).collect();
+    assert!(emitting.len() > 200, "{} runs", emitting.len());
+    let faults: Vec<String> = emitting.par_iter().filter_map(|run| fault(run)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Moved over and then changed, a drawing is told from its G-code: by the line of the program where it begins.
+#[test]
+fn a_changed_drawing_is_not_current() {
+    let cases = support::project().join("fixtures/conformance/cases");
+    let runs = recorded::runs(&[cases]);
+    let run = runs.iter().find(|run| run.case.ends_with("line") && run.number == 0).unwrap();
+    let What::Compile(arguments) = &run.what else { panic!("{run} compiles nothing") };
+    let place = with_expected_files(run);
+    assert_eq!(check_moves(&place, arguments).status, Some(0));
+    let drawing = place.read("1234.1P.dxf");
+    assert!(drawing.contains(" B-0,2 "));
+    let place = place.file("1234.1P.dxf", drawing.replace(" B-0,2 ", " B-0,25 "));
+    assert_snapshot!(check_moves(&place, arguments));
+}
+
+/// What the original tool wrote in a run that ended well.
+fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
+    let folder = run.case.join("expected").join(run.number.to_string());
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let named =
+        files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(&path).unwrap()));
+    named.filter(|(name, _)| has_extension(name, "gcode")).collect()
+}
+
+/// What is wrong about comparing a run's outputs with what the original tool wrote.
+fn fault(run: &Run) -> Option<String> {
+    let What::Compile(arguments) = &run.what else { return None };
+    let place = with_expected_files(run);
+    let before = files(&place);
+    let checked = check_moves(&place, arguments);
+    let is_right = checked.status == Some(0) && files(&place) == before;
+    (!is_right).then(|| format!("{run} is not current, or was changed:\n{checked}"))
+}
+
+fn check_moves(place: &Place, arguments: &[String]) -> support::Run {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    place.run_with(&[&["emit", "--check", "--moves"], &arguments[1..]].concat())
+}
+
+/// A case's drawings, and beside them what the original tool wrote.
+fn with_expected_files(run: &Run) -> Place {
+    let sources = fs::read_dir(&run.case).unwrap().map(|entry| entry.unwrap().path());
+    let mut place = Place::new();
+    for source in sources.filter(|path| path.file_name().is_some_and(|name| name != "expected")) {
+        place = with_source(place, &source, "");
+    }
+    for (name, content) in expected_files(run) {
+        place = place.file(&name, content);
+    }
+    place
+}
+
+fn with_source(mut place: Place, source: &Path, below: &str) -> Place {
+    let name = format!("{below}{}", source.file_name().unwrap().to_str().unwrap());
+    if !source.is_dir() {
+        return place.file(&name, fs::read(source).unwrap());
+    }
+    for entry in fs::read_dir(source).unwrap() {
+        place = with_source(place, &entry.unwrap().path(), &format!("{name}/"));
+    }
+    place
+}
+
+#[test]
+fn a_program_is_printed() {
+    let place = Place::of(LIBRARY);
+    let run = place.run("emit 1234.1P -o -");
+    assert_eq!(written(&place), Vec::<String>::new());
+    assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""));
+    place.run("emit 1234.1P");
+    assert_eq!(run.stdout, place.read("components/1234_Milling.gcode"));
+}
+
+#[test]
+fn only_one_program_is_printed() {
+    let lines =
+        ["emit 1234.1P 1300.1P -o -", "emit 8002.1P -o -", "emit 1234.1P -o - --check", "emit 1234.1P -o x"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn deps_are_rules_for_make() {
+    let place = Place::of(LIBRARY);
+    let run = place.run("emit --deps out.d --out-dir g$#");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert_snapshot!(place.read("out.d"));
+}
+
+#[test]
+fn deps_that_cannot_be_written_are_an_error() {
+    assert_snapshot!(Place::of(LIBRARY).run("emit 1234.1P -q --deps components"));
+}
+
+#[test]
+fn two_outputs_of_one_name_are_both_refused() {
+    let both = Place::of(LIBRARY).run("emit 1300.1P 1300.2P --out-dir all");
+    assert_eq!(both.status, Some(0), "outputs of a drawing of several paths have the paths' names: {both}");
+    let same = Place::of(
+        &LIBRARY
+            .replace(
+                "T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nprobe 20,20 \"LA\"",
+                "T5 O2 MPlate R_x\"\nsubpath 0,0 40,0 \">1234.1P\"",
+            )
+            .replace("8001 a b", "8002_x")
+            .replace("8001.1P", "8003.1P"),
+    );
+    assert_snapshot!(same.run("emit --out-dir all"));
+    let same = Place::of(
+        &LIBRARY
+            .replace("8001 a b.dxf", "8002.DXF")
+            .replace("8001.1P", "8002.2P")
+            .replace("\nprobe 20,20 \"LA\"", ""),
+    );
+    assert_snapshot!("of drawings whose names differ in case", same.run("emit"));
+    assert_eq!(written(&same), Vec::<String>::new());
+}
+
+#[test]
+fn what_nothing_writes_any_more_is_stale() {
+    let place = Place::of(LIBRARY).file("projects/other.gcode", "%\n(other)\n(8001 a b.dxf: 8001.1P)\nM30\n");
+    place.run("emit");
+    fs::rename(place.path().join("projects/8001 a b.dxf"), place.path().join("projects/8001.dxf")).unwrap();
+    let listed = ["emit -q", "emit --check --lang de", "emit projects -q", "emit 8001.1P -q"];
+    assert_snapshot!(runs(&place, listed));
+    let before: BTreeSet<String> = written(&place).into_iter().collect();
+    assert_snapshot!("removed only when asked", place.run("emit --remove-stale"));
+    let after: BTreeSet<String> = written(&place).into_iter().collect();
+    let gone: Vec<&String> = before.difference(&after).collect();
+    assert_eq!(gone, ["projects/8001 a b_Milling.gcode"]);
+}
+
+/// Each of these is still somebody's, or may be.
+#[test]
+fn what_may_be_written_again_is_not_stale() {
+    let place = Place::of(LIBRARY);
+    place.run("emit");
+    // A path that is wrong just now; one that is no target; what adjust makes; a drawing that is ignored.
+    place.run("emit 1234.1P");
+    let clean = place.read("projects/8002_Clean.gcode");
+    let ignored = place.read("projects/8001 a b_Milling.gcode").replace("8001 a b.dxf", "8009.dxf");
+    let broken =
+        Place::of("== 8001 a b.dxf ==\nlayer 8001.1P\nstart 0,0 \"T5 O2\"\nmill 0,0 40,0\nend 40,0\n");
+    let place = place
+        .file("projects/8002_Milling.gcode", clean)
+        .file("projects/8009_Milling.gcode", ignored)
+        .file("projects/8009.dxf", "nothing")
+        .file("projects/.ignore", "8009.dxf\n")
+        .file("projects/8001 a b.dxf", fs::read(broken.path().join("8001 a b.dxf")).unwrap());
+    let run = place.run("emit --remove-stale");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(!run.stderr.contains("stale"), "{run}");
+}
+
+#[test]
+fn outputs_of_a_path_that_changed_its_name_are_stale() {
+    let place = Place::of(LIBRARY);
+    place.run("emit --out-dir all");
+    let changed = library(
+        "start 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nsubpath",
+        "start 0,0 \"T5 O2 MPlate R_b\"\nsubpath 0,0 40,0 \">1234.1P\"\nsubpath",
+    );
+    let drawing = fs::read(changed.path().join("projects/8001 a b.dxf")).unwrap();
+    let place = place.file("projects/8001 a b.dxf", drawing);
+    assert_snapshot!(runs(
+        &place,
+        ["emit --out-dir all", "emit projects --out-dir all -q", "emit components --out-dir all -q"]
+    ));
+}
+
+/// Of an output directory that is shared with other drawings a run knows only what the library tells.
+#[test]
+fn other_drawings_of_a_shared_output_directory_are_left_alone() {
+    let place = library("library = [\"components\", \"projects\"]", "");
+    place.run("emit 8001.1P projects/8002.dxf --search components --out-dir all");
+    let run = place.run("emit components --out-dir all --remove-stale");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(!run.stderr.contains("stale"), "{run}");
+}
+
+#[test]
+fn a_missing_subpath_that_the_library_has_says_where() {
+    let place = library("search = [\"components\"]", "search = []");
+    assert_snapshot!(runs(&place, ["emit 8002.1P", "check projects/8002.dxf --lang de --format concise -q"]));
+    let check = place.run_in("projects", &["check", "8002.dxf"]);
+    assert!(check.stderr.contains("add components to `search`"), "{check}");
+}
+
+/// What is joined is milled through, without leaving the groove; what is farther apart is a gap.
+#[test]
+fn ends_within_the_tolerance_are_milled_through() {
+    let place = |gap: &str| {
+        Place::of(&format!(
+            "
+== pathbuild.toml ==
+feed = 150
+rapid = 1000
+sweep-height = 20
+join-tolerance = 0.01
+== 1234.1P.dxf ==
+layer 1234.1P
+start 0,0 \"T5 O3 I5 B0\"
+mill 0,0 20,0
+mill {gap},0 40,0
+end 40,0.01
+"
+        ))
+    };
+    let joined = place("20.01");
+    assert_snapshot!(joined.run("emit 1234.1P.dxf --format concise"));
+    let program = joined.read("1234.1P_Milling.gcode");
+    let moves: Vec<&str> =
+        program.lines().filter(|line| line.starts_with('G') && line.contains('Z')).collect();
+    assert_eq!(
+        moves,
+        [
+            "G00 Z20.000",
+            "G00 Z5.000",
+            "G01 Z0.000",
+            "G01 F150.000 X20.000 Y0.000 Z0.000",
+            "G01 F150.000 X40.000 Y0.000 Z0.000",
+            "G00 Z20.000",
+            "G00 Z20.000"
+        ]
+    );
+    assert_snapshot!("farther apart is a gap", place("20.011").run("emit 1234.1P.dxf"));
+}

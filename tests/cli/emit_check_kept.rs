@@ -1,0 +1,262 @@
+//! `emit --check` with kept results: the same answers as without, whatever changed in between, and no drawing read where nothing did.
+//! (spec/05-command-line.md, `emit --check`)
+
+use std::fs;
+
+use crate::support::{Place, Run};
+
+/// Two components, and a project of each.
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["components", "projects"]
+search = ["components"]
+feed = 150
+rapid = 1000
+sweep-height = 20
+[emit]
+targets = ["8*"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== components/1300.dxf ==
+layer 1300.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== projects/8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+end 40,0
+== projects/8002.dxf ==
+layer 8002.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1300.1P"
+probe 20,20 "LA"
+end 40,0
+"#;
+
+const ALL_CURRENT: &str = "projects/8001_Milling.gcode: current\nprojects/8002_Clean.gcode: current\n\
+    projects/8002_Probing.gcode: current\nprojects/8002_Z.txt: current\n";
+
+/// A library whose programs were written just now.
+fn emitted() -> Place {
+    let place = Place::of(LIBRARY);
+    let run = place.run("emit");
+    assert_eq!(run.status, Some(0), "{run}");
+    place
+}
+
+/// A file of the library with something exchanged.
+fn with(place: Place, file: &str, from: &str, to: &str) -> Place {
+    let drawn = Place::of(&LIBRARY.replace(from, to));
+    let bytes = fs::read(drawn.path().join(file)).unwrap();
+    assert_ne!(fs::read(place.path().join(file)).unwrap(), bytes, "nothing was exchanged");
+    place.file(file, bytes)
+}
+
+fn said(run: &Run) -> (Option<i32>, &str, &str) {
+    (run.status, &run.stdout, &run.stderr)
+}
+
+/// What a check says: with the cache as it is, from what that run kept, and without.
+#[track_caller]
+fn answer(place: &Place, arguments: &str) -> Run {
+    let without = place.run(&format!("emit --check --no-cache {arguments}"));
+    for _ in 0..2 {
+        assert_eq!(said(&place.run(&format!("emit --check {arguments}"))), said(&without));
+    }
+    assert!(is_known(place, arguments), "what was found was not kept");
+    without
+}
+
+/// Whether a check reads no drawing.
+fn is_known(place: &Place, arguments: &str) -> bool {
+    place.run(&format!("emit --check -v {arguments}")).stderr.contains("no drawing is read")
+}
+
+#[track_caller]
+fn assert_outdated(place: &Place, file: &str) {
+    assert!(!is_known(place, ""), "the change was not noticed");
+    let run = answer(place, "");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stdout.contains(&format!("{file}: not current\n")), "{run}");
+}
+
+#[test]
+fn after_emit_or_a_check_no_drawing_is_read() {
+    let place = emitted();
+    assert!(is_known(&place, ""));
+    let run = answer(&place, "");
+    assert_eq!((run.status, &*run.stdout), (Some(0), ALL_CURRENT), "{run}");
+    // Another question.
+    assert!(!is_known(&place, "./projects"));
+    assert_eq!(answer(&place, "./projects").stdout, ALL_CURRENT);
+    assert!(!is_known(&place, "./projects --moves"));
+    assert_eq!(answer(&place, "--moves").stdout, ALL_CURRENT.replace("projects/8002_Z.txt: current\n", ""));
+}
+
+#[test]
+fn an_edited_drawing_is_noticed_and_its_mending_too() {
+    let place = with(
+        emitted(),
+        "projects/8001.dxf",
+        "layer 8001.1P\nstart 0,0 \"T5",
+        "layer 8001.1P\nstart 0,0 \"T6",
+    );
+    assert!(!is_known(&place, ""));
+    // The component is thinner than the plate: an error, and nothing is written or compared.
+    let run = answer(&place, "");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(!run.stdout.contains("8001"), "{run}");
+    let place = with(
+        place,
+        "projects/8001.dxf",
+        "subpath 0,0 40,0 \">1234.1P\"\nend 40,0",
+        "subpath 0,0 40,0 \">1234.1P\"\nend 40,0\nlayer 8001.2P\nstart 0,50 \"T5 O2 MPlate I1 B4\"\nmill 0,50 40,50\nend 40,50",
+    );
+    // Two paths now: the program has another name.
+    let run = answer(&place, "");
+    assert!(run.stdout.contains("missing"), "{run}");
+}
+
+#[test]
+fn an_edited_embedded_component_is_noticed() {
+    let place = with(
+        emitted(),
+        "components/1234.dxf",
+        "mill 0,0 40,0\nend 40,0\n== components/1300",
+        "mill 0,0 40,1\nmill 40,1 40,0\nend 40,0\n== components/1300",
+    );
+    assert_outdated(&place, "projects/8001_Milling.gcode");
+}
+
+#[test]
+fn a_file_that_makes_a_path_ambiguous_is_noticed() {
+    let place = emitted();
+    let bytes = fs::read(place.path().join("components/1234.dxf")).unwrap();
+    let place = place.file("components/1230-1240.dxf", bytes);
+    assert!(!is_known(&place, ""));
+    let run = answer(&place, "");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("1230-1240.dxf") && !run.stdout.contains("8001"), "{run}");
+    fs::remove_file(place.path().join("components/1230-1240.dxf")).unwrap();
+    assert_eq!(answer(&place, "").stdout, ALL_CURRENT);
+}
+
+#[test]
+fn a_changed_setting_is_noticed() {
+    let place = emitted();
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("pathbuild.toml", configuration.replace("feed = 150", "feed = 160"));
+    assert_outdated(&place, "projects/8001_Milling.gcode");
+    let place = place.file("pathbuild.toml", configuration.replace("\"8*\"", "\"8*\", \"9*\""));
+    assert!(!is_known(&place, ""));
+    let run = answer(&place, "");
+    assert!(run.stderr.contains("9*") && run.status == Some(1), "{run}");
+    // What messages name is a line of the configuration.
+    let moved = format!("\n{}", place.read("pathbuild.toml"));
+    let place = place.file("pathbuild.toml", moved);
+    assert!(!is_known(&place, ""));
+    answer(&place, "");
+    let place = place.file("pathbuild.toml", configuration);
+    assert_eq!(answer(&place, "").stdout, ALL_CURRENT);
+}
+
+#[test]
+fn a_program_edited_by_hand_is_noticed_and_one_of_the_same_bytes_is_current() {
+    let place = emitted();
+    let program = place.read("projects/8001_Milling.gcode");
+    // Of the same size.
+    let place = place.file("projects/8001_Milling.gcode", program.replacen("150", "151", 1));
+    assert_outdated(&place, "projects/8001_Milling.gcode");
+    let place = place.file("projects/8001_Milling.gcode", program);
+    assert_eq!(answer(&place, "").stdout, ALL_CURRENT);
+}
+
+#[test]
+fn a_removed_program_is_noticed_and_one_that_comes_back_too() {
+    let place = emitted();
+    let program = place.read("projects/8002_Probing.gcode");
+    fs::remove_file(place.path().join("projects/8002_Probing.gcode")).unwrap();
+    assert!(!is_known(&place, ""));
+    let run = answer(&place, "");
+    assert!(run.stdout.contains("projects/8002_Probing.gcode: missing\n"), "{run}");
+    let place = place.file("projects/8002_Probing.gcode", program);
+    assert_eq!(answer(&place, "").stdout, ALL_CURRENT);
+}
+
+#[test]
+fn measured_values_are_current_as_long_as_the_probes_are_the_same() {
+    let place = emitted();
+    let values = place.read("projects/8002_Z.txt");
+    let place = place.file("projects/8002_Z.txt", values.replace("=\n", "=0.25\n"));
+    assert_eq!(answer(&place, "").stdout, ALL_CURRENT);
+    let place = place.file("projects/8002_Z.txt", "#1 = 0.1\n#2 = 0.2\n");
+    assert_outdated(&place, "projects/8002_Z.txt");
+}
+
+#[test]
+fn a_program_that_nothing_would_write_is_noticed_and_its_removal_too() {
+    let place = emitted();
+    let program = place.read("projects/8001_Milling.gcode").replace("8001", "8009");
+    let place = place.file("projects/8009_Milling.gcode", program);
+    assert!(!is_known(&place, ""));
+    let run = answer(&place, "");
+    assert!(run.stderr.contains("PB520") && run.stdout == ALL_CURRENT, "{run}");
+    fs::remove_file(place.path().join("projects/8009_Milling.gcode")).unwrap();
+    assert!(!answer(&place, "").stderr.contains("PB520"));
+}
+
+#[test]
+fn a_new_drawing_and_one_that_is_gone_are_noticed() {
+    let place = emitted();
+    let bytes = fs::read(place.path().join("projects/8001.dxf")).unwrap();
+    let place = place.file("projects/deep/8005.dxf", bytes);
+    assert!(!is_known(&place, ""));
+    let run = answer(&place, "");
+    assert!(run.stdout.contains("projects/deep/8005_Milling.gcode: missing"), "{run}");
+    fs::remove_file(place.path().join("projects/deep/8005.dxf")).unwrap();
+    fs::remove_file(place.path().join("projects/8002.dxf")).unwrap();
+    let run = answer(&place, "");
+    assert!(run.stderr.contains("PB520") && !run.stdout.contains("8002"), "{run}");
+}
+
+#[test]
+fn an_edited_post_or_what_it_inserts_is_noticed() {
+    let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
+    let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
+    let place = Place::of(&library).file("my.cbpp", post("bert"));
+    let run = place.run("emit --post my.cbpp");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(is_known(&place, "--post my.cbpp"));
+    assert!(!is_known(&place, ""));
+    assert!(answer(&place, "--post my.cbpp").stdout.contains(": current\n"));
+    let place = place.file("my.cbpp", post("anna"));
+    assert!(!is_known(&place, "--post my.cbpp"));
+    let run = answer(&place, "--post my.cbpp");
+    assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
+}
+
+#[test]
+fn severities_are_those_of_the_run_that_shows_them() {
+    let place = emitted();
+    let program = place.read("projects/8001_Milling.gcode").replace("8001", "8009");
+    let place = place.file("projects/8009_Milling.gcode", program);
+    assert_eq!(answer(&place, "").status, Some(0));
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("pathbuild.toml", format!("{configuration}[severity]\nPB520 = \"error\"\n"));
+    assert!(is_known(&place, ""));
+    assert_eq!(answer(&place, "").status, Some(1));
+}
+
+#[test]
+fn without_a_configuration_nothing_is_kept() {
+    let place = emitted();
+    fs::remove_dir_all(place.path().join(".pathbuild")).unwrap();
+    fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
+    place.run("emit --check ./projects --search components --feed 150 --rapid 1000 --sweep-height 20");
+    assert!(!place.path().join(".pathbuild").exists());
+}

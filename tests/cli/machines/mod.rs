@@ -1,0 +1,112 @@
+//! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, LinuxCNC's own
+//! interpreter takes what is written for it and moves alike, and no rule of `verify` finds an error. (spec/85-post-processors.md)
+
+#[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
+mod oracle;
+mod programs;
+
+use std::io::Write;
+
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::interpret::{Options, interpret, moves_of};
+use pathbuild_gcode::verify::{Checks, Ends, Stock, Tolerance, compare, verify};
+use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, ToolTable, load};
+use pathbuild_toolpath::Program;
+use rayon::prelude::*;
+
+use programs::{Named, programs};
+
+#[test]
+fn every_post_moves_as_the_native_program_does() {
+    let programs = programs();
+    for post in BUILT_IN.iter().filter(|post| post.language != Language::Native) {
+        let definition = load(post.name).unwrap();
+        let faults: Vec<String> =
+            programs.par_iter().filter_map(|it| fault(post.name, &definition, it)).collect();
+        assert!(
+            faults.is_empty(),
+            "{}: {} of {}\n{}",
+            post.name,
+            faults.len(),
+            programs.len(),
+            shown(&faults)
+        );
+    }
+    say(&format!("{} programs through {} posts", programs.len(), BUILT_IN.len() - 1));
+}
+
+#[test]
+fn linuxcnc_moves_as_the_program_says() {
+    let Some(rs274) = oracle::rs274() else { return };
+    let programs = programs();
+    let definition = load("linuxcnc").unwrap();
+    let fault = |it: &Named| {
+        let text = written(&definition, &it.program).map_err(|errors| texts(&errors)).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        oracle::difference(&rs274, &text).map(|difference| format!("{}: {difference}", it.name))
+    };
+    let faults: Vec<String> = programs.par_iter().filter_map(fault).collect();
+    assert!(faults.is_empty(), "{} of {}\n{}", faults.len(), programs.len(), shown(&faults));
+    say(&format!("{} programs through rs274", programs.len()));
+}
+
+#[test]
+fn no_rule_finds_an_error() {
+    let fault = |it: &Named| {
+        let steps = programs::steps_of(&it.program);
+        let stock = Stock::of(&it.program);
+        let found = verify(&steps, &Checks { stock: Some(&stock), machine: None });
+        let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
+        (!errors.is_empty()).then(|| format!("{}: {}", it.name, texts(&errors)))
+    };
+    let programs = programs();
+    let faults: Vec<String> = programs.par_iter().filter_map(fault).collect();
+    assert!(faults.is_empty(), "{} of {}\n{}", faults.len(), programs.len(), shown(&faults));
+}
+
+/// What a post writes wrongly.
+fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
+    let at = |reason: String| Some(format!("{}: {reason}", it.name));
+    let text = match written(definition, &it.program) {
+        Ok(text) => text,
+        Err(errors) => return at(texts(&errors)),
+    };
+    let (dialect, is_exact) = definition.reader(None)?;
+    let read = interpret(&text, dialect, &Options::default());
+    let errors: Vec<Diagnostic> = read.problems.iter().filter(|it| it.is_error()).cloned().collect();
+    if is_exact && !errors.is_empty() {
+        return at(texts(&errors));
+    }
+    let difference = compare(&read.moves(), &moves_of(&it.program), &tolerance(post))?;
+    at(difference.diagnostic().text(Lang::En))
+}
+
+fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
+    let programs = std::slice::from_ref(program);
+    let (job, _) = Job::from_programs(&program.path, programs, &ToolTable::default(), false);
+    definition.write(&job, &PostOptions::default()).map(|output| output.text)
+}
+
+/// Half a unit of the last digit; `XpertMILL` knows no helices, so they become lines. The head and foot are the post's.
+fn tolerance(post: &str) -> Tolerance {
+    let (decimals, chord) = if post == "xpertmill" { (3, 0.01) } else { (4, 0.0) };
+    Tolerance { ends: Ends::Cutting, chord, ..Tolerance::of_decimals(decimals) }
+}
+
+fn texts(diagnostics: &[Diagnostic]) -> String {
+    let text = |it: &Diagnostic| {
+        let notes = it.notes.iter().map(|note| format!(" ({})", note.text(Lang::En)));
+        format!("{} {}{}", it.code(), it.text(Lang::En), notes.collect::<String>())
+    };
+    diagnostics.iter().map(text).collect::<Vec<_>>().join("; ")
+}
+
+fn shown(faults: &[String]) -> String {
+    faults.iter().take(10).map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
+/// Not with println!, which the test harness keeps to itself where all is well.
+#[allow(clippy::explicit_write, reason = "likewise eprintln!")]
+fn say(text: &str) {
+    writeln!(std::io::stderr(), "{text}").unwrap();
+}

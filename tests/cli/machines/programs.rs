@@ -1,0 +1,93 @@
+//! The programs of the recorded cases, each once.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use clap::Parser;
+use pathbuild::args::{Cli, Inputs};
+use pathbuild::printer::{ColorChoice, Printer, Verbosity};
+use pathbuild::session::Session;
+use pathbuild::{Context, config};
+use pathbuild_db::{Role, program};
+use pathbuild_gcode::interpret::{Action, Step, moves_of};
+use pathbuild_toolpath::Program;
+use rayon::prelude::*;
+
+use crate::conformance::recorded::{self, Run, What};
+use crate::support;
+
+/// A program, and the case that it is from.
+#[derive(Clone)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) program: Arc<Program>,
+}
+
+/// Every program that the cases come to, of equal ones the first.
+pub(crate) fn programs() -> &'static [Named] {
+    static PROGRAMS: OnceLock<Vec<Named>> = OnceLock::new();
+    PROGRAMS.get_or_init(|| {
+        let fixtures = support::project().join("fixtures/conformance");
+        let mut folders: Vec<_> = ["cases", "turns"].map(|name| fixtures.join(name)).into();
+        folders.extend(support::shared("conformance/foreign"));
+        let found: Vec<Named> = recorded::runs(&folders).par_iter().flat_map(of_run).collect();
+        let mut distinct: BTreeMap<String, Named> = BTreeMap::new();
+        for named in found {
+            distinct.entry(format!("{:?}", named.program)).or_insert(named);
+        }
+        assert!(distinct.len() > 100, "{}", distinct.len());
+        let mut programs: Vec<Named> = distinct.into_values().collect();
+        programs.sort_by(|a, b| a.name.cmp(&b.name));
+        programs
+    })
+}
+
+/// The programs of a run, without those of paths that are wrong.
+fn of_run(run: &Run) -> Vec<Named> {
+    let What::Compile(arguments) = &run.what else { return Vec::new() };
+    let case = Utf8PathBuf::from_path_buf(run.case.clone()).unwrap();
+    let line = [vec!["pathbuild".to_owned()], arguments.clone()].concat();
+    let cli = Cli::try_parse_from(&line).unwrap();
+    let (mut settings, faults) = config::load(&cli.common, &Inputs::default(), &case);
+    if !faults.is_empty() {
+        return Vec::new();
+    }
+    let general = &mut settings.general;
+    for value in [&mut general.feed.value, &mut general.rapid.value, &mut general.sweep_height.value] {
+        value.get_or_insert(100.0);
+    }
+    let context = Context {
+        printer: Printer::new(Verbosity::Silent, ColorChoice::Never),
+        format: cli.common.format.unwrap_or_default(),
+        settings,
+        working_directory: Utf8PathBuf::new(),
+        jobs: Some(1),
+        use_cache: false,
+    };
+    let session = Session::new(&context);
+    let inputs = cli.command.inputs().inputs.into_iter().map(|input| absolute(&case, input)).collect();
+    let wanted = session.wanted(&Inputs { inputs });
+    let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();
+    for drawing in &wanted.drawings {
+        targets.extend(session.targets(drawing.file, &Role::Emitted));
+    }
+    let checked = session.check(&targets);
+    let sound = checked.iter().filter(|checked| checked.emitted.is_some());
+    let named = sound.filter_map(|checked| {
+        let program = program(session.db(), checked.target).clone()?;
+        Some(Named { name: format!("{} {}", run.name(), program.path), program })
+    });
+    named.collect()
+}
+
+/// Cases are read where they lie.
+fn absolute(case: &Utf8Path, input: String) -> String {
+    let file = case.join(&input);
+    if file.as_std_path().exists() { file.into_string() } else { input }
+}
+
+/// The moves of a program as steps: what its native text does, with the numbers of steps for lines.
+pub(crate) fn steps_of(program: &Program) -> Vec<Step> {
+    moves_of(program).into_iter().map(|(line, it)| Step { line, action: Action::Move(it) }).collect()
+}

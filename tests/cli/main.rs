@@ -1,0 +1,39 @@
+//! The program as users run it: one binary, since each would be linked for itself. A module is a subject.
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
+
+mod cache;
+mod check;
+mod compat;
+mod config;
+mod conformance;
+mod diagnostics;
+mod elsewhere;
+mod emit;
+mod emit_check_kept;
+mod explain_examples;
+mod first_steps;
+mod gcode;
+mod help;
+mod hostile;
+mod hostile_projects;
+mod library;
+mod licences;
+mod machines;
+mod nesting;
+mod posts;
+mod probes;
+mod progress;
+mod projects;
+mod q_project;
+mod rehearsal;
+mod render;
+mod report;
+mod since;
+mod support;
+mod usage;
+mod watch;
+mod why;

@@ -1,0 +1,51 @@
+//! Paths embedded in embedded paths, turned and raised at every level. (spec/50-path-building.md, "Subpaths")
+
+use std::fmt::Write;
+
+use crate::support::Place;
+use pathbuild_draw::{Point, Sheet};
+
+/// A ring of two half circles and a bar, from (0, 0) to (10, 0).
+const COMPONENT: &str = "layer 1000.1P
+start 0,0 \"T5 O2 I1 B3 MX\"
+sweep 0,0 20,0
+mill arc 20,0 40,0 r 10
+mill arc 40,0 20,0 r 10
+sweep 20,0 10,0
+end 10,0
+";
+
+/// A path of 10 mm that embeds the one before it, turned by so many degrees and raised by a millimetre.
+fn level(level: usize, degrees: f64) -> String {
+    let (from, to) = (Point::new(100.0, 50.0), Point::new(100.0, 50.0).polar(10.0, degrees));
+    let mut text = format!("layer {}.1P\nstart 0,0 \"T5 O2 MX\"\n", 1000 + level);
+    writeln!(text, "sweep 0,0 {},{}", from.x, from.y).unwrap();
+    writeln!(text, "subpath {},{} {},{} \">{}.1P H1\"", from.x, from.y, to.x, to.y, 999 + level).unwrap();
+    writeln!(text, "sweep {},{} 10,0\nend 10,0", to.x, to.y).unwrap();
+    text
+}
+
+/// The angles at which half circles, rounded, may be a little more or less than half.
+#[test]
+fn half_circles_are_milled_however_they_are_turned() {
+    let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");
+    let place = place.file("1000.1.dxf", Sheet::parse(COMPONENT).unwrap().to_dxf());
+    let angles = [2.8, 33.3, 90.0, 123.456, 271.0, 7.77, 301.2, 45.0];
+    let place = (1..).zip(angles).fold(place, |place, (number, degrees)| {
+        let drawing = Sheet::parse(&level(number, degrees)).unwrap().to_dxf();
+        place.file(&format!("{}.1.dxf", 1000 + number), drawing)
+    });
+    for number in 1..=8 {
+        let run = place.run(&format!("emit {}.1P --no-cache", 1000 + number));
+        assert_eq!(run.status, Some(0), "{run}");
+        let program = place.read(&format!("{}.1_Milling.gcode", 1000 + number));
+        let arcs: Vec<&str> = program.lines().filter(|line| line.starts_with("G03 ")).collect();
+        assert_eq!(arcs.len(), 4, "{program}");
+        let lowest = format!("Z{}.000", 3 + number);
+        assert_eq!(
+            arcs.iter().filter(|arc| arc.ends_with(&lowest)).count(),
+            2,
+            "raised at every level: {program}"
+        );
+    }
+}

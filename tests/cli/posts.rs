@@ -1,0 +1,268 @@
+//! `emit` through a post: names, tools, joined programs, what it is refused for. (spec/85-post-processors.md)
+
+use crate::support::{Place, runs};
+use insta::assert_snapshot;
+
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["."]
+feed = 150
+rapid = 1000
+sweep-height = 20
+[tool.2mm]
+diameter = 2
+number = 4
+spindle = 12000
+coolant = "mist"
+[tool.slot]
+diameter = 2
+paths = 'T$'
+number = 7
+spindle = 6000
+direction = "ccw"
+== 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== 1300.dxf ==
+layer 1300.1P
+start 0,20 "T5 O3 I1 B4 MPlate RX"
+mill 0,20 40,20
+end 40,20
+== 1400.1T.dxf ==
+layer 1400.1T
+start 0,0 "T5 O2 S9 I1 B4 MPlate"
+mill 0,0 0,10
+end 0,10
+== 1500.dxf ==
+layer 1500.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+sweep 0,0 10,0
+circle 10,0 d 2 "B0 C2"
+sweep 10,0 20,0
+end 20,0
+== 1600.dxf ==
+layer 1600.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+probe 20,20 "LA"
+end 40,0
+"#;
+
+/// The same with other lines at the head of its configuration.
+fn library(head: &str) -> Place {
+    Place::of(&LIBRARY.replace("library = [\".\"]", &format!("library = [\".\"]\n{head}")))
+}
+
+#[test]
+fn a_program_is_written_through_a_post() {
+    let place = library("");
+    assert_snapshot!(runs(
+        &place,
+        [
+            "emit 1234.1P --post grbl",
+            "emit 1234.1P --post grbl",
+            "emit 1300.1P 1234.1P --post fanuc --out-dir out",
+            "emit 1234.1P --post linuxcnc -o - --date 2026-11-21",
+            "emit 1234.1P --post grbll --format concise",
+            "emit 1234.1P --post missing.cbpp --format concise",
+        ]
+    ));
+    assert_snapshot!(place.read("1234_Milling.gcode"));
+    assert!(place.path().join("out/1300X_Milling.nc").is_file(), "R is part of the name");
+}
+
+#[test]
+fn the_configurations_post_is_the_default_and_native_can_be_asked_for() {
+    let place = library("post = \"grbl\"");
+    assert!(place.run("emit 1234.1P -o -").stdout.starts_with("(1234.1P)"));
+    assert!(place.run("emit 1234.1P -o - --post native").stdout.starts_with("%\n(pathbuild"));
+    let below = Place::new()
+        .file("posts/my.cbpp", "<PostProcessor><PostFile>(mine)\n{$mops}</PostFile></PostProcessor>")
+        .file("pathbuild.toml", "post = \"posts/my.cbpp\"\nfeed = 1\nrapid = 1\nsweep-height = 20\n")
+        .file("drawings/1234.dxf", std::fs::read(library("").path().join("1234.dxf")).unwrap());
+    let run = below.run_in("drawings", &["emit", "1234.dxf", "-o", "-"]);
+    assert!(run.stdout.starts_with("(mine)"), "a post's file is relative to the configuration: {run}");
+}
+
+#[test]
+fn tools_come_from_the_configuration() {
+    let place = library("");
+    let tool = |path: &str| {
+        let text = place.run(&format!("emit {path} --post linuxcnc -o - -q")).stdout;
+        let is_of_tools = |line: &&str| line.contains('T') && line.contains("M6") || line.starts_with('M');
+        text.lines().filter(is_of_tools).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(tool("1234.1P"), "T4 M6 M3 S12000 M7 M5 M9 M30");
+    assert_eq!(tool("1400.1T"), "T7 M6 M4 S6000 M5 M9 M30");
+    assert_eq!(tool("1300.1P"), "T1 M6 M5 M9 M30");
+    assert_snapshot!(place.run("emit 1300.1P --post linuxcnc --format concise"));
+    let notes = |path: &str| place.run(&format!("emit {path} --post xpertmill -o -")).stderr;
+    let both = notes("1234.1P");
+    assert!(both.contains("~ToolControl1~") && both.contains("~MillingSpindleDir~"), "{both}");
+    assert!(!notes("1300.1P").contains("~MillingSpindleDir~"), "nobody says what its spindle does");
+}
+
+#[test]
+fn paths_are_joined_with_tool_changes_in_the_order_of_the_arguments() {
+    let place = library("");
+    assert_snapshot!(runs(
+        &place,
+        [
+            "emit --join sheet 1400.1T 1234.1P 1300.1P --post linuxcnc",
+            "emit --join sheet 1300.dxf 1400.1T --post grbl -o -",
+            "emit --join sheet 1234.1P 1600.1P --post grbl",
+            "emit --join ../sheet 1234.1P --post grbl --format concise",
+            "emit --join sheet 1234.1P 1300.1P",
+        ]
+    ));
+    let text = place.read("sheet_Milling.ngc");
+    let again = place.run("emit . --post linuxcnc --remove-stale --format concise");
+    assert!(!again.stderr.contains("PB520") && place.path().join("sheet_Milling.ngc").exists(), "{again}");
+    let changes: Vec<&str> = text.lines().filter(|line| line.ends_with("M6")).collect();
+    assert_eq!(changes, ["T7 M6", "T4 M6", "T1 M6"]);
+    assert!(!place.path().join("sheet_Milling.gcode").exists(), "of paths with probes nothing is written");
+}
+
+#[test]
+fn holes_become_cycles_when_asked() {
+    let moves = library("").run("emit 1500.1P --post linuxcnc -o -").stdout;
+    let cycles = library("cycles = true").run("emit 1500.1P --post linuxcnc -o -").stdout;
+    assert!(!moves.contains("G83") && cycles.contains("G83"), "{cycles}");
+    let grbl = library("cycles = true").run("emit 1500.1P --post grbl -o -").stdout;
+    assert!(!grbl.contains("G83") && grbl.matches("G1").count() > moves.matches("G1").count(), "{grbl}");
+}
+
+#[test]
+fn macros_of_the_configuration_win_over_the_posts() {
+    let post = "<PostProcessor><PostProcessorMacros>$who=bert</PostProcessorMacros><PostFile>({$who})\n{$mops}</PostFile></PostProcessor>";
+    let place = library("").file("my.cbpp", post);
+    assert!(place.run("emit 1234.1P --post my.cbpp -o -").stdout.starts_with("(bert)"));
+    let place = Place::of(&LIBRARY.replace("[tool.2mm]", "[macros]\nwho = \"anna\"\n[tool.2mm]"))
+        .file("my.cbpp", post);
+    assert!(place.run("emit 1234.1P --post my.cbpp -o -").stdout.starts_with("(anna)"));
+}
+
+#[test]
+fn what_a_post_cannot_do_is_refused() {
+    let lossy = "<PostProcessor><FeedMove>{$_g1} {$_f} {$_x} {$_y}</FeedMove><Dialect>linuxcnc</Dialect></PostProcessor>";
+    let place = library("").file("lossy.cbpp", lossy).file("open.cbpp", "<PostProcessor/>");
+    assert_snapshot!(runs(
+        &place,
+        [
+            "emit 1600.1P --post grbl",
+            "emit 1234.1P --post lossy.cbpp",
+            "emit 1234.1P --post open.cbpp --dialect grbl --format concise",
+            "emit 1234.1P --post open.cbpp -o out",
+            "emit 1234.1P --date 2026",
+            "emit 1234.1P --run-post-build --check --post grbl",
+        ]
+    ));
+    for file in ["1600_Milling.gcode", "1600_Clean.gcode", "1234_Milling.nc", "1234_Milling.gcode"] {
+        assert!(!place.path().join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn the_provenance_tells_posts_tools_and_macros_apart() {
+    let provenance = |place: &Place, options: &str| {
+        let run = place.run(&format!("emit 1234.1P -o - {options}"));
+        let line = run
+            .stdout
+            .lines()
+            .find(|line| line.to_lowercase().contains("pathbuild "))
+            .unwrap_or_else(|| panic!("{run}"));
+        line.trim_matches(['(', ')']).to_owned()
+    };
+    let place =
+        library("").file("my.cbpp", "<PostProcessor/>").file("other.cbpp", "<PostProcessor></PostProcessor>");
+    let all = [
+        provenance(&place, ""),
+        provenance(&place, "--post grbl"),
+        provenance(&place, "--post haas"),
+        provenance(&place, "--post my.cbpp"),
+        provenance(&place, "--post other.cbpp"),
+        provenance(&place, "--post grbl --date 2026"),
+        provenance(&library("cycles = true"), "--post grbl"),
+        provenance(&Place::of(&LIBRARY.replace("number = 4", "number = 5")), "--post grbl"),
+        provenance(
+            &Place::of(&LIBRARY.replace("[tool.2mm]", "[macros]\na = \"b\"\n[tool.2mm]")),
+            "--post grbl",
+        ),
+    ];
+    let mut distinct = all.to_vec();
+    distinct.sort();
+    distinct.dedup();
+    assert_eq!(distinct.len(), all.len(), "{all:#?}");
+    let inserting = |head: &str| {
+        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*head.nc*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+        let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
+        provenance(&library("").file("my.toml", post).file("head.nc", head), "--post my.toml")
+    };
+    assert_ne!(inserting("(a)\n"), inserting("(b)\n"));
+    let native = provenance(&Place::of(&LIBRARY.replace("number = 4", "number = 5")), "");
+    assert_eq!(native, all[0], "what a native program does not depend on is not in it");
+}
+
+#[test]
+fn current_and_stale_programs_of_posts_are_known() {
+    let place = library("");
+    assert_eq!(place.run("emit . --post fanuc --restrict x:y").status, Some(1), "1600 has probes");
+    assert_eq!(place.run("emit 1234.1P --post fanuc --check").status, Some(0));
+    let text = place.read("1234_Milling.nc");
+    let place = place.file("1234_Milling.nc", text.replace("(1234.1P)", "(remark)"));
+    assert_eq!(place.run("emit 1234.1P --post fanuc --check").status, Some(1));
+    assert_eq!(place.run("emit 1234.1P --post fanuc --check --moves").status, Some(0));
+    let place = place.file("1234_Milling.nc", text.replace("X40.", "X41."));
+    let moved = place.run("emit 1234.1P --post fanuc --check --moves");
+    assert!(moved.status == Some(1) && moved.stderr.contains("PB739"), "{moved}");
+    std::fs::rename(place.path().join("1300.dxf"), place.path().join("1301.dxf")).unwrap();
+    let stale = place.run("emit . --post fanuc --format concise");
+    assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
+}
+
+#[test]
+fn deps_name_the_post_and_what_it_puts_in() {
+    let post = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\nprogram-start = '\\\\\\~*head.txt*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+    let place = library("").file("posts/mine.toml", post).file("posts/head.txt", "(head)\n");
+    let run = place.run("emit 1234.1P --post posts/mine.toml --deps out.d");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(place.read("1234_Milling.nc").starts_with("(head)"));
+    assert_eq!(
+        place.read("out.d"),
+        "1234_Milling.nc: 1234.dxf pathbuild.toml posts/mine.toml posts/head.txt\n"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn the_posts_command_runs_only_when_asked() {
+    let post = |command: &str, arguments: &str| {
+        format!(
+            "<PostProcessor><PostBuildCommand>{command}</PostBuildCommand><PostBuildCommandArgs>{arguments}</PostBuildCommandArgs></PostProcessor>"
+        )
+    };
+    let place = library("")
+        .file("copy.cbpp", post("/bin/cp", "{$outfile} \"a copy.nc\""))
+        .file("fails.cbpp", post("/bin/false", "x; touch y"))
+        .file("missing.cbpp", post("/nowhere/tool", ""));
+    assert_snapshot!(runs(
+        &place,
+        [
+            "emit 1234.1P --post copy.cbpp --dialect linuxcnc",
+            "emit 1234.1P --post copy.cbpp --dialect linuxcnc --run-post-build",
+            "emit 1234.1P --post fails.cbpp --dialect linuxcnc --run-post-build",
+        ]
+    ));
+    assert!(place.read("a copy.nc").contains("G1 X40.0"));
+    let missing = place.run("emit 1234.1P --post missing.cbpp --run-post-build");
+    assert!(missing.status == Some(1) && missing.stderr.contains("PB768"), "{missing}");
+}
+
+#[test]
+fn the_native_program_is_read_back_whatever_the_drawing_holds() {
+    // What cannot differ cannot be shown to; the conformance cases run through the same check.
+    let place = library("z-model = \"tin\"\nz-split = 3");
+    assert_eq!(place.run("emit .").status, Some(0));
+}

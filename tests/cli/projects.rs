@@ -1,0 +1,256 @@
+//! Commands around projects: what embeds what, where paths are. (spec/05-command-line.md, spec/20-paths-and-files.md)
+
+use crate::support::{Place, runs};
+use insta::assert_snapshot;
+
+/// Components, a project, a fixture project with variables for names, a variable project, and a project that lacks something.
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["components", "projects"]
+search = ["components"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B0 MPlate"
+mill 0,0 40,0
+end 40,0
+layer 1234.2P
+start 0,20 "T5 O2 I1 B0 MPlate"
+mill 0,20 40,20
+end 40,20
+== components/2051.dxf ==
+layer 2051.1P
+start 0,0 "T5 O2 I1 MPlate :B0~1"
+mill 0,0 40,0 "B=B"
+end 40,0
+== projects/8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+subpath 40,0 80,0 ">1234.1P"
+subpath 80,0 120,0 ">2051.1P :B0,5"
+end 120,0
+== projects/8100.dxf ==
+layer 8100.1P
+start 0,0 "T5 O2 MPlate :X1234.1P,1234.2P"
+subpath 0,0 40,0 ">=X"
+end 40,0
+== projects/8101.dxf ==
+layer 8101.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">8100.1P :X1234.2P"
+end 40,0
+== projects/8900.dxf ==
+layer 8900.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">9999.1P"
+subpath 40,0 80,0 ">1234.1P"
+end 80,0
+layer 8900.2P
+start 0,50 "T5 MPlate"
+subpath 0,50 40,50 ">1234.1P"
+end 40,50
+"#;
+
+#[test]
+fn graph_lists_every_embedding_with_its_values() {
+    assert_snapshot!(Place::of(LIBRARY).run("graph"));
+}
+
+#[test]
+fn graph_of_a_path_is_what_it_reaches() {
+    assert_snapshot!(runs(&Place::of(LIBRARY), ["graph 8101.1P", "graph projects/8001.dxf"]));
+}
+
+#[test]
+fn graphs_for_other_programs() {
+    let lines = ["graph --format dot", "graph --format mermaid", "graph --format json"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn deps_are_a_tree_of_what_is_embedded() {
+    let lines =
+        ["deps 8001.1P", "deps 8101.1P 1234.1P", "deps projects/8900.dxf", "deps 8101.1P --format dot"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+#[test]
+fn rdeps_are_a_tree_of_what_embeds_over_the_library() {
+    let lines = ["rdeps 1234.1P", "rdeps 1234.2P", "rdeps components/2051.dxf", "rdeps 8001.1P", "rdeps"];
+    assert_snapshot!(runs(&Place::of(LIBRARY), lines));
+}
+
+/// A path with variables is asked for as often as there are sets of values.
+#[test]
+fn rdeps_show_what_embeds_each_set_of_values() {
+    let second = "subpath 80,0 120,0 \">2051.1P :B0,5\"\nsubpath 120,0 160,0 \">2051.1P :B0\"\nend 160,0";
+    let library = LIBRARY.replace("subpath 80,0 120,0 \">2051.1P :B0,5\"\nend 120,0", second);
+    let run = Place::of(&library).run("rdeps 2051.1P");
+    let expected = "2051.1P :B0  components/2051.dxf\n  8001.1P  projects/8001.dxf\n\
+        2051.1P :B0,5  components/2051.dxf\n  8001.1P  projects/8001.dxf\n";
+    assert_eq!(run.stdout, expected);
+}
+
+#[test]
+fn rdeps_of_a_part_of_the_graph_for_other_programs() {
+    assert_snapshot!(runs(
+        &Place::of(LIBRARY),
+        ["rdeps 1234.2P --format json", "rdeps 2051.1P --format mermaid"]
+    ));
+}
+
+#[test]
+fn graph_commands_speak_german() {
+    assert_snapshot!(runs(
+        &Place::of(LIBRARY),
+        ["graph --lang de", "deps --lang de", "rdeps --lang de 1234.1P"]
+    ));
+}
+
+#[test]
+fn graph_commands_say_what_they_cannot_find() {
+    let place = Place::of(LIBRARY).file("broken.dxf", "no drawing");
+    assert_snapshot!(runs(&place, ["deps 7777.1P", "rdeps broken.dxf", "graph gone.dxf"]));
+}
+
+#[test]
+fn without_a_library_rdeps_looks_below_the_working_directory() {
+    let place = Place::of(&LIBRARY.replace("library = [\"components\", \"projects\"]", ""));
+    assert_snapshot!(runs(&place, ["rdeps 2051.1P", "graph"]));
+}
+
+/// A cycle ends where it began, and what is embedded again below is not written again.
+#[test]
+fn cycles_and_repetitions_end() {
+    let place = Place::of(
+        r#"
+== 8000.dxf ==
+layer 8000.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">8000.2P"
+subpath 40,0 80,0 ">8000.3P"
+end 80,0
+layer 8000.2P
+start 0,20 "T5 O2 MPlate"
+subpath 0,20 40,20 ">8000.3P"
+end 40,20
+layer 8000.3P
+start 0,40 "T5 O2 MPlate"
+subpath 0,40 40,40 ">8000.2P"
+end 40,40
+"#,
+    );
+    assert_snapshot!(runs(&place, ["deps 8000.1P", "rdeps 8000.3P", "graph 8000.dxf"]));
+}
+
+/// With the default patterns look-ups use an order; where numbers and texts meet there is none.
+#[test]
+fn look_ups_without_an_order_are_told_to_who_asks() {
+    let place = Place::of(LIBRARY).file("components/ABC.dxf", "");
+    let run = |arguments: &str| place.run(&format!("{arguments} check projects/8001.dxf --no-cache")).stderr;
+    let mixed = "--file-pattern ([0-9A-Z]+)";
+    let place_of = "components: every file name is looked at";
+    assert!(!run("-v").contains(place_of), "{}", run("-v"));
+    assert!(!run(mixed).contains(place_of));
+    let mixed = run(&format!("-v {mixed}"));
+    assert!(mixed.contains(place_of), "{mixed}");
+}
+
+#[test]
+fn where_says_file_line_layer_and_start() {
+    let place = Place::of(LIBRARY);
+    let lines =
+        ["where 1234.1P", "where components/1234.dxf 8101.1p", "where --format json 2051.1P", "where 7.1P"];
+    assert_snapshot!(runs(&place, lines));
+}
+
+/// It is the one command that helps with PB504.
+#[test]
+fn where_lists_every_definition_of_a_path_that_has_two() {
+    let second = "== projects/1234.1.dxf ==\nlayer 1234_1P\nstart 0,0 \"T5 O2\"\nend 0,0\n";
+    assert_snapshot!(Place::of(&format!("{LIBRARY}{second}")).run("where 1234.1P --lang de"));
+}
+
+/// One text of each kind: of a marker, a line, an arc, a circle, a polyline; one that is continued, and one without an element.
+const TEXTS: &str = r#"
+== 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 MPlate~\P  X" as mtext
+mill 0,0 40,0 "B0 %%c" as text
+mill arc 40,0 60,0 r 10 "B1"
+circle 60,0 d 2 "B2"
+polyline 60,0 80,0 80,20 "B3"
+end 80,20
+text 200,200 "B4"
+layer 1234.2P~A
+start 0,50 "@1234.1P"
+end 0,50
+== broken.dxf verbatim ==
+nothing
+"#;
+
+#[test]
+fn texts_show_the_element_that_each_belongs_to() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts 1234.dxf", "texts 1234.dxf --lang de --match B[13]"]));
+}
+
+#[test]
+fn texts_of_one_path_or_for_programs() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts 1234.2P", "texts 1234.dxf --format json"]));
+}
+
+#[test]
+fn texts_need_a_drawing_and_a_regular_expression() {
+    assert_snapshot!(runs(&Place::of(TEXTS), ["texts", "texts 1234.dxf --match (", "texts broken.dxf"]));
+}
+
+/// A fault that one value shows, which is not among the examples; one that some combinations show; one that all do.
+const VALUES: &str = r#"
+== 2051.dxf ==
+layer 2051.1P
+start 0,0 "T5 O2 I1 MPlate :A0,1,2,6 :B1~9 :C?XY"
+mill 0,0 40,0 "B=A"
+mill 40,0 40,20 "B=B"
+mill 40,20 80,20 "B7"
+end 80,20
+layer 2051.2P
+start 0,50 "T5 O2 I1 MPlate :X1~2"
+mill 0,50 40,50 "B=X"
+end 40,50
+layer 2051.3P
+start 0,80 "T5 O2 I1 B0 MPlate"
+mill 0,80 40,80
+end 40,80
+"#;
+
+#[test]
+fn all_values_of_variables_are_checked() {
+    let lines = ["check 2051.dxf", "check --all-bindings 2051.dxf", "check --all-bindings 2051.2P"];
+    assert_snapshot!(without_times(&runs(&Place::of(VALUES), lines)));
+}
+
+/// Ten digits for each of three variables are as many as are checked; one more is too many.
+#[test]
+fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
+    let place = |definitions: &str| {
+        Place::of(&format!(
+            "== 2051.dxf ==\nlayer 2051.1P\nstart 0,0 \"T20 O2 I1 MPlate {definitions}\"\n\
+             mill 0,0 40,0 \"B=A\"\nmill 40,0 80,0 \"B=B\"\nmill 80,0 80,40 \"B=C\"\nend 80,40\n"
+        ))
+    };
+    let all = place(":A?0123456789 :B?0123456789 :C?0123456789").run("check --all-bindings 2051.dxf");
+    assert!(!all.stderr.contains("PB005"), "{all}");
+    // The value that is at fault comes last of all, and is met nevertheless.
+    let cut = place(":A?0123456789 :B?0123456789 :C0,1,2,3,4,5,6,7,8,9,21")
+        .run("check --all-bindings 2051.dxf --lang de");
+    assert_snapshot!(without_times(&cut.to_string()));
+}
+
+/// What a run took differs from run to run.
+fn without_times(text: &str) -> String {
+    let lines = text.lines().map(|line| match line.rfind(" (") {
+        Some(at) if line.ends_with(" s)") => &line[..at],
+        _ => line,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}

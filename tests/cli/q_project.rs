@@ -1,0 +1,243 @@
+//! Q-projects: `pathbuild q-project`, and what `check` says of them. (spec/20-paths-and-files.md, "Q-projects")
+
+use crate::support::{Place, fixture};
+
+/// A drawing with a proxy line, a path with variables, a closed path, and lines and texts that are none of a proxy's.
+const DRAWING: &str = r#"
+== pathbuild.toml ==
+library = ["."]
+feed = 150
+rapid = 1000
+sweep-height = 20
+== gear 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B0 MPlate"
+mill 0,0 40,0
+end 40,0
+layer 1234.2P
+start 0,20 "T6 O2 I1 MPlate2 :B0~1 :CA,B"
+mill 0,20 40,20 "B=B"
+mill 40,20 40,40 "B=B"
+mill 40,40 0,20 "B=B"
+end 0,20
+layer 1234.3P
+start 0,60 "T4 O3 I1 B0 MPlate"
+mill 0,60 0.4,60
+end 0.4,60
+layer 1234.**
+subpath 40,0 0,0 ">1234.1P O2 H2"
+line DASHDOT 0,60 40,100
+mill 50,0 90,0 "look at >1234.9P"
+text 100,100 "B-B"
+"#;
+
+fn written() -> Place {
+    let place = Place::of(DRAWING);
+    let run = place.run_with(&["q-project", "gear 1234.dxf"]);
+    assert_eq!((run.status, run.stderr.as_str()), (Some(0), "gear 1234_Q.dxf: written, 3 paths\n"), "{run}");
+    place
+}
+
+#[test]
+fn what_is_written_is_right_and_agrees_with_its_drawing() {
+    let place = written();
+    let run = place.run("check");
+    assert!(run.stderr.starts_with("4 paths in 2 drawings: no errors, no warnings"), "{run}");
+}
+
+#[test]
+fn every_path_is_embedded_as_its_proxy_line_says_else_with_its_own_values() {
+    let place = written();
+    let run = place.run_with(&["texts", "gear 1234_Q.dxf"]);
+    let texts: Vec<&str> = run.stdout.split('"').skip(1).step_by(2).collect();
+    assert_eq!(
+        texts,
+        [
+            "T6 O2 MPlate",
+            ">1234.1P O2 H2 MPlate T5",
+            ">1234.2P MPlate2 T6 O2 :B0 :CB",
+            ">1234.3P MPlate T4 O3"
+        ]
+    );
+    for line in ["from (0, 0) to (40, 0)", "from (60, 0) to (60, 0)", "from (80, 0) to (80.4, 0)"] {
+        assert!(run.stdout.contains(line), "{line}: {run}");
+    }
+}
+
+#[test]
+fn written_twice_it_has_the_same_bytes() {
+    let place = written();
+    let bytes = std::fs::read(place.path().join("gear 1234_Q.dxf")).unwrap();
+    let again = place.run_with(&["q-project", "gear 1234.dxf"]);
+    assert_eq!(again.stderr, "gear 1234_Q.dxf: unchanged, 3 paths\n");
+    place.run_with(&["q-project", "gear 1234.dxf", "-o", "other.dxf"]);
+    assert_eq!(std::fs::read(place.path().join("other.dxf")).unwrap(), bytes);
+}
+
+#[test]
+fn its_path_has_the_drawings_first_number_or_the_name_that_is_given() {
+    let place = written();
+    let name = |file| place.run_with(&["where", file]).stdout;
+    assert!(name("gear 1234_Q.dxf").starts_with("1234.0Q "), "{}", name("gear 1234_Q.dxf"));
+    place.run_with(&["q-project", "gear 1234.dxf", "--path-name", "8900.7Q", "-o", "other.dxf"]);
+    assert!(name("other.dxf").starts_with("8900.7Q "), "{}", name("other.dxf"));
+}
+
+#[test]
+fn a_name_that_is_none_or_is_taken_is_wrong_usage() {
+    let place = Place::of(DRAWING);
+    for name in ["8900.Q", "1234.3p"] {
+        let run = place.run_with(&["q-project", "gear 1234.dxf", "--path-name", name]);
+        assert_eq!(run.status, Some(2), "{run}");
+        assert!(run.stderr.contains("--path-name"), "{run}");
+    }
+    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "gear.dxf"));
+    assert_eq!(place.run("q-project gear.dxf").status, Some(2), "its name has no number");
+    let run = place.run("q-project gear.dxf --path-name 1234.0Q");
+    assert_eq!(run.status, Some(1), "by that name its paths are not found: {run}");
+    assert!(run.stderr.contains("PB503"), "{run}");
+}
+
+/// Nothing is written of a drawing that projects could not embed.
+fn is_refused(drawing: &str, code: &str) {
+    let place = Place::of(drawing);
+    let run = place.run_with(&["--format", "concise", "q-project", "gear 1234.dxf"]);
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains(code), "{run}");
+    assert!(!place.path().join("gear 1234_Q.dxf").exists(), "{run}");
+}
+
+#[test]
+fn a_drawing_with_errors_gets_no_q_project() {
+    is_refused(&DRAWING.replace("B0 MPlate\"\nmill 0,0", "MPlate\"\nmill 0,0"), "PB201");
+    is_refused(&DRAWING.replace("layer 1234.1P\n", "layer 1234.1P\nmill 0,5 1,5\n"), "PB402");
+    is_refused("== gear 1234.dxf ==\nlayer 0\nmill 0,0 40,0", "PB513");
+}
+
+#[test]
+fn a_path_without_material_cannot_be_embedded() {
+    is_refused(&DRAWING.replace("T4 O3 I1 B0 MPlate", "T4 O3 I1 B0"), "PB201");
+}
+
+#[test]
+fn a_wrong_proxy_line_is_not_copied() {
+    is_refused(&DRAWING.replace(">1234.1P O2 H2", ">1234.1P O3 H2"), "PB517");
+}
+
+/// A drawing and its Q-project, where a path, its proxy line and the subpath of the Q-project agree.
+const PAIR: &str = r#"
+$ check .
+#! exit 0
+== pathbuild.toml ==
+library = ["."]
+== 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 MPlate :B0~1"
+mill 0,0 40,0 "B=B"
+end 40,0
+layer 1234.**
+subpath 0,0 40,0 ">1234.1P T5 O2 MPlate :B0.5"
+== 1234_Q.dxf ==
+layer 1234.0Q
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P T5 O2 MPlate :B0,50"
+end 40,0
+"#;
+
+const PROXY: &str = r#"subpath 0,0 40,0 ">1234.1P T5 O2 MPlate :B0.5""#;
+const EMBEDDING: &str = r#"subpath 0,0 40,0 ">1234.1P T5 O2 MPlate :B0,50""#;
+
+fn expect(changes: &[(&str, &str)], exit: u8) {
+    let mut text = PAIR.replace("exit 0", &format!("exit {exit}"));
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let faults = fixture::faults(&text);
+    assert!(faults.is_empty(), "{changes:?}:\n{}", faults.join("\n"));
+}
+
+#[test]
+fn a_pair_that_agrees_is_right() {
+    expect(&[], 0);
+}
+
+#[test]
+fn what_the_text_leaves_open_is_the_paths() {
+    expect(&[(EMBEDDING, r#"subpath 0,0 40,0 ">1234.1P :B0.5""#)], 0);
+    expect(&[(PROXY, r#"subpath 0,0 40,0 ">1234.1P :B0.5""#)], 0);
+}
+
+#[test]
+fn each_path_must_be_embedded() {
+    let skipped = EMBEDDING.replace("subpath", "skip");
+    expect(&[(EMBEDDING, &skipped), ("layer 1234.0Q", "#! PB515 1234.1P\nlayer 1234.0Q")], 0);
+}
+
+#[test]
+fn a_value_other_than_the_proxy_lines_is_a_warning() {
+    let other = EMBEDDING.replace(":B0,50", ":B0.6");
+    expect(&[(EMBEDDING, &format!("{other} #! PB516 :B"))], 0);
+}
+
+/// What differs from the path itself as well is an error of the embedding.
+#[test]
+fn a_text_or_length_other_than_the_proxy_lines_is_a_warning() {
+    for (letter, other) in [("T5", "T4"), ("O2", "O3"), ("MPlate", "MPlate2")] {
+        let other = EMBEDDING.replace(letter, other);
+        expect(&[(EMBEDDING, &format!("{other} #! PB506\n#! PB516"))], 1);
+    }
+    let nearly = [
+        (PROXY, PROXY.replace("40,0", "40.0007,0")),
+        (EMBEDDING, EMBEDDING.replace("0,0 40,0", "0,0 39.9998,0")),
+    ];
+    let [(a, b), (c, d)] = &nearly;
+    let end = ("layer 1234.0Q", "layer 1234.0Q\nsweep 39.9998,0 40,0");
+    expect(&[(a, b), (c, d), end], 0);
+    let d = format!("{} #! PB516", d.replace("39.9998", "39.9996"));
+    expect(&[(a, b), (c, &d), ("layer 1234.0Q", "layer 1234.0Q\nsweep 39.9996,0 40,0")], 0);
+}
+
+#[test]
+fn any_of_several_proxy_lines_will_do() {
+    let two = format!("{}\n{PROXY}", PROXY.replace(":B0.5", ":B1").replace("0,0 40,0", "0,9 40,9"));
+    expect(&[(PROXY, &two)], 0);
+}
+
+#[test]
+fn a_proxy_line_must_agree_with_its_path() {
+    for (from, to) in [("T5", "T5.1"), ("O2", "O2.1"), ("MPlate", "MPlat"), ("T5", "T5x")] {
+        expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace(from, to)))], 1);
+    }
+    expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace("1234.1P", "1234.2P")))], 1);
+    expect(&[(PROXY, &PROXY.replace("40,0", "40.0009,0"))], 0);
+    expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace("40,0", "40.0011,0")))], 1);
+    expect(&[(PROXY, &PROXY.replace("subpath 0,0 40,0", "subpath arc 0,30 40,30 r 30"))], 0);
+}
+
+#[test]
+fn a_proxy_line_from_start_to_end_of_another_path_has_the_wrong_name() {
+    let second =
+        "layer 1234.2P\nstart 0,50 \"T5 O2 I1 B0 MPlate\"\nmill 0,50 40,50\nend 40,50\nlayer 1234.**";
+    let embeds = format!(
+        "{EMBEDDING}\nsweep 40,0 40,50\nsubpath 40,50 0,50 \">1234.2P\"\nsweep 0,50 41,0\nend 41,0\nlayer 0"
+    );
+    let proxy = |name| format!("{PROXY}\nsubpath 40,50 0,50 \">{name} MPlate\"");
+    let base = [("layer 1234.**", second), (EMBEDDING, &embeds)];
+    expect(&[&base[..], &[(PROXY, &proxy("1234.2P"))]].concat(), 0);
+    expect(&[&base[..], &[(PROXY, &format!("{} #! PB517 1234.2P", proxy("1234.1P")))]].concat(), 1);
+}
+
+#[test]
+fn a_drawing_without_a_q_project_may_have_any_lines() {
+    let place = Place::of(&PAIR.replace("1234_Q.dxf", "1235_Q.dxf").replace("O2 MPlate :B0.5", "O9 MPlate"));
+    let run = place.run("check");
+    assert!(run.stderr.contains("no errors, no warnings"), "{run}");
+}
+
+/// What the Q-project embeds is not known where it has errors itself: that is said alone.
+#[test]
+fn nothing_is_said_against_a_q_project_with_errors() {
+    let wrong = EMBEDDING.replace("T5", "T5x");
+    expect(&[(EMBEDDING, &format!("{wrong} #! PB205"))], 1);
+}

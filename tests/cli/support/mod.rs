@@ -1,0 +1,127 @@
+//! Runs the program as a shell would: in a directory of its own, with an environment that holds nothing.
+#![allow(dead_code, unreachable_pub, reason = "each test file uses a part of it")]
+#![allow(clippy::explicit_write, reason = "the test harness would keep eprintln! to itself")]
+
+pub mod fixture;
+
+use std::fmt;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use pathbuild_draw::Fixture;
+use regex::Regex;
+use tempfile::TempDir;
+
+/// A directory with files in it, in which the program is run.
+pub struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    pub fn new() -> Self {
+        Self { directory: TempDir::new().unwrap() }
+    }
+
+    /// A directory with the files of a fixture (crates/pathbuild-draw, README.md).
+    pub fn of(fixture: &str) -> Self {
+        let fixture = Fixture::parse(fixture).unwrap();
+        fixture.files.iter().fold(Self::new(), |place, file| place.file(&file.name, file.bytes()))
+    }
+
+    /// Adds a file; directories on the way to it are made.
+    pub fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        let path = self.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+        self
+    }
+
+    pub fn path(&self) -> &Path {
+        self.directory.path()
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path().join(name)).unwrap()
+    }
+
+    /// Runs `pathbuild` with arguments that are separated by blanks.
+    pub fn run(&self, arguments: &str) -> Run {
+        self.run_with(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs `pathbuild` with these arguments.
+    pub fn run_with(&self, arguments: &[&str]) -> Run {
+        self.run_in(".", arguments)
+    }
+
+    /// Runs `pathbuild` in a directory below.
+    pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
+        let output = program().args(arguments).current_dir(self.path().join(directory)).output().unwrap();
+        let text = |bytes: Vec<u8>| {
+            let text = String::from_utf8(bytes).unwrap().replace(&*self.path().to_string_lossy(), "<PLACE>");
+            // How long it took is another number on another day.
+            Regex::new(r"(?m)\(\d+\.\d s\)$").unwrap().replace_all(&text, "(0.0 s)").into_owned()
+        };
+        Run {
+            arguments: arguments.join(" "),
+            status: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+/// The program, in an environment that says nothing.
+pub fn program() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pathbuild"));
+    command.env_clear().stdin(Stdio::null());
+    command
+}
+
+/// What a run printed and how it ended. Shown as one text, for snapshots.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Run {
+    pub arguments: String,
+    pub status: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl fmt::Display for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let status = self.status.map_or("killed".to_owned(), |status| status.to_string());
+        writeln!(f, "$ pathbuild {}\nstatus: {status}", self.arguments)?;
+        for (name, text) in [("stdout", &self.stdout), ("stderr", &self.stderr)] {
+            if !text.is_empty() {
+                writeln!(f, "--- {name}\n{}", text.trim_end_matches('\n'))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The project's directory.
+pub fn project() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// Test data that is not ours to keep and lies beside the project; `None`, with a message, where it is absent and
+/// `PATHBUILD_REQUIRE` does not name `shared`.
+pub fn shared(name: &str) -> Option<PathBuf> {
+    let path = project().join("../shared").join(name);
+    let is_required =
+        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"));
+    assert!(path.exists() || !is_required, "{} is missing", path.display());
+    if !path.exists() {
+        writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
+        return None;
+    }
+    Some(path)
+}
+
+/// Several runs, one after the other.
+pub fn runs<'a>(place: &Place, lines: impl IntoIterator<Item = &'a str>) -> String {
+    lines.into_iter().map(|line| place.run(line).to_string()).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,253 @@
+//! `watch`: what it says and writes as drawings change.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use crate::support::{Place, program};
+use pathbuild_draw::Sheet;
+
+const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
+
+/// A drawing of one path with T, which mills or embeds.
+fn dxf(name: &str, thickness: u32, embeds: &[&str]) -> Vec<u8> {
+    let mut text = format!("layer {name}\nstart 0,0 \"T{thickness} O2 I1 B0 MPlate\"\n");
+    if embeds.is_empty() {
+        text.push_str("mill 0,0 40,0\n");
+    }
+    for (index, embedded) in embeds.iter().enumerate() {
+        writeln!(text, "subpath {},0 {},0 \">{embedded}\"", 40 * index, 40 * index + 40).unwrap();
+    }
+    writeln!(text, "end {},0", 40 * embeds.len().max(1)).unwrap();
+    Sheet::parse(&text).unwrap().to_dxf()
+}
+
+fn library() -> Place {
+    Place::new()
+        .file("pathbuild.toml", CONFIGURATION)
+        .file("library/parts/1001.dxf", dxf("1001.1P", 5, &[]))
+        .file("library/parts/1002.dxf", dxf("1002.1P", 5, &[]))
+        .file("library/projects/8001.dxf", dxf("8001.1P", 5, &["1001.1P"]))
+        .file("library/projects/8002.dxf", dxf("8002.1P", 5, &["1002.1P"]))
+}
+
+/// A run that goes on. It ends when this is dropped.
+struct Watch<'a> {
+    place: &'a Place,
+    child: Child,
+    lines: Receiver<String>,
+    /// What was said until it watched.
+    beginning: Vec<String>,
+}
+
+impl<'a> Watch<'a> {
+    fn begin(place: &'a Place, arguments: &str) -> Self {
+        let mut command = program();
+        command.args(arguments.split_whitespace()).current_dir(place.path());
+        let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        let stderr = BufReader::new(child.stderr.take().unwrap());
+        let (sender, lines) = channel();
+        std::thread::spawn(move || {
+            stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
+        });
+        let mut watch = Self { place, child, lines, beginning: Vec::new() };
+        watch.beginning = watch.until("watching ");
+        watch
+    }
+
+    /// The lines up to one that holds a text.
+    #[track_caller]
+    fn until(&self, text: &str) -> Vec<String> {
+        let mut seen = Vec::new();
+        loop {
+            let line = self.lines.recv_timeout(Duration::from_secs(20));
+            assert!(line.is_ok(), "`{text}` was not said: {seen:#?}");
+            seen.extend(line);
+            if seen.last().is_some_and(|line| line.contains(text)) {
+                return seen;
+            }
+        }
+    }
+
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        fs::write(self.place.path().join(name), bytes).unwrap();
+    }
+}
+
+impl Drop for Watch<'_> {
+    fn drop(&mut self) {
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+#[test]
+fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    let other = place.read("library/projects/8002_Milling.gcode");
+    assert!(place.read("library/projects/8001_Milling.gcode").contains("1001.1P"));
+
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB506") && line.contains("8001.dxf")), "{said:#?}");
+    assert!(
+        said.last().unwrap().starts_with("[1] library/parts/1001.dxf: changed; 2 drawings checked"),
+        "{said:#?}"
+    );
+
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.last().unwrap().contains(" 0 new findings, "), "{said:#?}");
+    assert_eq!(place.read("library/projects/8002_Milling.gcode"), other);
+
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1001.1P"]));
+    let said = watch.until("1002.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("8002_Milling.gcode: written")), "{said:#?}");
+    assert_ne!(place.read("library/projects/8002_Milling.gcode"), other);
+}
+
+/// Names of drawings and directories are none of paths: who writes them there would wait for programs in vain.
+#[test]
+fn targets_that_mean_no_path_are_told_at_the_beginning() {
+    let unmet = |targets: &str, arguments: &str| {
+        let place = library().file("pathbuild.toml", CONFIGURATION.replace("\"8*\"", targets));
+        let watch = Watch::begin(&place, arguments);
+        watch.beginning.iter().filter(|line| line.contains("matches the target")).count()
+    };
+    assert_eq!(unmet("\"8*\", \"projects\", \"800?.dxf\"", "watch --emit --format concise"), 2);
+    assert_eq!(unmet("\"8001*\", \"*2.1P\"", "watch --emit --format concise"), 0);
+    assert_eq!(unmet("\"projects\"", "watch --format concise"), 0);
+}
+
+#[test]
+fn drawings_that_come_go_and_are_renamed_are_noticed() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    fs::remove_file(place.path().join("library/parts/1001.dxf")).unwrap();
+    let said = watch.until("1001.dxf: removed");
+    assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
+
+    watch.write("library/parts/1001 again.dxf", dxf("1001.1P", 5, &[]));
+    let said = watch.until("again.dxf: changed");
+    assert!(
+        said.last().unwrap().contains("2 drawings checked, 0 new findings, 1 gone")
+            || said.last().unwrap().contains("2 drawings checked, 0 new findings, 2 gone"),
+        "{said:#?}"
+    );
+
+    watch.write("library/projects/1001.dxf", dxf("1001.1P", 5, &[]));
+    let said = watch.until("projects/1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB504")), "{said:#?}");
+
+    let from = place.path().join("library/projects/1001.dxf");
+    fs::rename(from, place.path().join("library/projects/7001.dxf")).unwrap();
+    let said = watch.until("7001.dxf: changed");
+    assert!(said.last().unwrap().contains(" 0 new findings"), "{said:#?}");
+}
+
+#[test]
+fn a_drawing_that_is_being_written_is_waited_for() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    let whole = dxf("1001.1P", 4, &[]);
+    watch.write("library/parts/1001.dxf", &whole[..whole.len() / 2]);
+    std::thread::sleep(Duration::from_millis(700));
+    watch.write("library/parts/1001.dxf", &whole);
+    let said = watch.until("1001.dxf: changed");
+    assert!(!said.iter().any(|line| line.contains("PB002")), "{said:#?}");
+    assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+}
+
+#[test]
+fn a_drawing_that_never_ends_is_taken_as_it_is() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.write("library/parts/1001.dxf", "no drawing at all");
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB002")), "{said:#?}");
+}
+
+#[test]
+fn polling_notices_the_same() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --poll --format concise");
+    // The time of last change must differ, by which polling tells.
+    std::thread::sleep(Duration::from_millis(1100));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+}
+
+#[test]
+fn another_configuration_begins_anew() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.write("pathbuild.toml", format!("restrict = [\"8001*:9\"]\n{CONFIGURATION}"));
+    let said = watch.until("watching ");
+    assert!(said.iter().any(|line| line.contains("PB507")), "{said:#?}");
+}
+
+#[test]
+fn an_edited_post_begins_anew() {
+    let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
+    let place = library()
+        .file("pathbuild.toml", format!("post = \"posts/my.cbpp\"\n{CONFIGURATION}"))
+        .file("posts/my.cbpp", post("bert"));
+    let watch = Watch::begin(&place, "watch --emit");
+    let program = "library/projects/8001_Milling.nc";
+    assert!(place.read(program).starts_with("(bert)"));
+    watch.write("posts/my.cbpp", post("anna"));
+    watch.until("its post changed");
+    watch.until("watching ");
+    assert!(place.read(program).starts_with("(anna)"));
+}
+
+/// More changes while many drawings are asked again: what is still open is asked together with what they concern, and nothing is forgotten.
+#[test]
+fn changes_that_come_while_others_are_worked_on_are_not_lost() {
+    const PROJECTS: usize = 200;
+    let place = (0..PROJECTS).fold(library(), |place, index| {
+        let name = format!("{}.1P", 8100 + index);
+        place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
+    });
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    let difference = |said: &[String]| {
+        let counts = said.iter().filter_map(|line| {
+            let (new, gone) = line.split_once(" new findings, ")?;
+            let number = |text: &str| text.parse::<i64>().unwrap();
+            Some(number(new.rsplit(' ').next().unwrap()) - number(gone.split(' ').next().unwrap()))
+        });
+        counts.sum::<i64>()
+    };
+    let mut said = Vec::new();
+    for pause in [60, 75, 90, 120] {
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+        std::thread::sleep(Duration::from_millis(pause));
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+        std::thread::sleep(Duration::from_millis(pause));
+    }
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    // Whatever comes now comes after everything else.
+    std::thread::sleep(Duration::from_millis(500));
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1999.1P"]));
+    said.extend(watch.until("1002.dxf: changed"));
+    said.retain(|line| line.starts_with('['));
+    // Each project is wrong now, 8001 among them; 1002, and 8002 that embeds it, miss a path.
+    let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
+    assert_eq!(difference(&said), wrong, "{said:#?}");
+}
+
+#[test]
+fn what_cannot_be_watched_is_wrong_usage() {
+    let run = Place::new().run("watch");
+    assert_eq!(run.status, Some(2), "{run}");
+    let run = Place::new()
+        .file("pathbuild.toml", "library = [\"library\"]\n")
+        .file("library/a.txt", "")
+        .run("watch --emit");
+    assert_eq!(run.status, Some(2), "{run}");
+}

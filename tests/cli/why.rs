@@ -1,0 +1,85 @@
+//! `pathbuild why`: what keeps the results of the last check from holding. (spec/05-command-line.md)
+
+use crate::support::Place;
+
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+library = ["."]
+== 1111.dxf ==
+layer 1111.1P
+start 0,0 "T5 O3 I1 B0 Mx"
+mill 0,0 20,0
+end 20,0
+== 1112.dxf ==
+layer 1112.1P
+start 0,0 "T5 O3 I1 B0 Mx"
+mill 0,0 20,0
+end 20,0
+== 8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O3 Mx"
+subpath 0,0 20,0 ">1111.1P"
+end 20,0
+"#;
+
+/// A library that has been checked.
+fn checked() -> Place {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("check").status, Some(0));
+    place
+}
+
+fn why(place: &Place, what: &str) -> String {
+    let run = place.run(&format!("why {what}"));
+    assert_eq!(run.status, Some(0), "{run}");
+    run.stdout
+}
+
+#[test]
+fn before_a_check_nothing_is_kept() {
+    let said = why(&Place::of(LIBRARY), "8001.1P");
+    assert!(said.starts_with("8001.dxf: would be compiled: no result is kept"), "{said}");
+}
+
+#[test]
+fn without_a_change_everything_holds() {
+    let said = why(&checked(), "");
+    assert_eq!(said.lines().filter(|line| line.contains("what was found still holds")).count(), 3, "{said}");
+}
+
+#[test]
+fn a_changed_component_is_named_and_its_sibling_is_not() {
+    let place = checked();
+    let bytes = std::fs::read_to_string(place.path().join("1111.dxf")).unwrap();
+    let place = place.file("1111.dxf", bytes.replacen("B0", "B1", 1));
+    assert_eq!(why(&place, "8001.1P"), "8001.dxf: would be compiled again\n  1111.dxf has changed\n");
+    assert!(why(&place, "1112.1P").contains("still holds"));
+}
+
+#[test]
+fn a_component_that_is_gone_is_named() {
+    let place = checked();
+    std::fs::remove_file(place.path().join("1111.dxf")).unwrap();
+    assert_eq!(why(&place, "8001.1P"), "8001.dxf: would be compiled again\n  1111.dxf is gone\n");
+}
+
+#[test]
+fn a_new_file_that_may_hold_an_embedded_path_is_named_and_another_is_not() {
+    let place = checked();
+    let bytes = std::fs::read(place.path().join("1112.dxf")).unwrap();
+    let place = place.file("1113.dxf", &bytes);
+    assert!(why(&place, "8001.dxf").contains("still holds"), "1113 cannot hold 1111.1P");
+    let place = place.file("1111 new.dxf", &bytes);
+    let expected = "8001.dxf: would be compiled again\n  1111 new.dxf is new, and may hold 1111.1P\n";
+    assert_eq!(why(&place, "8001.dxf"), expected);
+    let json = why(&place, "8001.dxf --format json");
+    let reason = r#"{"file":"8001.dxf","holds":false,"reasons":[{"file":"1111 new.dxf","change":"new","path":"1111.1P"}]}"#;
+    assert_eq!(json.trim(), reason);
+}
+
+#[test]
+fn without_a_configuration_there_is_nothing_to_ask() {
+    let place = Place::of(&LIBRARY.replace("pathbuild.toml", "other.toml"));
+    assert_eq!(place.run("why 8001.1P").status, Some(2));
+    assert_eq!(checked().run("why 8001.1P --no-cache").status, Some(2));
+}
