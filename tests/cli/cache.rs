@@ -9,8 +9,8 @@ use std::path::PathBuf;
 
 use crate::support::{Place, Run};
 use camino::Utf8PathBuf;
-use pathbuild::session::{by_name, by_place};
 use pathbuild_draw::Sheet;
+use pathbuild_workspace::session::{by_name, by_place};
 
 const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
 

@@ -6,6 +6,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use pathbuild::progress::Progress;
+use pathbuild_workspace::Advance;
 
 /// A stream whose text can be looked at.
 #[derive(Clone, Default)]

@@ -4,14 +4,14 @@
 use std::time::Duration;
 
 use camino::Utf8Path;
-use pathbuild::args::{CommonArgs, Inputs};
-use pathbuild::config;
 use pathbuild::report::{CheckedFile, Findings, Fingerprint, judge, summary};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
 };
 use pathbuild_path::PathName;
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::config::{self, Overrides};
 
 fn diagnostic() -> Diagnostic {
     Diagnostic::new(&files::NOT_DXF)
@@ -119,7 +119,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
         [[severity-in]]\nfiles = [\"old/new/*.dxf\"]\nPB007 = \"warning\"\n";
     #[expect(clippy::disallowed_methods, reason = "a test's own file")]
     std::fs::write(directory.join("pathbuild.toml"), text).unwrap();
-    let (settings, faults) = config::load(&CommonArgs::default(), &Inputs::default(), directory);
+    let (settings, faults) = config::load(&Overrides::default(), &Inputs::default(), directory);
     assert_eq!(faults, []);
     let judged = |message, file: &str| {
         let diagnostic = Diagnostic::new(message).in_file(&directory.join(file));

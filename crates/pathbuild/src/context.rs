@@ -1,12 +1,16 @@
 //! What every command is handed.
 
-use camino::Utf8PathBuf;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use std::ops::Deref;
+use std::rc::Rc;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_workspace::Workspace;
+use pathbuild_workspace::session::Session;
 
 use crate::args::Format;
-use crate::config::Settings;
 use crate::exit::ExitStatus;
-use crate::printer::{Printer, Stream};
+use crate::printer::{Printer, Stream, Verbosity};
 use crate::render::{View, render};
 use crate::report::{Findings, judge};
 
@@ -14,40 +18,34 @@ use crate::report::{Findings, judge};
 #[derive(Debug)]
 pub struct Context {
     /// Where everything is printed.
-    pub printer: Printer,
+    pub printer: Rc<Printer>,
     /// How diagnostics are shown.
     pub format: Format,
-    /// What the configuration and the command line say.
-    pub settings: Settings,
-    /// The directory that relative names mean.
-    pub working_directory: Utf8PathBuf,
-    /// With how many threads to work; `None`: as many as there are cores.
-    pub jobs: Option<u16>,
-    /// Whether results of earlier runs may be used and this one's kept.
-    pub use_cache: bool,
+    /// What the run works in.
+    pub workspace: Workspace,
+}
+
+impl Deref for Context {
+    type Target = Workspace;
+
+    fn deref(&self) -> &Workspace {
+        &self.workspace
+    }
 }
 
 impl Context {
-    /// Whether the configuration says what to do without arguments.
-    pub fn has_library(&self) -> bool {
-        !self.settings.general.library.value.is_empty()
-    }
-
-    /// Whether results are kept for later runs: there must be a configuration, beside which they lie.
-    pub fn keeps_results(&self) -> bool {
-        self.use_cache && self.settings.directory().is_some()
-    }
-
-    /// The language of everything that is said.
-    pub fn lang(&self) -> Lang {
-        self.settings.general.lang.value
-    }
-
-    /// One of two phrases.
-    pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
-        match self.lang() {
-            Lang::En => en,
-            Lang::De => de,
+    /// Says, to whoever wants to know more, in which directories every file name was looked at for each path.
+    pub fn tell_scans(&self, session: &Session<'_>) {
+        if self.printer.verbosity() < Verbosity::Verbose {
+            return;
+        }
+        let phrase = self.choose(
+            "every file name is looked at for each path, since groups of the file pattern are numbers in some and texts in others",
+            "für jeden Pfad wird jeder Dateiname angesehen, denn Gruppen des Dateimusters sind bald Zahlen, bald Texte",
+        );
+        for directory in session.scans() {
+            let shown = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
+            self.printer.detail(format_args!("{shown}: {phrase}"));
         }
     }
 

@@ -3,22 +3,20 @@
 
 pub mod args;
 pub mod commands;
-pub mod config;
 mod context;
 mod exit;
-mod files;
-pub mod posting;
 pub mod printer;
 pub mod progress;
 pub mod render;
 pub mod report;
-pub mod session;
 mod usage;
 
 use std::ffi::OsString;
 
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_workspace::{Workspace, config};
+use std::rc::Rc;
 
 pub use context::Context;
 pub use exit::ExitStatus;
@@ -93,15 +91,16 @@ fn watch(cli: &Cli, args: &WatchArgs) -> ExitStatus {
 /// The surroundings, and what is wrong with the configuration.
 fn context(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
     let working_directory = working_directory();
-    let (settings, faults) = config::load(common, &command.inputs(), &working_directory);
-    let context = Context {
-        printer: Printer::new(common.verbosity(), common.color.unwrap_or_default()),
-        format: common.format.unwrap_or_default(),
+    let (settings, faults) = config::load(&common.overrides(), &command.inputs(), &working_directory);
+    let printer = Rc::new(Printer::new(common.verbosity(), common.color.unwrap_or_default()));
+    let workspace = Workspace {
         settings,
         working_directory,
         jobs: common.jobs,
         use_cache: !common.no_cache,
+        reporter: printer.clone(),
     };
+    let context = Context { printer, format: common.format.unwrap_or_default(), workspace };
     (context, faults)
 }
 

@@ -16,6 +16,8 @@ use std::cell::RefCell;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
+use pathbuild_workspace::{Advance, Reporter, Silent};
+
 use crate::exit::ExitStatus;
 use crate::progress::Progress;
 
@@ -160,12 +162,6 @@ impl Printer {
         self.write(Stream::Stderr, text);
     }
 
-    /// A progress bar for so many pieces of work, where somebody looks at it.
-    pub fn progress(&self, total: usize) -> Progress {
-        let is_shown = self.verbosity >= Verbosity::Normal && Stream::Stderr.is_terminal();
-        Progress::new(total, is_shown.then(|| Box::new(io::stderr()) as Box<dyn Write + Send>))
-    }
-
     /// Ends the output: says what could not be written, and lets that decide over the status.
     pub fn finish(&self, status: ExitStatus) -> ExitStatus {
         let failures = self.failures.take();
@@ -186,6 +182,24 @@ impl Printer {
             Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text),
             Stream::Stderr => write_unless(&mut failures.stderr, io::stderr().lock(), text),
         }
+    }
+}
+
+impl Reporter for Printer {
+    fn status(&self, line: &str) {
+        Self::status(self, line);
+    }
+
+    fn detail(&self, line: &str) {
+        Self::detail(self, line);
+    }
+
+    /// A progress bar, where somebody looks at it.
+    fn progress(&self, total: usize) -> Box<dyn Advance> {
+        if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
+            return Box::new(Silent);
+        }
+        Box::new(Progress::new(total, Some(Box::new(io::stderr()))))
     }
 }
 

@@ -6,6 +6,8 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
+use pathbuild_workspace::Advance;
+
 /// The work is worth a bar after this time.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// How often the bar is drawn.
@@ -40,9 +42,10 @@ impl Progress {
         });
         Self { counters, drawing }
     }
+}
 
-    /// One more piece of work is done. Any thread may say so.
-    pub fn advance(&self) {
+impl Advance for Progress {
+    fn advance(&self) {
         if self.drawing.is_some() {
             self.counters.done.fetch_add(1, Ordering::Relaxed);
         }

@@ -1,17 +1,17 @@
 //! The programs of the recorded cases, each once.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use clap::Parser;
-use pathbuild::args::{Cli, Inputs};
-use pathbuild::printer::{ColorChoice, Printer, Verbosity};
-use pathbuild::session::Session;
-use pathbuild::{Context, config};
+use pathbuild::args::Cli;
 use pathbuild_db::{Role, program};
 use pathbuild_gcode::interpret::{Action, Step, moves_of};
 use pathbuild_toolpath::Program;
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::{Inputs, Silent, Workspace, config};
 use rayon::prelude::*;
 
 use crate::conformance::recorded::{self, Run, What};
@@ -49,7 +49,7 @@ fn of_run(run: &Run) -> Vec<Named> {
     let case = Utf8PathBuf::from_path_buf(run.case.clone()).unwrap();
     let line = [vec!["pathbuild".to_owned()], arguments.clone()].concat();
     let cli = Cli::try_parse_from(&line).unwrap();
-    let (mut settings, faults) = config::load(&cli.common, &Inputs::default(), &case);
+    let (mut settings, faults) = config::load(&cli.common.overrides(), &Inputs::default(), &case);
     if !faults.is_empty() {
         return Vec::new();
     }
@@ -57,15 +57,14 @@ fn of_run(run: &Run) -> Vec<Named> {
     for value in [&mut general.feed.value, &mut general.rapid.value, &mut general.sweep_height.value] {
         value.get_or_insert(100.0);
     }
-    let context = Context {
-        printer: Printer::new(Verbosity::Silent, ColorChoice::Never),
-        format: cli.common.format.unwrap_or_default(),
+    let workspace = Workspace {
         settings,
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         use_cache: false,
+        reporter: Rc::new(Silent),
     };
-    let session = Session::new(&context);
+    let session = Session::new(&workspace);
     let inputs = cli.command.inputs().inputs.into_iter().map(|input| absolute(&case, input)).collect();
     let wanted = session.wanted(&Inputs { inputs });
     let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();

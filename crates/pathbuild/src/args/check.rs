@@ -1,7 +1,7 @@
 use camino::Utf8PathBuf;
 use clap::Args;
 
-use super::{Inputs, ReportFile};
+use super::{InputArgs, ReportFile};
 
 /// `pathbuild check`
 #[derive(Clone, Debug, Default, Args)]
@@ -9,7 +9,7 @@ use super::{Inputs, ReportFile};
 pub struct CheckArgs {
     /// What to check.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
     /// Check every combination of the variables' values, not one example of each
     #[arg(long)]
     pub all_bindings: bool,

@@ -4,6 +4,7 @@
 use camino::Utf8PathBuf;
 use clap::{Args, ValueEnum};
 use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::config::Overrides;
 
 use super::Format;
 use crate::printer::{ColorChoice, Verbosity};
@@ -71,6 +72,24 @@ pub struct CommonArgs {
 const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";
 
 impl CommonArgs {
+    /// What is held over the configuration.
+    pub fn overrides(&self) -> Overrides {
+        Overrides {
+            feed: self.feed.clone(),
+            rapid: self.rapid.clone(),
+            sweep_height: self.sweep_height.clone(),
+            probe_feed: self.probe_feed.clone(),
+            search: self.search.clone(),
+            path_pattern: self.path_pattern.clone(),
+            file_pattern: self.file_pattern.clone(),
+            restrict: self.restrict.clone(),
+            lang: self.lang.map(Lang::from),
+            out_dir: self.out_dir.clone(),
+            compatible: self.compatible,
+            config: self.config.clone(),
+        }
+    }
+
     /// How much is said.
     pub fn verbosity(&self) -> Verbosity {
         Verbosity::from_counts(self.quiet, self.verbose)

@@ -1,7 +1,7 @@
 use camino::Utf8PathBuf;
 use clap::Args;
 
-use super::Inputs;
+use super::InputArgs;
 
 /// `pathbuild emit`
 #[derive(Clone, Debug, Default, Args)]
@@ -9,7 +9,7 @@ use super::Inputs;
 pub struct EmitArgs {
     /// What to write.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
     /// Write nothing: is what lies on disk current?
     #[arg(long)]
     pub check: bool,

@@ -1,61 +1,46 @@
 //! What a command is asked to work on.
 
-use camino::{Utf8Path, Utf8PathBuf};
-use clap::Args;
+use std::ops::Deref;
 
-/// Drawings, paths and directories, in the order in which they were given.
-#[derive(Clone, Debug, Default, Args)]
-pub struct Inputs {
+use clap::{ArgMatches, Args, Command, Error, FromArgMatches};
+use pathbuild_workspace::Inputs;
+
+/// Drawings, paths and directories as arguments.
+#[derive(Clone, Debug, Default)]
+pub struct InputArgs(Inputs);
+
+#[derive(Args)]
+struct Declared {
     /// Drawings (.dxf), names of paths, directories
     #[arg(value_name = "DRAWING|PATH|DIRECTORY")]
-    pub inputs: Vec<String>,
+    inputs: Vec<String>,
 }
 
-impl Inputs {
-    /// Names of files, whatever they end in.
-    pub(super) fn places<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
-        let place = |file: &Utf8PathBuf| {
-            if file.components().count() > 1 { file.to_string() } else { format!("./{file}") }
-        };
-        Self { inputs: files.into_iter().map(place).collect() }
-    }
+impl Deref for InputArgs {
+    type Target = Inputs;
 
-    /// Each of them.
-    pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
-        self.inputs.iter().map(|text| Input::new(text))
-    }
-
-    /// The directory from which the configuration is looked for: that of the first argument, else the working directory (empty).
-    pub fn first_directory(&self) -> Utf8PathBuf {
-        match self.iter().next() {
-            Some(Input::Place(place)) if is_drawing(place) => {
-                place.parent().unwrap_or(Utf8Path::new("")).to_owned()
-            }
-            Some(Input::Place(place)) => place.to_owned(),
-            Some(Input::Name(_)) | None => Utf8PathBuf::new(),
-        }
+    fn deref(&self) -> &Inputs {
+        &self.0
     }
 }
 
-/// One of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Input<'a> {
-    /// A drawing or directory: it ends in .dxf, contains a path separator, or is `.` or `..`.
-    Place(&'a Utf8Path),
-    /// The name of a path; if there is none, of a drawing without its .dxf.
-    Name(&'a str),
-}
+impl Args for InputArgs {
+    fn augment_args(command: Command) -> Command {
+        Declared::augment_args(command)
+    }
 
-impl<'a> Input<'a> {
-    /// Tells which one a text means.
-    pub fn new(text: &'a str) -> Self {
-        let is_place = is_drawing(Utf8Path::new(text))
-            || text.contains(std::path::is_separator)
-            || matches!(text, "." | "..");
-        if is_place { Self::Place(Utf8Path::new(text)) } else { Self::Name(text) }
+    fn augment_args_for_update(command: Command) -> Command {
+        Declared::augment_args_for_update(command)
     }
 }
 
-fn is_drawing(place: &Utf8Path) -> bool {
-    place.as_str().to_ascii_lowercase().ends_with(".dxf")
+impl FromArgMatches for InputArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        Declared::from_arg_matches(matches).map(|Declared { inputs }| Self(Inputs { inputs }))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }

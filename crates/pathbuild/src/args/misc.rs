@@ -2,14 +2,14 @@ use camino::Utf8PathBuf;
 use clap::{Args, Subcommand};
 use clap_complete::Shell;
 
-use super::Inputs;
+use super::InputArgs;
 
 /// `pathbuild texts`
 #[derive(Clone, Debug, Default, Args)]
 pub struct TextsArgs {
     /// Which drawings.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
     /// Only texts that match
     #[arg(long = "match", value_name = "REGEX")]
     pub pattern: Option<String>,
@@ -20,7 +20,7 @@ pub struct TextsArgs {
 pub struct PreviewArgs {
     /// Which path.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
     /// File to write, .html or .svg; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
@@ -31,7 +31,7 @@ pub struct PreviewArgs {
 pub struct DiffArgs {
     /// What is compared.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
 }
 
 /// `pathbuild q-project`
@@ -97,7 +97,7 @@ pub enum ConfigCommand {
         origin: bool,
         /// For which drawings.
         #[command(flatten)]
-        inputs: Inputs,
+        inputs: InputArgs,
     },
     /// Print the JSON schema of pathbuild.toml
     Schema,

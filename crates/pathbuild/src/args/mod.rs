@@ -14,6 +14,7 @@ mod reading;
 mod watch;
 
 use clap::{Parser, Subcommand};
+use pathbuild_workspace::Inputs;
 
 pub use check::CheckArgs;
 pub use common::CommonArgs;
@@ -22,7 +23,7 @@ pub use emit::{AdjustArgs, EmitArgs};
 pub use format::{Format, ReportFile};
 pub use gcode::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
 pub use graph::GraphArgs;
-pub use inputs::{Input, Inputs};
+pub use inputs::InputArgs;
 pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
     PreviewArgs, QProjectArgs, TextsArgs,
@@ -102,24 +103,24 @@ impl Command {
     /// The drawings and paths that it works on; of other commands than those none.
     pub fn inputs(&self) -> Inputs {
         match self {
-            Self::Check(args) => args.inputs.clone(),
-            Self::Emit(args) => args.inputs.clone(),
-            Self::Watch(args) => args.inputs.clone(),
-            Self::Texts(args) => args.inputs.clone(),
-            Self::Preview(args) => args.inputs.clone(),
-            Self::Diff(args) => args.inputs.clone(),
+            Self::Check(args) => (*args.inputs).clone(),
+            Self::Emit(args) => (*args.inputs).clone(),
+            Self::Watch(args) => (*args.inputs).clone(),
+            Self::Texts(args) => (*args.inputs).clone(),
+            Self::Preview(args) => (*args.inputs).clone(),
+            Self::Diff(args) => (*args.inputs).clone(),
             Self::Graph(args)
             | Self::Deps(args)
             | Self::Rdeps(args)
             | Self::Where(args)
-            | Self::Why(args) => args.inputs.clone(),
+            | Self::Why(args) => (*args.inputs).clone(),
             Self::QProject(args) => Inputs::places([&args.drawing]),
             Self::Adjust(args) => Inputs::places(&args.files),
             Self::Import(args) => Inputs::places(&args.files),
             Self::Verify(args) => Inputs::places(&args.files),
             Self::Post(args) => Inputs::places(&args.file),
             Self::Config(args) => match &args.command {
-                ConfigCommand::Show { inputs, .. } => inputs.clone(),
+                ConfigCommand::Show { inputs, .. } => (**inputs).clone(),
                 ConfigCommand::Schema => Inputs::default(),
             },
             _ => Inputs::default(),

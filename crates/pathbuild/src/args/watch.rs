@@ -1,13 +1,13 @@
 use clap::Args;
 
-use super::Inputs;
+use super::InputArgs;
 
 /// `pathbuild watch`
 #[derive(Clone, Debug, Default, Args)]
 pub struct WatchArgs {
     /// What to watch.
     #[command(flatten)]
-    pub inputs: Inputs,
+    pub inputs: InputArgs,
     /// Write the files of `[emit] targets` too
     #[arg(long)]
     pub emit: bool,

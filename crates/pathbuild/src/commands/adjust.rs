@@ -8,11 +8,11 @@ use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use regex::Regex;
 
 use crate::args::AdjustArgs;
-use crate::config::{positive, regex};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::files::{cannot_write, unreadable};
 use crate::report::Findings;
+use pathbuild_workspace::config::{positive, regex};
+use pathbuild_workspace::files::{cannot_write, unreadable};
 
 /// Runs the command. Of several programs each is written unless something is wrong with it.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::messages::files;
 use crate::args::{CacheArgs, CacheCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::BUILD;
+use pathbuild_workspace::session::BUILD;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {

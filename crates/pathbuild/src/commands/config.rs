@@ -1,9 +1,9 @@
 //! `pathbuild config show` and `config schema`.
 
 use crate::args::{ConfigArgs, ConfigCommand};
-use crate::config::{schema, show};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use pathbuild_workspace::config::{schema, show};
 
 /// Prints what holds, or what can be written.
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {

@@ -4,9 +4,9 @@ use pathbuild_diagnostic::{Code, Lang, Severity, page};
 
 use super::refuse;
 use crate::args::ExplainArgs;
-use crate::config::nearest_code;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use pathbuild_workspace::config::nearest_code;
 
 /// Prints the pages one after the other; a code that does not exist stops everything.
 pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {

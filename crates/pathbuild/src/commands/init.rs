@@ -1,9 +1,9 @@
 //! `pathbuild init`: a configuration with every key, commented.
 
-use crate::config::{FILE_NAME, template};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::files;
+use pathbuild_workspace::config::{FILE_NAME, template};
+use pathbuild_workspace::files;
 
 /// Writes it into the working directory, unless there is one.
 pub fn run(context: &Context) -> ExitStatus {

@@ -7,10 +7,12 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use serde::Serialize;
 
-use crate::args::{Format, GraphArgs, Input};
+use pathbuild_workspace::Input;
+
+use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::{Session, Wanted};
+use pathbuild_workspace::session::{Session, Wanted};
 
 /// Runs the command: a line for each definition, `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {

@@ -12,8 +12,8 @@ use pathbuild_post::{BUILT_IN, Job, Output, Remark, native_remark};
 use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::files::cannot_write;
-use crate::posting::{Poster, Wishes, furnish, run_post_build};
+use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::posting::{Poster, Wishes, furnish, run_post_build};
 
 use super::program::Program;
 

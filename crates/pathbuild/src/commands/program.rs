@@ -14,7 +14,7 @@ use pathbuild_gcode::read::quote;
 
 use crate::args::{ReadingArgs, UnitCodesArg};
 use crate::context::Context;
-use crate::files::unreadable;
+use pathbuild_workspace::files::unreadable;
 
 /// A program that was read.
 pub(super) struct Program {

@@ -10,7 +10,7 @@ use pathbuild_path::PathName;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::Session;
+use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written where the drawing is not in order, or what would be written would not be.
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {

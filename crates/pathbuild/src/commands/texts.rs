@@ -9,10 +9,10 @@ use regex::Regex;
 use serde_json::{Value as Json, json};
 
 use crate::args::{Format, TextsArgs};
-use crate::config;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::Session;
+use pathbuild_workspace::config;
+use pathbuild_workspace::session::Session;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {

@@ -9,7 +9,7 @@ use super::check::question;
 use crate::args::{CheckArgs, Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::{Keeper, Session};
+use pathbuild_workspace::session::{Keeper, Session};
 
 /// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
 /// that is not as it was.

@@ -9,8 +9,8 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value};
 
 use super::{Findings, Fingerprint};
-use crate::files;
 use crate::render::View;
+use pathbuild_workspace::files;
 
 /// The findings that are known and not to be reported.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -9,8 +9,8 @@ use super::{Baseline, CheckedFile, Findings, summary};
 use crate::args::{CheckArgs, ReportFile};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::files;
 use crate::render::{View, render};
+use pathbuild_workspace::files;
 
 /// What a check did.
 #[derive(Clone, Debug, Default)]

@@ -6,7 +6,7 @@ use pathbuild_db::{Database, Role, SourceFile, Target, Trace, check_file, clear,
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use crate::session::{Asking, CheckedTarget, DrawingResult, Session, by_place};
+use pathbuild_workspace::session::{Asking, CheckedTarget, DrawingResult, Session, by_place};
 
 /// A drawing, or some of its paths.
 pub(super) struct Asked<'a> {

@@ -12,8 +12,8 @@ use super::{leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile};
-use crate::session::timings::{KEEPING, VERIFYING};
-use crate::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
+use pathbuild_workspace::session::timings::{KEEPING, VERIFYING};
+use pathbuild_workspace::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
 ///

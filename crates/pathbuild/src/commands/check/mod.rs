@@ -17,8 +17,8 @@ use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::{Checked, CheckedFile, conclude};
-use crate::session::timings::FINDING;
-use crate::session::{DrawingResult, Session, Wanted, WantedPath, by_place};
+use pathbuild_workspace::session::timings::FINDING;
+use pathbuild_workspace::session::{DrawingResult, Session, Wanted, WantedPath, by_place};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -76,7 +76,7 @@ fn finish(
     begun: Instant,
 ) -> ExitStatus {
     checked.diagnostics = session.with_elsewhere(checked.diagnostics);
-    session.tell_scans();
+    context.tell_scans(session);
     checked.time = begun.elapsed();
     let status = conclude(context, args, checked);
     if args.timings {

@@ -7,9 +7,9 @@ use std::process::Command;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Trace;
 
-use crate::config::clean;
 use crate::context::Context;
-use crate::session::{Coverage, Facts, Session};
+use pathbuild_workspace::config::clean;
+use pathbuild_workspace::session::{Coverage, Facts, Session};
 
 /// The drawings that changed, came or went.
 pub(super) struct Changed {

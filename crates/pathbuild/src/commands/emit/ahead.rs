@@ -10,7 +10,7 @@ use super::asked::Asked;
 use super::deliver::{Delivered, Made, Means, Task, finish, make, programs};
 use super::job::{Job, Maker};
 use crate::args::EmitArgs;
-use crate::session::Session;
+use pathbuild_workspace::session::Session;
 
 /// What a job becomes, as far as one knows.
 pub(super) struct Ahead {

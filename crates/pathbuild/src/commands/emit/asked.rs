@@ -7,9 +7,9 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
 use super::configured::Configured;
-use crate::args::Inputs;
 use crate::context::Context;
-use crate::session::{Session, Wanted};
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::session::{Session, Wanted};
 
 /// The paths to emit, and what the run knows of beside them.
 pub(super) struct Asked {

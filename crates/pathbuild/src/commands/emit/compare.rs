@@ -8,8 +8,8 @@ use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
 use super::deliver::{Output, State, has_same_probes};
-use crate::posting::Poster;
-use crate::session::{Content, OutputKind};
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::{Content, OutputKind};
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
 /// of another program. Comes with what is on disk, and with where the moves part, or why they cannot be read.

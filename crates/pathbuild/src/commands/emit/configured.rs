@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
 
-use crate::config::{Origin, Settings};
+use pathbuild_workspace::config::{Origin, Settings};
 
 /// What paths are held against, one after the other.
 pub(in crate::commands) struct Configured<'a> {

@@ -15,8 +15,8 @@ use super::compare;
 use super::follower::Follower;
 use super::job::Job;
 use crate::args::EmitArgs;
-use crate::posting::Poster;
-use crate::session::{Content, OutputKind, Writing};
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::{Content, OutputKind, Writing};
 
 /// What is done with the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

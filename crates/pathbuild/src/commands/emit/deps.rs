@@ -9,8 +9,8 @@ use pathbuild_diagnostic::Diagnostic;
 use super::deliver::cannot_write;
 use super::job::Job;
 use crate::context::Context;
-use crate::posting::Poster;
-use crate::session::Session;
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::Session;
 
 /// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
 /// from. `inserted`: of each job what the post put in, relative to the post's directory.

@@ -10,8 +10,8 @@ use pathbuild_diagnostic::messages::{outputs as messages, posts};
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use crate::context::Context;
-use crate::posting::Poster;
-use crate::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
 #[derive(PartialEq, Eq)]

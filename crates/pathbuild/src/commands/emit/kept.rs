@@ -19,8 +19,10 @@ use super::job::Job;
 use super::stale::Looked;
 use crate::args::EmitArgs;
 use crate::context::Context;
-use crate::posting::Poster;
-use crate::session::{CheckedTarget, Content, Found, Keeper, Made, Programs, Session, is_passing};
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::{
+    CheckedTarget, Content, Found, Keeper, Made, Programs, Session, is_passing,
+};
 
 /// The kept answer to a run's question, and where the run's own is kept.
 pub(super) struct Memory<'a> {

@@ -21,8 +21,8 @@ use pathbuild_diagnostic::{Diagnostic, Note};
 use crate::args::EmitArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::posting::{Poster, Wishes, run_post_build};
-use crate::session::{CheckedTarget, Session};
+use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
+use pathbuild_workspace::session::{CheckedTarget, Session};
 
 use ahead::Ahead;
 use asked::Asked;
@@ -131,7 +131,7 @@ fn conclude(
 ) -> ExitStatus {
     let findings = context.findings(session.with_elsewhere(diagnostics));
     context.show(&findings);
-    session.tell_scans();
+    context.tell_scans(&session);
     // The run is over: to give back what every query holds, piece by piece, takes a twelfth of the time of a short one.
     std::mem::forget(session);
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }

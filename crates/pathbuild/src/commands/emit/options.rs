@@ -6,9 +6,9 @@ use pathbuild_gcode::native::{Charset, WriteOptions};
 use pathbuild_toolpath::{Correction, ZModel};
 
 use super::deliver::Task;
-use crate::config::types;
 use crate::context::Context;
-use crate::session::{CheckedTarget, Writing};
+use pathbuild_workspace::config::types;
+use pathbuild_workspace::session::{CheckedTarget, Writing};
 
 /// A value that a program needs and nobody gives is wrong usage; what has errors is not asked for it.
 pub(super) fn missing(context: &Context, task: Task, checked: &[CheckedTarget]) -> Option<String> {

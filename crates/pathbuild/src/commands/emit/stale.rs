@@ -14,8 +14,8 @@ use pathbuild_gcode::native::{Charset, comment};
 use super::asked::Asked;
 use super::job::{Job, output_directory};
 use crate::context::Context;
-use crate::posting::Poster;
-use crate::session::{Content, HEAD, OutputKind, Provenance, Session, title};
+use pathbuild_workspace::posting::Poster;
+use pathbuild_workspace::session::{Content, HEAD, OutputKind, Provenance, Session, title};
 
 /// What was looked at to know what is stale.
 #[derive(Default)]

@@ -4,7 +4,7 @@ use pathbuild_path::{Bindings, PathName};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::session::{End, Graph, Node};
+use pathbuild_workspace::session::{End, Graph, Node};
 
 #[derive(Serialize)]
 struct Object<'a> {
@@ -57,7 +57,7 @@ fn values(bindings: &Bindings) -> Map<String, Value> {
     bindings.iter().map(|(variable, value)| (variable.to_string(), value.into())).collect()
 }
 
-fn embedding<'a>(graph: &'a Graph, it: &'a crate::session::Embedding) -> Embedding<'a> {
+fn embedding<'a>(graph: &'a Graph, it: &'a pathbuild_workspace::session::Embedding) -> Embedding<'a> {
     let (to, path, code) = match &it.to {
         End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
         End::Nowhere(name, code) => (None, name.as_ref().map(PathName::as_str), Some(code.to_string())),

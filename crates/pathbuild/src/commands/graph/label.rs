@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Code;
 use pathbuild_path::{Bindings, PathName};
 
-use crate::session::{End, Graph, Node};
+use pathbuild_workspace::session::{End, Graph, Node};
 
 /// A path with the values of its variables as a subpath's text sets them: `2051.1P :A0,5 :BX`.
 pub(super) fn path(node: &Node) -> String {

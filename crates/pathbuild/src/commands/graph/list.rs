@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::Lang;
 
 use super::label;
-use crate::session::{Direction, Graph};
+use pathbuild_workspace::session::{Direction, Graph};
 
 /// `8001.1P > 2051.1P :A0,5`, in the order of the embedding paths; paths that embed nothing and that nothing embeds by themselves.
 pub(super) fn list(graph: &Graph, lang: Lang) -> String {

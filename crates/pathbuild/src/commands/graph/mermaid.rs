@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::label;
-use crate::session::{End, Graph};
+use pathbuild_workspace::session::{End, Graph};
 
 pub(super) fn mermaid(graph: &Graph) -> String {
     let mut text = String::from("flowchart LR\n");

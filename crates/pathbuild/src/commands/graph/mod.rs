@@ -14,7 +14,7 @@ use pathbuild_path::PathName;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::{Direction, Graph, Session, Wanted};
+use pathbuild_workspace::session::{Direction, Graph, Session, Wanted};
 
 /// Runs `graph`: every embedding of paths; without arguments of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::Lang;
 
 use super::label;
-use crate::session::{Direction, Embedding, End, Graph};
+use pathbuild_workspace::session::{Direction, Embedding, End, Graph};
 
 /// A tree from each root.
 pub(super) fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {

@@ -12,9 +12,9 @@ use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_path::PathName;
 use pathbuild_toolpath::{Comment, Correction, Program as Drawn, Step};
 
-use crate::args::Inputs;
 use crate::context::Context;
-use crate::session::Session;
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::session::Session;
 
 /// The program of a path.
 pub(super) struct Against {

@@ -2,8 +2,8 @@
 
 use pathbuild_gcode::verify::{Machine, Travel};
 
-use crate::config::types::Extent;
 use crate::context::Context;
+use pathbuild_workspace::config::types::Extent;
 
 /// The machine of the configuration; `None` where nothing is known of it.
 pub(super) fn machine(context: &Context) -> Option<Machine> {

@@ -8,10 +8,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::verify::{Checks, coarse_arcs, verify, verify_machine};
 
 use crate::args::VerifyArgs;
-use crate::config::{number, positive};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::Session;
+use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::session::Session;
 
 use super::program::Program;
 use against::Against;

@@ -10,7 +10,7 @@ use super::Wishes;
 use super::against::Against;
 use crate::commands::program::Program;
 use crate::context::Context;
-use crate::posting::tool_table;
+use pathbuild_workspace::posting::tool_table;
 
 /// The material that a program cuts with these steps; `None` where cutter or surface are not known.
 ///

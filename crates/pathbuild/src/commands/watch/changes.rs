@@ -9,10 +9,12 @@ use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, RecursiveMode, Watcher as _};
 
 use super::library::Library;
-use crate::args::{Input, WatchArgs};
+use pathbuild_workspace::Input;
+
+use crate::args::WatchArgs;
 use crate::context::Context;
-use crate::files;
-use crate::session::Session;
+use pathbuild_workspace::files;
+use pathbuild_workspace::session::Session;
 
 /// Watches the directories of a library.
 pub(super) struct Watcher {
@@ -146,8 +148,9 @@ impl Watcher {
             Ok(event) if event.need_rescan() => changes.is_incomplete = true,
             Ok(event) if tells(event.kind) => {
                 let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
-                let paths = paths
-                    .map(|path| session.normal(&crate::config::clean(&self.working_directory.join(path))));
+                let paths = paths.map(|path| {
+                    session.normal(&pathbuild_workspace::config::clean(&self.working_directory.join(path)))
+                });
                 changes.paths.extend(paths.filter(|path| matters(path) || self.configuration.contains(path)));
             }
             Ok(_) => {}

@@ -9,10 +9,10 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::changes::Changes;
 use super::reverse::Reverse;
-use crate::args::Inputs;
 use crate::commands::check::check_drawings;
 use crate::context::Context;
-use crate::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
 
 /// The drawings.
 pub(super) struct Library<'a> {

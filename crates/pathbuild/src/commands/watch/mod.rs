@@ -15,7 +15,7 @@ use std::time::Instant;
 use crate::args::WatchArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::session::Session;
+use pathbuild_workspace::session::Session;
 
 use changes::{Batch, Watcher};
 use library::Library;

@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{SourceFile, Trace};
 use pathbuild_path::PathName;
 
-use crate::session::Coverage;
+use pathbuild_workspace::session::Coverage;
 
 /// The reverse of all traces.
 #[derive(Default)]

@@ -8,8 +8,8 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::commands::emit::{self, Configured, Owners};
 use crate::context::Context;
-use crate::posting::{Poster, Wishes};
-use crate::session::Session;
+use pathbuild_workspace::posting::{Poster, Wishes};
+use pathbuild_workspace::session::Session;
 
 /// Writes programs, if it is to.
 pub(super) struct Writer<'a> {

@@ -6,7 +6,7 @@ use std::collections::hash_map::Entry;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::system::Kind;
-use pathbuild_db::{Db, SourceFile, holders, name_table, path_names};
+use pathbuild_db::{Db, Directory, SourceFile, holders, name_table, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
@@ -14,8 +14,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::{Session, library};
-use crate::args::{Input, Inputs};
-use crate::printer::Verbosity;
+use crate::inputs::{Input, Inputs};
 
 /// What arguments come to.
 #[derive(Debug, Default)]
@@ -246,22 +245,16 @@ impl Session<'_> {
         distinct(drawings.filter_map(|drawing| drawing.parent().map(|directory| self.normal(directory))))
     }
 
-    /// Says, to whoever wants to know more, in which directories looking for a path meant to look at every file name.
-    pub fn tell_scans(&self) {
-        if self.context.printer.verbosity() < Verbosity::Verbose {
-            return;
-        }
-        let phrase = self.context.choose(
-            "every file name is looked at for each path, since groups of the file pattern are numbers in some and texts in others",
-            "für jeden Pfad wird jeder Dateiname angesehen, denn Gruppen des Dateimusters sind bald Zahlen, bald Texte",
-        );
-        for directory in self.db.directories() {
-            if !name_table(&self.db, directory).is_sorted() {
-                let path = directory.path(&self.db).as_str();
-                let shown = if path.is_empty() { "." } else { path };
-                self.context.printer.detail(format_args!("{shown}: {phrase}"));
-            }
-        }
+    /// The directories in which looking for a path meant to look at every file name, since groups of the file pattern are numbers in some and
+    /// texts in others.
+    pub fn scans(&self) -> Vec<&Utf8Path> {
+        let scanned = |directory: &Directory| !name_table(&self.db, *directory).is_sorted();
+        self.db
+            .directories()
+            .into_iter()
+            .filter(scanned)
+            .map(|directory| directory.path(&self.db).as_path())
+            .collect()
     }
 
     /// The drawings in some directories that define a path, each once.

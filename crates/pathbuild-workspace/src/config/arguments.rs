@@ -1,4 +1,5 @@
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Lang;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, Word};
 
@@ -7,10 +8,39 @@ use super::kinds::pattern::{regex_fault, split_restriction};
 use super::options::Options;
 use super::origin::Sourced;
 use super::types::Restriction;
-use crate::args::CommonArgs;
+
+/// What the command line gives beside the configuration, as text where the configuration may give the same: whether it is right is decided in
+/// one place for both.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    /// `--feed` in mm/min.
+    pub feed: Option<String>,
+    /// `--rapid` in mm/min.
+    pub rapid: Option<String>,
+    /// `--sweep-height` in mm.
+    pub sweep_height: Option<String>,
+    /// `--probe-feed` in mm/min.
+    pub probe_feed: Option<String>,
+    /// `--search`, relative to the working directory.
+    pub search: Vec<Utf8PathBuf>,
+    /// `--path-pattern`.
+    pub path_pattern: Option<String>,
+    /// `--file-pattern`.
+    pub file_pattern: Option<String>,
+    /// `--restrict`, each PARENT:CHILD.
+    pub restrict: Vec<String>,
+    /// `--lang`.
+    pub lang: Option<Lang>,
+    /// `--out-dir`, relative to the working directory.
+    pub out_dir: Option<Utf8PathBuf>,
+    /// `--compatible`.
+    pub compatible: bool,
+    /// `--config`: this configuration, not the nearest.
+    pub config: Option<Utf8PathBuf>,
+}
 
 /// What the command line says, and what is wrong with it.
-pub(super) fn read(arguments: &CommonArgs, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
+pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
     let mut reader = Reader::default();
     let mut options = Options::default();
     let general = &mut options.general;
@@ -31,7 +61,7 @@ pub(super) fn read(arguments: &CommonArgs, working_directory: &Utf8Path) -> (Opt
         .as_ref()
         .map(|directory| Sourced::option("out-dir", Some(working_directory.join(directory))));
     general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
-    general.lang = arguments.lang.map(|lang| Sourced::option("lang", lang.into()));
+    general.lang = arguments.lang.map(|lang| Sourced::option("lang", lang));
     (options, reader.diagnostics)
 }
 

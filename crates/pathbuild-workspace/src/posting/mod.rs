@@ -15,8 +15,8 @@ use pathbuild_post::{
 };
 
 use crate::config::{Origin, types};
-use crate::context::Context;
 use crate::files::unreadable;
+use crate::workspace::Workspace;
 
 pub use build::run_post_build;
 pub use tools::{furnish, tool_table};
@@ -60,7 +60,7 @@ impl Poster {
     /// # Errors
     /// There is no such post, or it is broken.
     pub fn of_run(
-        context: &Context,
+        context: &Workspace,
         named: Option<&str>,
         wishes: Wishes,
     ) -> Result<Option<Self>, Vec<Diagnostic>> {
@@ -76,7 +76,12 @@ impl Poster {
         Self::load(context, name, base, wishes).map(Some)
     }
 
-    fn load(context: &Context, name: &str, base: &Utf8Path, wishes: Wishes) -> Result<Self, Vec<Diagnostic>> {
+    fn load(
+        context: &Workspace,
+        name: &str,
+        base: &Utf8Path,
+        wishes: Wishes,
+    ) -> Result<Self, Vec<Diagnostic>> {
         let general = &context.settings.general;
         let (post, definition, file) = if is_file_name(name) {
             let file = relative(&base.join(name), context);
@@ -210,6 +215,6 @@ fn is_file_name(name: &str) -> bool {
 }
 
 /// A name as a person in the working directory would write it.
-fn relative(file: &Utf8Path, context: &Context) -> Utf8PathBuf {
+fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
 }

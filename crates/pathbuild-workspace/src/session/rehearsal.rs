@@ -9,7 +9,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Insight, Lister, SourceFile, has_subpaths, likely_file, search_directories};
 
 use super::Session;
-use crate::args::{Input, Inputs};
+use crate::inputs::{Input, Inputs};
 
 /// What takes so long gains nothing from what is known a little earlier, and may be given up for taking too long: once is enough.
 const LONG: Duration = Duration::from_millis(200);

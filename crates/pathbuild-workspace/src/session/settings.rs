@@ -9,10 +9,10 @@ use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
 use crate::config::types;
-use crate::context::Context;
+use crate::workspace::Workspace;
 
 /// Makes the database's settings. The configuration has been read without faults, so its patterns compile.
-pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
+pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let general = &context.settings.general;
     let limits = &context.settings.limits;
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
@@ -50,7 +50,7 @@ pub(super) fn apply(db: &Database, context: &Context, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
 }
 
-fn aliases(context: &Context) -> LineTypeAliases {
+fn aliases(context: &Workspace) -> LineTypeAliases {
     let mut aliases = LineTypeAliases::default();
     for alias in &context.settings.tables.line_types.value {
         aliases.insert(&alias.name, alias.means);

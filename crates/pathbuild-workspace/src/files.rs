@@ -11,17 +11,17 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
 /// Whether it is a file.
-pub(crate) fn is_file(file: &Utf8Path) -> bool {
+pub fn is_file(file: &Utf8Path) -> bool {
     file.as_std_path().is_file()
 }
 
 /// The text of a file, in UTF-8.
-pub(crate) fn read(file: &Utf8Path) -> io::Result<String> {
+pub fn read(file: &Utf8Path) -> io::Result<String> {
     fs::read_to_string(file)
 }
 
 /// The last bytes of a file, at most so many; `None` where there is none.
-pub(crate) fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
+pub fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
     let mut open = fs::File::open(file).ok()?;
     let size = open.metadata().ok()?.len();
     open.seek(SeekFrom::Start(size.saturating_sub(length))).ok()?;
@@ -34,7 +34,7 @@ pub(crate) fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
 ///
 /// # Errors
 /// A diagnostic that says why it cannot be written.
-pub(crate) fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+pub fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     let written = fs::File::create_new(file).and_then(|mut new| new.write_all(text.as_bytes()));
     written.map_err(|reason| Box::new(cannot_write(file, &reason.to_string())))
 }
@@ -43,7 +43,7 @@ pub(crate) fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>>
 ///
 /// # Errors
 /// A diagnostic that says why it cannot be written.
-pub(crate) fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+pub fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     let beside = Utf8PathBuf::from(format!("{file}.{}.tmp", std::process::id()));
     if file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir()) {
         return fs::write(file, text).map_err(|reason| Box::new(cannot_write(file, &reason.to_string())));
@@ -57,7 +57,7 @@ pub(crate) fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>
 }
 
 /// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.
-pub(crate) fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
+pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
     let diagnostic = match error {
         ReadError::Missing => Diagnostic::new(&files::MISSING),
         ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
@@ -71,7 +71,7 @@ pub(crate) fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diag
 }
 
 /// PB004.
-pub(crate) fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
+pub fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
 }

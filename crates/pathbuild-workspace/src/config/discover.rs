@@ -2,11 +2,11 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 
-use crate::args::{Input, Inputs};
 use crate::files;
+use crate::inputs::{Input, Inputs};
 
 /// The name of a configuration.
-pub(crate) const FILE_NAME: &str = "pathbuild.toml";
+pub const FILE_NAME: &str = "pathbuild.toml";
 
 /// The configuration of a directory: in it, or in the nearest directory above.
 pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
@@ -31,7 +31,7 @@ pub(super) fn strangers(
 }
 
 /// The path without `.` and `..`, as it is written: links are not followed, so that a linked drawing belongs where it is seen.
-pub(crate) fn clean(path: &Utf8Path) -> Utf8PathBuf {
+pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
     let mut clean = Utf8PathBuf::new();
     for component in path.components() {
         match component {

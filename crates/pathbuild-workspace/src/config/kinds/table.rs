@@ -150,7 +150,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Co
 }
 
 /// The code whose number or name is nearest, if one is near; of several that are as near, the first.
-pub(crate) fn nearest_code(name: &str) -> Option<String> {
+pub fn nearest_code(name: &str) -> Option<String> {
     let codes: Vec<(String, &str)> = Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect();
     let names = codes.iter().flat_map(|(code, name)| [code.as_str(), name]);
     nearest(name, names).map(str::to_owned)

@@ -6,10 +6,10 @@ use pathbuild_post::{Coolant, Job, Spindle, Tool, ToolEntry, ToolTable};
 use regex::Regex;
 
 use crate::config::types;
-use crate::context::Context;
+use crate::workspace::Workspace;
 
 /// The tools of `[tool.NAME]`. Their patterns compile: they were read without faults.
-pub fn tool_table(context: &Context) -> ToolTable {
+pub fn tool_table(context: &Workspace) -> ToolTable {
     ToolTable { entries: context.settings.tables.tools.value.iter().map(entry).collect() }
 }
 

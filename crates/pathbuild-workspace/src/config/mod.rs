@@ -26,7 +26,7 @@ mod source;
 mod template;
 pub mod types;
 
-pub use arguments::{number, positive, regex};
+pub use arguments::{Overrides, number, positive, regex};
 pub use load::load;
 pub use options::Options;
 pub use origin::{Origin, Sourced};
@@ -35,5 +35,5 @@ pub use settings::Settings;
 pub use show::show;
 pub use template::template;
 
-pub(crate) use discover::{FILE_NAME, clean};
-pub(crate) use kinds::table::nearest_code;
+pub use discover::{FILE_NAME, clean};
+pub use kinds::table::nearest_code;

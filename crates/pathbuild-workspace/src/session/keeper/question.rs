@@ -4,15 +4,15 @@ use std::fmt::Write;
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern};
 
-use crate::context::Context;
 use crate::session::Session;
+use crate::workspace::Workspace;
 
 /// Which build of the program this is.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
 /// The question with the settings that results depend on. Directories are told as the run spells them, so that a tree that is moved as a whole
 /// keeps its results.
-pub(super) fn whole_question(context: &Context, session: &Session<'_>, question: &str) -> String {
+pub(super) fn whole_question(context: &Workspace, session: &Session<'_>, question: &str) -> String {
     let general = &context.settings.general;
     let limits = &context.settings.limits;
     let directories = |directories: &[camino::Utf8PathBuf]| -> Vec<_> {
@@ -35,7 +35,7 @@ pub(super) fn whole_question(context: &Context, session: &Session<'_>, question:
 }
 
 /// Where the run is, seen from the configuration: names in results are relative to it.
-fn place_of(context: &Context) -> &str {
+fn place_of(context: &Workspace) -> &str {
     let directory = &context.working_directory;
     let base = context.settings.directory();
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
@@ -50,7 +50,7 @@ pub struct Coverage {
 
 impl Coverage {
     /// As the configuration says.
-    pub fn new(context: &Context) -> Self {
+    pub fn new(context: &Workspace) -> Self {
         let general = &context.settings.general;
         Self {
             paths: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),

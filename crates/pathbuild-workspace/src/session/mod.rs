@@ -27,8 +27,8 @@ use pathbuild_db::{Database, Db, Role, SourceFile, Target};
 use self::timings::Timings;
 use self::watchdog::Watchdog;
 use self::workers::Workers;
-use crate::context::Context;
-use crate::progress::Progress;
+use crate::reporter::Advance;
+use crate::workspace::Workspace;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Keeper, Made, Programs, is_passing};
@@ -43,13 +43,13 @@ pub use work::{Asking, CheckedTarget, Emitted};
 #[derive(Debug)]
 pub struct Session<'a> {
     db: Database,
-    context: &'a Context,
+    context: &'a Workspace,
     /// Whether it is noted what targets were made from.
     is_traced: bool,
     /// Started when there is something to watch.
     watchdog: OnceLock<Watchdog>,
     /// Of drawings that are worked through batch by batch; else each piece of work shows its own.
-    progress: Option<Progress>,
+    progress: Option<Box<dyn Advance>>,
     /// Worker threads.
     workers: OnceLock<Option<Workers>>,
     /// The targets that were asked for, in a session that asks for the same again: each is an input of the database, which stays for ever.
@@ -62,19 +62,19 @@ type Targets = HashMap<(SourceFile, Box<str>, Role), Target>;
 
 impl<'a> Session<'a> {
     /// A session over the files of the operating system.
-    pub fn new(context: &'a Context) -> Self {
+    pub fn new(context: &'a Workspace) -> Self {
         Self::over(context, false, Arc::new(OsSystem))
     }
 
     /// A session that makes programs, and can say out of which drawings.
-    pub fn with_hashes(context: &'a Context) -> Self {
+    pub fn with_hashes(context: &'a Workspace) -> Self {
         let mut session = Self::over(context, true, Arc::new(OsSystem));
         session.db.keep_paths();
         session
     }
 
     /// A session whose results may be kept for later runs: what they were made from is noted.
-    pub fn traced(context: &'a Context) -> Self {
+    pub fn traced(context: &'a Workspace) -> Self {
         Self { is_traced: true, ..Self::over(context, true, Arc::new(OsSystem)) }
     }
 
@@ -84,7 +84,7 @@ impl<'a> Session<'a> {
     }
 
     /// A session that goes on while drawings change.
-    pub fn watching(context: &'a Context) -> Self {
+    pub fn watching(context: &'a Workspace) -> Self {
         Self { targets: Some(RefCell::default()), ..Self::traced(context) }
     }
 
@@ -99,7 +99,7 @@ impl<'a> Session<'a> {
     }
 
     /// A session in which a drawing is there that has not been written yet.
-    pub fn with_drawing(context: &'a Context, path: &Utf8Path, bytes: Vec<u8>) -> Self {
+    pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
     }
@@ -109,7 +109,7 @@ impl<'a> Session<'a> {
         self.db.survey_drawings();
     }
 
-    fn over(context: &'a Context, is_hashed: bool, system: Arc<dyn System>) -> Self {
+    fn over(context: &'a Workspace, is_hashed: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
         settings::apply(&db, context, is_hashed);
         Self {

@@ -16,7 +16,7 @@ use pathbuild_cache::{
 use pathbuild_db::Trace;
 
 use super::Session;
-use crate::context::Context;
+use crate::workspace::Workspace;
 
 pub use payload::{DrawingResult, is_passing};
 use question::whole_question;
@@ -90,7 +90,7 @@ impl Keeper {
     /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
     /// `listings`: directories that were listed just now.
     pub fn open(
-        context: &Context,
+        context: &Workspace,
         session: &Session<'_>,
         question: &str,
         listings: Listings,
@@ -127,7 +127,7 @@ impl Keeper {
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
-    pub fn why(&self, context: &Context, of: &str) -> Option<Vec<Reason>> {
+    pub fn why(&self, context: &Workspace, of: &str) -> Option<Vec<Reason>> {
         let coverage = Coverage::new(context);
         let number = self.record(of)?;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
@@ -157,7 +157,7 @@ impl Keeper {
     }
 }
 
-fn note(context: &Context, reason: Unusable) {
+fn note(context: &Workspace, reason: Unusable) {
     let phrase = match reason {
         Unusable::Damaged => context
             .choose("the cache is damaged and made anew", "der Cache ist beschädigt und wird neu angelegt"),
@@ -166,5 +166,5 @@ fn note(context: &Context, reason: Unusable) {
             "der Cache ist von einer anderen Programmfassung und wird neu angelegt",
         ),
     };
-    context.printer.status(phrase);
+    context.reporter.status(phrase);
 }

@@ -3,32 +3,29 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 use toml::de::DeTable;
 
+use super::arguments::Overrides;
 use super::options::Options;
 use super::reader::Reader;
 use super::settings::Settings;
 use super::source::Source;
 use super::{arguments, discover};
-use crate::args::{CommonArgs, Inputs};
 use crate::files;
+use crate::inputs::Inputs;
 
 /// What holds for a run: finds and reads the configuration, and puts the command line over it.
 ///
 /// Everything that is wrong comes with it; when anything is, nothing can be done, but the language can be told.
-pub fn load(
-    common: &CommonArgs,
-    inputs: &Inputs,
-    working_directory: &Utf8Path,
-) -> (Settings, Vec<Diagnostic>) {
-    let (given, mut diagnostics) = arguments::read(common, working_directory);
-    let file = match &common.config {
+pub fn load(given: &Overrides, inputs: &Inputs, working_directory: &Utf8Path) -> (Settings, Vec<Diagnostic>) {
+    let (options, mut diagnostics) = arguments::read(given, working_directory);
+    let file = match &given.config {
         Some(file) => Some(discover::clean(&working_directory.join(file))),
         None => discover::above(&discover::clean(&working_directory.join(inputs.first_directory()))),
     };
-    if common.config.is_none() {
+    if given.config.is_none() {
         diagnostics.extend(discover::strangers(inputs, working_directory, file.as_deref()));
     }
     let configured = file.as_deref().map(|file| read(file, &mut diagnostics)).unwrap_or_default();
-    (Settings { file, ..given.over(configured).resolve() }, diagnostics)
+    (Settings { file, ..options.over(configured).resolve() }, diagnostics)
 }
 
 fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {

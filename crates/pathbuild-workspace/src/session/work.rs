@@ -112,7 +112,7 @@ impl Session<'_> {
             return work(self, files);
         }
         self.db.bound_memory();
-        self.progress = Some(self.context.printer.progress(files.len()));
+        self.progress = Some(self.context.reporter.progress(files.len()));
         let mut results = Vec::with_capacity(files.len());
         for (number, batch) in files.chunks(BATCH).enumerate() {
             if number > 0 {
@@ -197,7 +197,7 @@ impl Session<'_> {
             return items.iter().map(|item| work(&self.db, item)).collect();
         };
         let db = self.db.clone();
-        let progress = self.progress.is_none().then(|| self.context.printer.progress(items.len()));
+        let progress = self.progress.is_none().then(|| self.context.reporter.progress(items.len()));
         let work = |db: &mut Database, item| {
             let result = work(db, item);
             progress.as_ref().inspect(|progress| progress.advance());

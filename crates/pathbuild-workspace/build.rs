@@ -1,0 +1,72 @@
+//! Tells the program which build it is: results of another are not used.
+
+#![expect(clippy::disallowed_methods, reason = "this is how cargo talks to a build script")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rustc-env=PATHBUILD_BUILD={:032x}", build_id());
+}
+
+/// A hash of everything that the program is built from: our own sources, the versions of others', the compiler, the target and the profile.
+/// A version number would not do: it stays the same from one change to the next.
+fn build_id() -> u128 {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files = vec![workspace.join("Cargo.lock"), workspace.join("Cargo.toml")];
+    for name in CRATES {
+        let directory = workspace.join("crates").join(name);
+        files.push(directory.join("Cargo.toml"));
+        sources(&directory.join("src"), &mut files);
+        println!("cargo:rerun-if-changed={}", directory.join("src").display());
+    }
+    println!("cargo:rerun-if-changed={}", workspace.join("Cargo.lock").display());
+    files.sort();
+    let mut hash = FNV_BASIS;
+    for variable in ["RUSTC", "TARGET", "PROFILE", "OPT_LEVEL", "CARGO_CFG_TARGET_FEATURE", "RUSTC_VERSION"] {
+        hash = with(hash, std::env::var(variable).unwrap_or_default().as_bytes());
+    }
+    let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
+    let version = std::process::Command::new(compiler).arg("-vV").output();
+    hash = with(hash, &version.map(|output| output.stdout).unwrap_or_default());
+    for file in &files {
+        let name = file.strip_prefix(&workspace).unwrap_or(file);
+        hash = with(hash, name.to_string_lossy().as_bytes());
+        hash = with(hash, &fs::read(file).unwrap_or_default());
+    }
+    hash
+}
+
+/// The crates that results depend on.
+const CRATES: [&str; 9] = [
+    "pathbuild-cache",
+    "pathbuild-db",
+    "pathbuild-diagnostic",
+    "pathbuild-dxf",
+    "pathbuild-gcode",
+    "pathbuild-path",
+    "pathbuild-post",
+    "pathbuild-toolpath",
+    "pathbuild-workspace",
+];
+
+fn sources(directory: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
+        let path = entry.path();
+        if path.is_dir() {
+            sources(&path, files);
+        } else {
+            files.push(path);
+        }
+    }
+}
+
+const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+
+/// FNV-1a of some bytes and their length: who would want two builds to meet could as well change the cache.
+fn with(hash: u128, bytes: &[u8]) -> u128 {
+    let length = bytes.len().to_le_bytes();
+    bytes.iter().chain(&length).fold(hash, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(FNV_PRIME))
+}

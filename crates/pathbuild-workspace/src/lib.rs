@@ -1,0 +1,14 @@
+//! What a `pathbuild.toml` describes: the configuration, finding drawings, sessions over the database, results kept between runs. It
+//! parses no arguments and prints nothing: what somebody who waits may want to hear goes to a [`Reporter`]. (spec/06-configuration.md)
+
+pub mod config;
+pub mod files;
+mod inputs;
+pub mod posting;
+mod reporter;
+pub mod session;
+mod workspace;
+
+pub use inputs::{Input, Inputs};
+pub use reporter::{Advance, Reporter, Silent};
+pub use workspace::Workspace;

@@ -1,0 +1,47 @@
+use std::rc::Rc;
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::Lang;
+
+use crate::config::Settings;
+use crate::reporter::Reporter;
+
+/// What a run works in.
+#[derive(Debug)]
+pub struct Workspace {
+    /// What the configuration and the command line say.
+    pub settings: Settings,
+    /// The directory that relative names mean.
+    pub working_directory: Utf8PathBuf,
+    /// With how many threads to work; `None`: as many as there are cores.
+    pub jobs: Option<u16>,
+    /// Whether results of earlier runs may be used and this one's kept.
+    pub use_cache: bool,
+    /// Who hears how the run goes on.
+    pub reporter: Rc<dyn Reporter>,
+}
+
+impl Workspace {
+    /// Whether the configuration says what to do without arguments.
+    pub fn has_library(&self) -> bool {
+        !self.settings.general.library.value.is_empty()
+    }
+
+    /// Whether results are kept for later runs: there must be a configuration, beside which they lie.
+    pub fn keeps_results(&self) -> bool {
+        self.use_cache && self.settings.directory().is_some()
+    }
+
+    /// The language of everything that is said.
+    pub fn lang(&self) -> Lang {
+        self.settings.general.lang.value
+    }
+
+    /// One of two phrases.
+    pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
+        match self.lang() {
+            Lang::En => en,
+            Lang::De => de,
+        }
+    }
+}
