@@ -14,7 +14,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
-use pathbuild_draw::generate::Library;
+use pathbuild_testkit::generate::Library;
 use rayon::prelude::*;
 use tempfile::TempDir;
 

@@ -9,8 +9,8 @@ use camino::Utf8Path;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{Database, Db, Limits, Lookup, Reading, Role, Settings, Target, closure, program, trace};
-use pathbuild_draw::Sheet;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_testkit::sheet;
 use pathbuild_toolpath::FoldOptions;
 
 criterion_group!(benches, one_edit);
@@ -120,7 +120,7 @@ fn project(name: &str, embedded: &[String]) -> String {
 }
 
 fn dxf(text: &str) -> String {
-    String::from_utf8_lossy(&Sheet::parse(text).expect("a drawing").to_dxf()).into_owned()
+    String::from_utf8_lossy(&sheet(text).expect("a drawing").to_dxf()).into_owned()
 }
 
 fn renamed(drawing: &str, name: &str) -> Vec<u8> {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use crate::support::{Place, Run};
 use camino::Utf8PathBuf;
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 use pathbuild_workspace::session::{by_name, by_place};
 
 const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
@@ -32,7 +32,7 @@ fn dxf(paths: &[(String, u32, Vec<String>)]) -> Vec<u8> {
         }
         writeln!(text, "end {length},{y}").unwrap();
     }
-    Sheet::parse(&text).unwrap().to_dxf()
+    sheet(&text).unwrap().to_dxf()
 }
 
 fn path(name: &str, thickness: u32, embeds: &[&str]) -> (String, u32, Vec<String>) {

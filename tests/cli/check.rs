@@ -3,14 +3,14 @@
 
 use crate::support::{Place, Run};
 use insta::assert_snapshot;
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 const GOOD: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
 const WARNED: &str = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 20,0 40,0\nturn 20,0\nend 40,0\n";
 const WRONG: &str = "layer 1236.1P\nstart 0,0 \"T5 O2 I1\"\nmill 0,0 40,0 \"B6\"\nend 40,0\n";
 
 fn dxf(text: &str) -> Vec<u8> {
-    Sheet::parse(text).expect("a drawing").to_dxf()
+    sheet(text).expect("a drawing").to_dxf()
 }
 
 /// A library of three drawings: one is right, one has a warning, one an error.

@@ -3,7 +3,7 @@
 use crate::support::Place;
 use insta::assert_snapshot;
 use pathbuild_diagnostic::{Code, example};
-use pathbuild_draw::Fixture;
+use pathbuild_testkit::Fixture;
 
 /// A mistake of the program itself: no drawing is meant to show it.
 const WITHOUT_EXAMPLE: &[&str] = &["PB006"];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 
 use crate::support::{Place, project};
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 /// The drawing before the first command, and after each change in the CAD: before which command, and what it then is.
 const DRAWINGS: &[(usize, &str)] = &[
@@ -82,7 +82,7 @@ fn typed(place: &Place, command: &str) -> String {
 }
 
 fn drawing(lines: &str) -> Vec<u8> {
-    Sheet::parse(&format!("layer 1234.1P\nstart 0,0 \"O2 T2\"\n{lines}\nend 40,0")).unwrap().to_dxf()
+    sheet(&format!("layer 1234.1P\nstart 0,0 \"O2 T2\"\n{lines}\nend 40,0")).unwrap().to_dxf()
 }
 
 fn with_feeds(configuration: &str) -> String {

@@ -4,7 +4,7 @@ use crate::support::{Place, runs};
 use clap::CommandFactory;
 use insta::assert_snapshot;
 use pathbuild_diagnostic::{Code, example};
-use pathbuild_draw::Fixture;
+use pathbuild_testkit::Fixture;
 
 #[test]
 fn a_page_is_found_by_code_in_any_case_and_by_name() {

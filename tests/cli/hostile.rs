@@ -5,7 +5,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use crate::support::{Place, Run};
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 const NAME: &str = "1234.1P.dxf";
 const OPTIONS: &[&str] = &["--feed=150", "--rapid=1000", "--sweep-height=20", "--format=concise"];
@@ -16,7 +16,7 @@ const NOISE: usize = 8_000_000;
 /// A drawing of one path, whole.
 fn drawing() -> Vec<u8> {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0";
-    Sheet::parse(drawn).unwrap().to_dxf()
+    sheet(drawn).unwrap().to_dxf()
 }
 
 /// Bytes without a pattern, the same in every run (xorshift).
@@ -152,7 +152,7 @@ fn what_takes_too_long_is_given_up() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I0.000001 B0\"\nmill 0,0 40,0\nend 40,0";
     let place = Place::new()
         .file("pathbuild.toml", "[limits]\nseconds-per-path = 0.3\n")
-        .file(NAME, Sheet::parse(drawn).unwrap().to_dxf());
+        .file(NAME, sheet(drawn).unwrap().to_dxf());
     let start = Instant::now();
     let run = place.run_with(&[&["emit", NAME], OPTIONS].concat());
     assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use crate::support::{Place, Run};
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 /// What each of these takes at most, in a debug build on a busy machine.
 const LONGEST: Duration = Duration::from_mins(1);
@@ -44,7 +44,7 @@ fn place(drawings: impl IntoIterator<Item = (usize, String)>, limits: &str) -> P
     let place = Place::new().file("pathbuild.toml", format!("{CONFIGURATION}[limits]\n{limits}"));
     drawings
         .into_iter()
-        .fold(place, |place, (level, text)| place.file(&file(level), Sheet::parse(&text).unwrap().to_dxf()))
+        .fold(place, |place, (level, text)| place.file(&file(level), sheet(&text).unwrap().to_dxf()))
 }
 
 /// Runs the program, which must not take long.

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 /// The three folders of the library.
 const FOLDERS: [&str; 3] = ["components", "projects", "mistakes"];
@@ -24,7 +24,7 @@ fn sources(folder: &str) -> Vec<PathBuf> {
 
 fn drawing(source: &Path) -> Vec<u8> {
     let text = fs::read_to_string(source).expect("a source can be read");
-    let sheet = Sheet::parse(&text).unwrap_or_else(|errors| panic!("{}: {errors:?}", source.display()));
+    let sheet = sheet(&text).unwrap_or_else(|errors| panic!("{}: {errors:?}", source.display()));
     sheet.to_dxf()
 }
 

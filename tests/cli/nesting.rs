@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::support::Place;
-use pathbuild_draw::{Point, Sheet};
+use pathbuild_testkit::{Point, sheet};
 
 /// A ring of two half circles and a bar, from (0, 0) to (10, 0).
 const COMPONENT: &str = "layer 1000.1P
@@ -29,10 +29,10 @@ fn level(level: usize, degrees: f64) -> String {
 #[test]
 fn half_circles_are_milled_however_they_are_turned() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");
-    let place = place.file("1000.1.dxf", Sheet::parse(COMPONENT).unwrap().to_dxf());
+    let place = place.file("1000.1.dxf", sheet(COMPONENT).unwrap().to_dxf());
     let angles = [2.8, 33.3, 90.0, 123.456, 271.0, 7.77, 301.2, 45.0];
     let place = (1..).zip(angles).fold(place, |place, (number, degrees)| {
-        let drawing = Sheet::parse(&level(number, degrees)).unwrap().to_dxf();
+        let drawing = sheet(&level(number, degrees)).unwrap().to_dxf();
         place.file(&format!("{}.1.dxf", 1000 + number), drawing)
     });
     for number in 1..=8 {

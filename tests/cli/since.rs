@@ -4,12 +4,12 @@ use std::fs;
 use std::process::Command;
 
 use crate::support::Place;
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 fn dxf(name: &str, thickness: u32, embeds: Option<&str>) -> Vec<u8> {
     let element = embeds.map_or("mill 0,0 40,0".to_owned(), |name| format!("subpath 0,0 40,0 \">{name}\""));
     let text = format!("layer {name}\nstart 0,0 \"T{thickness} O2 I1 B0 MPlate\"\n{element}\nend 40,0\n");
-    Sheet::parse(&text).unwrap().to_dxf()
+    sheet(&text).unwrap().to_dxf()
 }
 
 fn git(place: &Place, arguments: &[&str]) {

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use crate::support::{Place, program};
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
 
@@ -22,7 +22,7 @@ fn dxf(name: &str, thickness: u32, embeds: &[&str]) -> Vec<u8> {
         writeln!(text, "subpath {},0 {},0 \">{embedded}\"", 40 * index, 40 * index + 40).unwrap();
     }
     writeln!(text, "end {},0", 40 * embeds.len().max(1)).unwrap();
-    Sheet::parse(&text).unwrap().to_dxf()
+    sheet(&text).unwrap().to_dxf()
 }
 
 fn library() -> Place {

@@ -20,7 +20,7 @@ macro_rules! pages {
             }
         }
 
-        /// The example on a code's page: a fixture (crates/pathbuild-draw) with commands that give exactly the diagnostics noted in
+        /// The example on a code's page: a fixture (crates/pathbuild-testkit) with commands that give exactly the diagnostics noted in
         /// it. `None` where a few lines cannot show it.
         pub fn example(code: Code) -> Option<&'static str> {
             match code {

@@ -1,5 +1,4 @@
 use crate::error::DrawError;
-use crate::furniture::Furniture;
 use crate::model::{Entity, Layer, NoteKind, Options, Point, Shape, Version};
 use crate::place::{candidates, seat_notes};
 use crate::sheet::Sheet;
@@ -96,8 +95,7 @@ impl Draft {
             let entities = std::mem::take(&mut block.entities);
             block.entities = seat_notes(entities, &found, &self.options, &mut errors);
         }
-        let furniture = self.options.furniture.map(|seed| Furniture::new(seed, &mut self));
-        if errors.is_empty() { Ok(Sheet::new(self, furniture)) } else { Err(errors) }
+        if errors.is_empty() { Ok(Sheet::new(self)) } else { Err(errors) }
     }
 
     fn fault(&self, entity: &Entity) -> Option<DrawError> {

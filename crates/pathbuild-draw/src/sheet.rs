@@ -1,12 +1,11 @@
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::Handle;
 
 use crate::draft::{Block, Draft};
-use crate::error::DrawError;
-use crate::furniture::Furniture;
 use crate::model::{Entity, Layer, Options};
-use crate::{parse, write};
+use crate::write::{self, Template};
 
 /// A finished drawing: every text has its place, every entity its handle. It can be written as DXF, always as the same bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +15,8 @@ pub struct Sheet {
     line_types: Vec<(String, Vec<f64>)>,
     blocks: Vec<Block>,
     entities: Vec<Entity>,
-    furniture: Option<Furniture>,
+    /// What stands around it, and how many of the template's last entities are left out.
+    template: Option<(Arc<Template>, usize)>,
     next_handle: u64,
 }
 
@@ -24,15 +24,7 @@ pub struct Sheet {
 const FIRST_HANDLE: u64 = 0x100;
 
 impl Sheet {
-    /// Reads a drawing in text form.
-    ///
-    /// # Errors
-    /// All faults of the text, each with its line and column.
-    pub fn parse(text: &str) -> Result<Self, Vec<DrawError>> {
-        parse::draft(text)?.finish()
-    }
-
-    pub(crate) fn new(draft: Draft, furniture: Option<Furniture>) -> Self {
+    pub(crate) fn new(draft: Draft) -> Self {
         let Draft { options, mut layers, line_types, blocks, entities, .. } = draft;
         let inner = blocks.iter().flat_map(|block| &block.entities);
         for name in entities.iter().chain(inner).filter_map(|entity| entity.layer.as_deref()) {
@@ -41,7 +33,7 @@ impl Sheet {
             }
         }
         let mut sheet =
-            Self { options, layers, line_types, blocks, entities, furniture, next_handle: FIRST_HANDLE };
+            Self { options, layers, line_types, blocks, entities, template: None, next_handle: FIRST_HANDLE };
         sheet.allot_handles();
         sheet
     }
@@ -80,7 +72,7 @@ impl Sheet {
         &self.blocks
     }
 
-    /// The entities in file order, texts behind the elements that they belong to; without the furniture.
+    /// The entities in file order, texts behind the elements that they belong to; without the template.
     pub fn entities(&self) -> &[Entity] {
         &self.entities
     }
@@ -90,9 +82,14 @@ impl Sheet {
         self.entities.iter().filter(move |entity| entity.line == line).filter_map(|entity| entity.handle)
     }
 
-    /// What stands around the path. It is no part of [`Sheet::entities`].
-    pub(crate) fn furniture(&self) -> Option<Furniture> {
-        self.furniture
+    /// With a template around it, but for so many of the template's last entities. What is in a template is no part of
+    /// [`Sheet::entities`]; its layers are to be among the sheet's.
+    pub fn within(self, template: Arc<Template>, left_out: usize) -> Self {
+        Self { template: Some((template, left_out)), ..self }
+    }
+
+    pub(crate) fn template(&self) -> Option<(&Template, usize)> {
+        self.template.as_ref().map(|(template, left_out)| (&**template, *left_out))
     }
 
     /// The entities in the order in which the writer counts them: those of the drawing, then those of the blocks.

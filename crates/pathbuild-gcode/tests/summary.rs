@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::path::Path;
-
 use pathbuild_gcode::dialect::Dialect::{self, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Interpretation, Options, Pace, interpret};
 use pathbuild_gcode::summary::{Summary, is_guess};
@@ -55,17 +53,10 @@ fn what_was_taken_for_granted_is_told_apart_from_what_is_wrong() {
 }
 
 /// The two columns of the listing in the reference.
-#[expect(clippy::disallowed_methods, clippy::print_stderr, reason = "foreign data lies beside the project")]
+#[expect(clippy::disallowed_methods, reason = "foreign data lies beside the project")]
 fn vendor_examples() -> Option<[String; 2]> {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference/cad6_xpertmill_gcode.md");
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        let is_required =
-            std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|it| it == "shared"));
-        assert!(!is_required, "{} is missing", file.display());
-        eprintln!("skipped: {} is missing", file.display());
-        return None;
-    };
+    let file = pathbuild_testkit::shared("reference/cad6_xpertmill_gcode.md")?;
+    let text = std::fs::read_to_string(file).expect("a test's own file can be read");
     let (_, section) = text.split_once("### 3.3 Clean example files").expect("the section");
     let listing = section.split("```").nth(1).expect("a listing").trim_start_matches('\n');
     let width = listing.lines().next().and_then(|line| line.rfind("//")).expect("two columns");

@@ -343,16 +343,9 @@ fn a_report_says_where_and_how_high() {
     assert!(problem.is_error());
 }
 
-#[expect(clippy::disallowed_methods, clippy::print_stderr, reason = "recordings lie beside the project")]
+#[expect(clippy::disallowed_methods, reason = "recordings lie beside the project")]
 fn recordings() -> Vec<PathBuf> {
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/conformance");
-    if !shared.is_dir() {
-        let required = std::env::var("PATHBUILD_REQUIRE")
-            .is_ok_and(|names| names.split(',').any(|name| name == "shared"));
-        assert!(!required, "PATHBUILD_REQUIRE has shared, and {} is missing", shared.display());
-        eprintln!("skipped: {} is missing", shared.display());
-        return Vec::new();
-    }
+    let Some(shared) = pathbuild_testkit::shared("conformance") else { return Vec::new() };
     let entries = |dir: &Path| {
         let mut entries: Vec<PathBuf> = dir
             .read_dir()

@@ -4,7 +4,7 @@ mod machine;
 
 use crate::support::{Place, Run};
 use machine::{Motion, motions};
-use pathbuild_draw::Sheet;
+use pathbuild_testkit::sheet;
 
 const OPTIONS: &str = "--feed 150 --rapid 1000 --sweep-height 20 --no-cache";
 
@@ -40,7 +40,7 @@ probe 300,200
 ";
 
 fn drawing(text: &str) -> Vec<u8> {
-    Sheet::parse(text).unwrap_or_else(|errors| panic!("{errors:?}")).to_dxf()
+    sheet(text).unwrap_or_else(|errors| panic!("{errors:?}")).to_dxf()
 }
 
 /// The plate in a.dxf, with probes and without in b.dxf.

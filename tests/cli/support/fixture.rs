@@ -1,7 +1,7 @@
-//! Runs a fixture (crates/pathbuild-draw, README.md): its files are written, its commands run, and what they say must be what is
+//! Runs a fixture (crates/pathbuild-testkit, README.md): its files are written, its commands run, and what they say must be what is
 //! noted in it: every expected diagnostic once, and no other.
 
-use pathbuild_draw::{Expect, Fixture};
+use pathbuild_testkit::{Expect, Fixture};
 use serde_json::Value as Json;
 
 use super::{Place, Run};

@@ -1,16 +1,15 @@
 //! Runs the program as a shell would: in a directory of its own, with an environment that holds nothing.
-#![allow(dead_code, unreachable_pub, reason = "each test file uses a part of it")]
-#![allow(clippy::explicit_write, reason = "the test harness would keep eprintln! to itself")]
+#![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub mod fixture;
 
 use std::fmt;
 use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
-use pathbuild_draw::Fixture;
+use pathbuild_testkit::Fixture;
+pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
 use tempfile::TempDir;
 
@@ -24,7 +23,7 @@ impl Place {
         Self { directory: TempDir::new().unwrap() }
     }
 
-    /// A directory with the files of a fixture (crates/pathbuild-draw, README.md).
+    /// A directory with the files of a fixture (crates/pathbuild-testkit, README.md).
     pub fn of(fixture: &str) -> Self {
         let fixture = Fixture::parse(fixture).unwrap();
         fixture.files.iter().fold(Self::new(), |place, file| place.file(&file.name, file.bytes()))
@@ -100,25 +99,6 @@ impl fmt::Display for Run {
         }
         Ok(())
     }
-}
-
-/// The project's directory.
-pub fn project() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}
-
-/// Test data that is not ours to keep and lies beside the project; `None`, with a message, where it is absent and
-/// `PATHBUILD_REQUIRE` does not name `shared`.
-pub fn shared(name: &str) -> Option<PathBuf> {
-    let path = project().join("../shared").join(name);
-    let is_required =
-        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"));
-    assert!(path.exists() || !is_required, "{} is missing", path.display());
-    if !path.exists() {
-        writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
-        return None;
-    }
-    Some(path)
 }
 
 /// Several runs, one after the other.

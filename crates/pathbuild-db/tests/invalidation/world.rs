@@ -9,8 +9,8 @@ use pathbuild_db::{
     Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
-use pathbuild_draw::Sheet;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathName, PathPattern};
+use pathbuild_testkit::sheet;
 use pathbuild_toolpath::FoldOptions;
 
 /// Files, a database over them, and the targets that somebody keeps asking for.
@@ -36,7 +36,7 @@ pub(crate) struct Outcome {
 
 /// The drawing as DXF.
 pub(crate) fn dxf(text: &str) -> Vec<u8> {
-    Sheet::parse(text).expect("the text is right").to_dxf()
+    sheet(text).expect("the text is right").to_dxf()
 }
 
 /// The settings that all tests here begin with. `search` is one more directory.

@@ -25,8 +25,6 @@ pub struct Options {
     pub note_kind: NoteKind,
     /// How high notes are where there is room, in mm.
     pub note_height: f64,
-    /// A seed of the furniture that a workshop's drawing has around the path.
-    pub furniture: Option<u64>,
 }
 
 impl Default for Options {
@@ -43,7 +41,6 @@ impl Default for Options {
             header: Vec::new(),
             note_kind: NoteKind::default(),
             note_height: 2.0,
-            furniture: None,
         }
     }
 }

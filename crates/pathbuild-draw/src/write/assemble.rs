@@ -1,4 +1,3 @@
-use super::furnished::furnish;
 use super::objects::Objects;
 use super::record::{Pair, Record, identify, kind, value};
 use super::tables::{Owners, Tables};
@@ -11,9 +10,8 @@ use crate::sheet::Sheet;
 pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: Written<'a>) -> Vec<Pair<'a>> {
     let options = sheet.options();
     let is_in = |part: Part| !options.left_out.contains(&part);
-    if let Some(furniture) = sheet.furniture() {
-        let Written { tables, blocks, entities, .. } = &mut written;
-        furnish(furniture, options.version, tables, blocks, entities);
+    if let Some((template, left_out)) = sheet.template() {
+        template.put_around(&mut written, left_out);
     }
     let objects = Objects::from(sheet.next_handle());
     let mut counter = objects.end()..;

@@ -12,7 +12,7 @@ use crate::sheet::Sheet;
 pub(crate) const TAG: u64 = 1 << 60;
 
 /// The usual line types with their patterns in mm: dashes positive, gaps negative, dots 0.
-pub(crate) const LINE_TYPES: [(&str, &[f64]); 11] = [
+pub const LINE_TYPES: [(&str, &[f64]); 11] = [
     ("BYBLOCK", &[]),
     ("BYLAYER", &[]),
     ("CONTINUOUS", &[]),

@@ -11,16 +11,17 @@ mod crate_drawing;
 mod crate_entity;
 mod crate_text;
 mod encoding;
-mod furnished;
 mod header;
 mod objects;
 mod record;
 mod tables;
+mod template;
 mod tickets;
 mod tidy;
 mod written;
 
-pub(crate) use crate_drawing::LINE_TYPES;
+pub use crate_drawing::LINE_TYPES;
+pub use template::Template;
 
 use crate::sheet::Sheet;
 use tickets::Tickets;
@@ -40,7 +41,7 @@ fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[record::Pair<'_>]) -> Vec<u8>)
     with_written(sheet, |written| write(&assemble::assemble(sheet, written)))
 }
 
-/// Lets the crate write a sheet, without its furniture.
+/// Lets the crate write a sheet, without its template.
 fn with_written<T>(sheet: &Sheet, next: impl FnOnce(Written<'_>) -> T) -> T {
     let mut tickets = Tickets::default();
     let drawing = crate_drawing::drawing(sheet, &mut tickets);

@@ -3,31 +3,19 @@
 //! The files belong to others and are no part of the project: without them the test is skipped, unless `PATHBUILD_REQUIRE` names
 //! `shared`.
 
-#![expect(
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "the corpus is not where System could find it"
-)]
+#![expect(clippy::disallowed_methods, reason = "the corpus is not where System could find it")]
 
 mod oracle;
 mod seen;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use oracle::{Expected, expected};
 use pathbuild_dxf::{Drawing, Options, Units, read};
 use seen::{layers_of, of_drawing};
 
 fn corpus() -> Option<PathBuf> {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpus");
-    if corpus.is_dir() {
-        return Some(corpus);
-    }
-    let required =
-        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"));
-    assert!(!required, "no corpus at {}", corpus.display());
-    println!("skipped: no corpus at {}", corpus.display());
-    None
+    pathbuild_testkit::shared("corpus")
 }
 
 fn read_all(bytes: &[u8]) -> Drawing {

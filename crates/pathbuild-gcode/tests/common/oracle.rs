@@ -31,28 +31,15 @@ pub(crate) struct Oracle {
     pub(crate) refusal: Option<String>,
 }
 
-#[expect(
-    clippy::disallowed_methods,
-    clippy::print_stderr,
-    reason = "tests ask the environment where their oracles are"
-)]
+#[expect(clippy::disallowed_methods, reason = "tests ask the environment where their oracles are")]
 pub(crate) fn rs274() -> Option<PathBuf> {
-    let found = std::env::var("PATHBUILD_RS274").ok().map(|dir| Path::new(&dir).join("rs274"));
-    let required =
-        std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "rs274"));
-    match found {
-        Some(program) => {
-            assert!(program.is_file(), "{} is missing", program.display());
-            Some(program)
-        }
-        None if required => {
-            panic!("PATHBUILD_REQUIRE has rs274, and PATHBUILD_RS274 is not set (tests/tools/fetch-rs274.sh)")
-        }
-        None => {
-            eprintln!("skipped: PATHBUILD_RS274 is not set (tests/tools/fetch-rs274.sh)");
-            None
-        }
-    }
+    let Ok(dir) = std::env::var("PATHBUILD_RS274") else {
+        pathbuild_testkit::skip("rs274", "PATHBUILD_RS274 is not set (tests/tools/fetch-rs274.sh)");
+        return None;
+    };
+    let program = Path::new(&dir).join("rs274");
+    assert!(program.is_file(), "{} is missing", program.display());
+    Some(program)
 }
 
 pub(crate) fn ask(program: &Path, text: &str) -> Oracle {

@@ -1,12 +1,12 @@
 //! Drawings in text form, taken through the language.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_draw::Sheet;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
     Bindings, Curve, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked, Xy, bind,
     raw_file, walk,
 };
+use pathbuild_testkit::sheet;
 
 /// What became of a path.
 pub(crate) struct Compiled {
@@ -42,7 +42,7 @@ pub(crate) fn read(drawing: &str) -> RawFile {
 }
 
 pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
-    let sheet = Sheet::parse(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let options = Options {
         keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
         units: Units::Header,

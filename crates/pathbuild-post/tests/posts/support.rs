@@ -1,30 +1,14 @@
 //! Jobs, definitions and files for the tests.
 
-use std::io::Write;
-use std::path::Path;
-
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_post::{Entry, Job, Operation, Output, Position, Post, PostOptions, Step, Tool};
 
-/// A file of `../shared` beside the project; `None`, with a message, where that is absent and not required.
+/// A file of `../shared` beside the project; `None` where that is absent, which is a skip.
 pub(crate) fn shared(name: &str) -> Option<String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(name);
+    let path = pathbuild_testkit::shared(name)?;
     #[expect(clippy::disallowed_methods, reason = "a test's own files")]
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(text),
-        Err(error) if is_required() => panic!("{}: {error}", path.display()),
-        Err(_) => {
-            // Written past libtest, which would keep what a passed test prints.
-            writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
-            None
-        }
-    }
-}
-
-#[expect(clippy::disallowed_methods, reason = "tells whether an absent oracle is a failure")]
-fn is_required() -> bool {
-    std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == "shared"))
+    Some(std::fs::read_to_string(path).expect("a test's own file can be read"))
 }
 
 /// A CamBam definition with these elements.

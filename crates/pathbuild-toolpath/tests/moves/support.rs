@@ -1,11 +1,11 @@
 //! Drawings in text form to programs.
 
-use pathbuild_draw::Sheet;
 use pathbuild_dxf::Options;
 use pathbuild_path::{
     Bindings, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, Walked, bind, raw_file,
     walk,
 };
+use pathbuild_testkit::sheet;
 use pathbuild_toolpath::{Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
@@ -52,7 +52,7 @@ pub(crate) fn estimate(drawing: &str) -> u64 {
 
 #[track_caller]
 fn drawn(drawing: &str) -> Drawn {
-    let sheet = Sheet::parse(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let language = Language {
         path_pattern: PathPattern::default(),
         line_types: LineTypeAliases::default(),

@@ -1,0 +1,44 @@
+//! What tests compare with and is no part of the project. Where it is absent a test is skipped, which is said and noted.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The project's directory.
+pub fn project() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// Test data that is not ours to keep and lies beside the project, in ../shared; `None` where it is absent, which is a skip.
+pub fn shared(name: &str) -> Option<PathBuf> {
+    let path = project().join("../shared").join(name);
+    if path.exists() {
+        return Some(path);
+    }
+    skip("shared", &format!("{} is missing", path.display()));
+    None
+}
+
+/// Says that a test is skipped, and why: on the standard error, and in the file that `PATHBUILD_SKIPPED` names, since runners keep to
+/// themselves what a test says that passes.
+///
+/// # Panics
+/// Where `PATHBUILD_REQUIRE` names the oracle.
+#[expect(clippy::explicit_write, reason = "the test harness keeps eprintln! to itself")]
+#[expect(clippy::disallowed_methods, reason = "the environment says where skips are noted")]
+pub fn skip(oracle: &str, reason: &str) {
+    assert!(!is_required(oracle), "PATHBUILD_REQUIRE has {oracle}: {reason}");
+    let test = std::thread::current().name().unwrap_or("a test").to_owned();
+    let line = format!("skipped: {test}: {reason}\n");
+    _ = std::io::stderr().write_all(line.as_bytes());
+    if let Some(file) = std::env::var_os("PATHBUILD_SKIPPED") {
+        let noted = File::options().create(true).append(true).open(&file);
+        noted.and_then(|mut file| file.write_all(line.as_bytes())).expect("skips can be noted");
+    }
+}
+
+/// Whether the absence of an oracle is a failure.
+#[expect(clippy::disallowed_methods, reason = "the environment says which oracles there are")]
+pub fn is_required(oracle: &str) -> bool {
+    std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == oracle))
+}

@@ -1,0 +1,153 @@
+use super::lexer::Token;
+use pathbuild_draw::DrawError;
+use pathbuild_draw::model::Point;
+
+/// A place between the tokens of a line.
+#[derive(Debug)]
+pub(crate) struct Cursor {
+    tokens: std::vec::IntoIter<Token>,
+    pub(crate) line: u32,
+    /// The column of the token taken last.
+    column: u32,
+    /// What `@` and `to` are counted from.
+    pub(crate) base: Option<Point>,
+}
+
+pub(crate) type Parsed<T> = Result<T, DrawError>;
+
+impl Cursor {
+    pub(crate) fn new(tokens: Vec<Token>, line: u32, base: Option<Point>) -> Self {
+        Self { tokens: tokens.into_iter(), line, column: 1, base }
+    }
+
+    pub(crate) fn peek(&self) -> Option<&Token> {
+        self.tokens.as_slice().first()
+    }
+
+    pub(crate) fn peek_word(&self) -> Option<&str> {
+        self.peek().filter(|token| !token.quoted).map(|token| token.text.as_str())
+    }
+
+    pub(crate) fn is_at_string(&self) -> bool {
+        self.peek().is_some_and(|token| token.quoted)
+    }
+
+    /// Whether the next token looks like a point or a number, and not like a word.
+    pub(crate) fn is_at_number(&self) -> bool {
+        let starts = |c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | '@');
+        self.peek_word().is_some_and(|word| word.starts_with(starts))
+    }
+
+    /// An error at the token taken last.
+    pub(crate) fn error(&self, message: impl Into<String>) -> DrawError {
+        DrawError::new(self.line, self.column, message)
+    }
+
+    pub(crate) fn next(&mut self, expected: &str) -> Parsed<Token> {
+        if let Some(token) = self.tokens.next() {
+            self.column = token.column;
+            return Ok(token);
+        }
+        Err(self.error(format!("the line ends here; expected {expected}")))
+    }
+
+    /// Takes a word if it is this one.
+    pub(crate) fn take(&mut self, word: &str) -> bool {
+        let found = self.peek_word() == Some(word);
+        if found {
+            _ = self.next(word);
+        }
+        found
+    }
+
+    pub(crate) fn keyword(&mut self, word: &str) -> Parsed<()> {
+        let token = self.next(&format!("`{word}`"))?;
+        if token.text == word && !token.quoted {
+            return Ok(());
+        }
+        Err(self.error(format!("expected `{word}`, found {:?}", token.text)))
+    }
+
+    /// A name: a word, or in quotes.
+    pub(crate) fn name(&mut self, what: &str) -> Parsed<String> {
+        self.next(what).map(|token| token.text)
+    }
+
+    pub(crate) fn string(&mut self, what: &str) -> Parsed<String> {
+        let token = self.next(what)?;
+        if token.quoted {
+            return Ok(token.text);
+        }
+        Err(self.error(format!("expected {what} in quotation marks, found {:?}", token.text)))
+    }
+
+    pub(crate) fn number(&mut self, what: &str) -> Parsed<f64> {
+        let token = self.next(what)?;
+        number(&token.text).ok_or_else(|| {
+            self.error(format!("{:?} is no number; expected {what}, with a decimal point", token.text))
+        })
+    }
+
+    /// A number that must be more than 0.
+    pub(crate) fn length(&mut self, what: &str) -> Parsed<f64> {
+        let length = self.number(what)?;
+        if length > 0.0 {
+            return Ok(length);
+        }
+        Err(self.error(format!("{what} must be more than 0")))
+    }
+
+    pub(crate) fn integer<T: std::str::FromStr>(&mut self, what: &str) -> Parsed<T> {
+        let token = self.next(what)?;
+        token.text.parse().map_err(|_| self.error(format!("{:?} is no {what}", token.text)))
+    }
+
+    /// `x,y` or `x,y,z`, or `@dx,dy` counted from the last point.
+    pub(crate) fn point(&mut self, what: &str) -> Parsed<Point> {
+        let token = self.next(what)?;
+        let relative = token.text.strip_prefix('@');
+        let parsed = point(relative.unwrap_or(&token.text)).ok_or_else(|| {
+            self.error(format!("{:?} is no point; expected {what} as x,y such as 40,12.5", token.text))
+        })?;
+        let point = match (relative, self.base) {
+            (None, _) => parsed,
+            (Some(_), Some(base)) => base + parsed,
+            (Some(_), None) => {
+                return Err(self.error("there is no point before this that @ could be counted from"));
+            }
+        };
+        self.base = Some(point);
+        Ok(point)
+    }
+
+    /// Points as long as there are some.
+    pub(crate) fn points(&mut self, what: &str) -> Parsed<Vec<Point>> {
+        let mut points = Vec::new();
+        while self.is_at_number() {
+            points.push(self.point(what)?);
+        }
+        Ok(points)
+    }
+
+    /// That nothing is left.
+    pub(crate) fn end(&mut self) -> Parsed<()> {
+        match self.next("nothing") {
+            Ok(token) => Err(self.error(format!("{:?} is not expected here", token.text))),
+            Err(_) => Ok(()),
+        }
+    }
+}
+
+fn number(text: &str) -> Option<f64> {
+    let plain = text.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E'));
+    text.parse().ok().filter(|number: &f64| plain && number.is_finite())
+}
+
+fn point(text: &str) -> Option<Point> {
+    let numbers: Vec<f64> = text.split(',').map(number).collect::<Option<_>>()?;
+    match numbers[..] {
+        [x, y] => Some(Point::new(x, y)),
+        [x, y, z] => Some(Point::new(x, y).at(z)),
+        _ => None,
+    }
+}

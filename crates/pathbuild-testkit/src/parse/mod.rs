@@ -1,0 +1,33 @@
+//! The text form of drawings. README.md of this crate describes it for those who write it.
+
+mod arcs;
+mod cursor;
+mod curves;
+mod header;
+mod inserts;
+mod lexer;
+mod line_type;
+mod modifiers;
+mod shapes;
+mod statement;
+mod texts;
+
+pub(crate) use lexer::tokens;
+
+use pathbuild_draw::{DrawError, Sheet};
+
+use crate::furniture::finish;
+use statement::Parser;
+
+/// Reads a drawing in text form.
+///
+/// # Errors
+/// All faults of the text, each with its line and column.
+pub fn sheet(text: &str) -> Result<Sheet, Vec<DrawError>> {
+    let mut parser = Parser::default();
+    for (number, line) in (1..).zip(text.lines()) {
+        parser.line(line, number);
+    }
+    let (draft, furniture) = parser.finish()?;
+    finish(draft, furniture)
+}

@@ -1,0 +1,197 @@
+use super::cursor::{Cursor, Parsed};
+use super::lexer::tokens;
+use super::{header, line_type, modifiers, shapes, texts};
+use pathbuild_draw::DrawError;
+use pathbuild_draw::model::{Change, Entity, Layer, LayerState, Pair, Point, Shape};
+use pathbuild_draw::{Block, Draft};
+
+const STATES: [(&str, LayerState); 4] = [
+    ("off", LayerState::Off),
+    ("frozen", LayerState::Frozen),
+    ("locked", LayerState::Locked),
+    ("unlisted", LayerState::Unlisted),
+];
+
+/// What has been read so far.
+#[derive(Debug, Default)]
+pub(crate) struct Parser {
+    draft: Draft,
+    /// The seed of what stands around the path.
+    furniture: Option<u64>,
+    errors: Vec<DrawError>,
+    /// The block that is being defined, with its line.
+    block: Option<(Block, u32)>,
+    /// The raw entity that is being read, with its line.
+    raw: Option<(Vec<Pair>, u32)>,
+    /// Where the entity before ended.
+    last: Option<Point>,
+    /// Whether the line before drew an entity that `set` can change.
+    has_entity: bool,
+}
+
+/// What an entity line gives: entities, and where they end.
+pub(crate) struct Drawn {
+    pub(crate) entities: Vec<Entity>,
+    pub(crate) end: Option<Point>,
+}
+
+impl Parser {
+    /// Reads a line.
+    pub(crate) fn line(&mut self, line: &str, number: u32) {
+        let result = match self.raw.take() {
+            Some((pairs, begun)) => self.raw_line(line, number, pairs, begun),
+            None => {
+                tokens(line, number).and_then(|tokens| self.statement(Cursor::new(tokens, number, self.last)))
+            }
+        };
+        self.errors.extend(result.err());
+    }
+
+    /// The whole drawing, and the seed of its furniture if it has some.
+    pub(crate) fn finish(mut self) -> Result<(Draft, Option<u64>), Vec<DrawError>> {
+        if let Some((_, line)) = self.raw {
+            self.errors.push(DrawError::new(line, 1, "this `raw` has no `endraw`"));
+        }
+        if let Some((_, line)) = self.block {
+            self.errors.push(DrawError::new(line, 1, "this `block` has no `endblock`"));
+        }
+        if self.errors.is_empty() { Ok((self.draft, self.furniture)) } else { Err(self.errors) }
+    }
+
+    fn statement(&mut self, mut cursor: Cursor) -> Parsed<()> {
+        let Some(word) = cursor.peek().map(|token| token.text.clone()) else { return Ok(()) };
+        match word.as_str() {
+            "layer" => self.layer(&mut cursor)?,
+            "block" => self.begin_block(&mut cursor)?,
+            "endblock" => self.end_block(&mut cursor)?,
+            "raw" => {
+                cursor.next("raw")?;
+                self.raw = Some((Vec::new(), cursor.line));
+            }
+            "set" | "unset" => self.change(&mut cursor)?,
+            "linetype" => line_type::declare(&mut cursor, &mut self.draft)?,
+            _ if header::is_option(&word) => {
+                header::option(&mut cursor, &mut self.draft.options, &mut self.furniture)?;
+            }
+            _ => self.entity(&mut cursor)?,
+        }
+        cursor.end()
+    }
+
+    fn entity(&mut self, cursor: &mut Cursor) -> Parsed<()> {
+        let drawn = match cursor.peek_word() {
+            Some("text") => texts::text(cursor)?,
+            Some("mtext") => texts::mtext(cursor)?,
+            _ => shapes::shape(cursor, &mut self.draft)?,
+        };
+        let Drawn { mut entities, end } = drawn;
+        modifiers::modifiers(cursor, &mut entities)?;
+        for entity in &mut entities {
+            entity.line = cursor.line;
+        }
+        self.last = end.or(self.last);
+        self.add(entities);
+        Ok(())
+    }
+
+    fn add(&mut self, entities: Vec<Entity>) {
+        let layer = self.draft.current_layer().to_owned();
+        match &mut self.block {
+            Some((block, _)) => block.entities.extend(entities.into_iter().map(|entity| Entity {
+                layer: entity.layer.clone().or_else(|| Some(layer.clone())),
+                ..entity
+            })),
+            None => _ = self.draft.extend(entities),
+        }
+        self.has_entity = true;
+    }
+
+    fn layer(&mut self, cursor: &mut Cursor) -> Parsed<()> {
+        cursor.keyword("layer")?;
+        let name = cursor.name("a layer's name")?;
+        self.draft.layer(&name);
+        let found = self.draft.layers.iter().position(|layer| layer.name == name);
+        let mut layer = found.map_or_else(|| Layer::new(&name), |at| self.draft.layers[at].clone());
+        while let Some(word) = cursor.peek_word().map(str::to_owned) {
+            match word.as_str() {
+                "colour" => {
+                    cursor.next("colour")?;
+                    layer.colour = cursor.integer("colour number from 0 to 255")?;
+                }
+                word => match STATES.iter().find(|(name, _)| *name == word) {
+                    Some((name, state)) => {
+                        cursor.keyword(name)?;
+                        layer.states.push(*state);
+                    }
+                    None => layer.line_type = line_type::expect(cursor, &mut self.draft)?,
+                },
+            }
+        }
+        if let Some(at) = found {
+            self.draft.layers[at] = layer;
+        }
+        Ok(())
+    }
+
+    fn begin_block(&mut self, cursor: &mut Cursor) -> Parsed<()> {
+        cursor.keyword("block")?;
+        let name = cursor.name("a block's name")?;
+        if let Some((open, line)) = &self.block {
+            return Err(cursor.error(format!("block {:?} of line {line} is still open", open.name)));
+        }
+        if self.draft.blocks.iter().any(|block| block.name.eq_ignore_ascii_case(&name)) {
+            return Err(cursor.error(format!("there is a block {name:?} already")));
+        }
+        let base = if cursor.take("base") { cursor.point("the base point")? } else { Point::default() };
+        self.block = Some((Block { name, base, entities: Vec::new() }, cursor.line));
+        Ok(())
+    }
+
+    fn end_block(&mut self, cursor: &mut Cursor) -> Parsed<()> {
+        cursor.keyword("endblock")?;
+        let Some((block, _)) = self.block.take() else {
+            return Err(cursor.error("there is no `block` to end"));
+        };
+        self.draft.blocks.push(block);
+        self.has_entity = false;
+        Ok(())
+    }
+
+    fn change(&mut self, cursor: &mut Cursor) -> Parsed<()> {
+        let word = cursor.name("set or unset")?;
+        let entities = match &mut self.block {
+            Some((block, _)) => &mut block.entities,
+            None => &mut self.draft.entities,
+        };
+        let Some(entity) = entities.last_mut().filter(|_| self.has_entity) else {
+            return Err(cursor.error(format!("`{word}` changes the entity before it, and there is none")));
+        };
+        let code = cursor.integer("group code")?;
+        let change = if word == "set" {
+            Change::Set(Pair::new(code, cursor.name("a value; in quotation marks if it holds blanks")?))
+        } else {
+            Change::Unset(code)
+        };
+        entity.changes.push(change);
+        Ok(())
+    }
+
+    /// A line of a raw entity: a group code, a blank, and the value as it is.
+    fn raw_line(&mut self, line: &str, number: u32, mut pairs: Vec<Pair>, begun: u32) -> Parsed<()> {
+        let line = line.trim_start();
+        if line.trim_end() == "endraw" {
+            let entity = Entity { line: begun, ..Entity::new(Shape::Raw(pairs)) };
+            self.add(vec![entity]);
+            return Ok(());
+        }
+        let (code, value) = line.split_once(' ').unwrap_or((line, ""));
+        let parsed = code.parse();
+        if let Ok(code) = parsed {
+            pairs.push(Pair::new(code, value));
+        }
+        self.raw = Some((pairs, begun));
+        parsed.map(|_| ()).map_err(|_| {
+            DrawError::new(number, 1, format!("{code:?} is no group code; expected `code value` or `endraw`"))
+        })
+    }
+}

@@ -1,0 +1,12 @@
+//! Tests of the crate from outside.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod elements;
+mod errors;
+mod ezdxf;
+mod files;
+mod fixtures;
+mod library;
+mod placement;
+mod reader;
+mod records;
