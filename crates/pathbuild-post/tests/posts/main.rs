@@ -1,9 +1,5 @@
 //! Post-processors through their public interface.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test fails by panicking, and says what it skips"
-)]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod built_in;
 mod cad6;
