@@ -49,6 +49,7 @@ fn read_with(file: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
         approximate_curves: 0.0,
         max_entities: 2_000_000,
         max_text: 65_536,
+        compatible: false,
     };
     read(file, &options)
 }

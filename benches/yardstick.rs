@@ -61,6 +61,7 @@ fn read_dxf(drawing: &Path) -> usize {
         approximate_curves: 0.0,
         max_entities: 2_000_000,
         max_text: 65_536,
+        compatible: false,
     };
     pathbuild_dxf::read(&bytes, &options).entities.len()
 }

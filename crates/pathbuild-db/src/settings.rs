@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, Restriction};
+use pathbuild_path::{FilePattern, Language, PathName};
 use pathbuild_toolpath::FoldOptions;
+use regex::Regex;
 
 /// The settings of a run.
 #[salsa::input(singleton, debug)]
@@ -46,6 +47,8 @@ pub struct Reading {
     pub text_length: usize,
     /// Whether drawings are hashed, for saying out of which a program was made. It takes about as long as reading them.
     pub is_hashed: bool,
+    /// Whether only those entities count that PathDxf2GCode knows.
+    pub compatible: bool,
 }
 
 /// Where embedded paths are looked for.
@@ -57,6 +60,15 @@ pub struct Lookup {
     pub search: Vec<Utf8PathBuf>,
 }
 
+/// `--restrict PARENT:CHILD`: paths whose name matches PARENT may embed only those that match CHILD.
+#[derive(Clone, Debug)]
+pub struct Restriction {
+    /// Searched in the embedding path's name.
+    pub parent: Regex,
+    /// Searched in the embedded path's name.
+    pub child: Regex,
+}
+
 /// What is refused as too much: PB005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -64,6 +76,26 @@ pub struct Limits {
     pub moves: u64,
     /// Most paths in a program that differ in their drawings or values: each costs memory, however little it mills.
     pub paths: u64,
+}
+
+impl Restriction {
+    /// A rule of two regular expressions.
+    ///
+    /// # Errors
+    /// When one of them is none.
+    pub fn new(parent: &str, child: &str) -> Result<Self, regex::Error> {
+        Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
+    }
+
+    /// Whether the rule is about what this path embeds.
+    pub fn concerns(&self, parent: &PathName) -> bool {
+        parent.is_match(&self.parent)
+    }
+
+    /// Whether it lets this path be embedded.
+    pub fn allows(&self, child: &PathName) -> bool {
+        child.is_match(&self.child)
+    }
 }
 
 impl Default for Reading {
@@ -75,6 +107,7 @@ impl Default for Reading {
             entities: 2_000_000,
             text_length: 65_536,
             is_hashed: false,
+            compatible: false,
         }
     }
 }

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::messages::files::LIMIT;
-use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, TILTED, TOO_LARGE};
+use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
 use smol_str::SmolStr;
 
@@ -32,6 +32,7 @@ pub(crate) struct Collector<'d> {
     /// Lines of broken entities, each with the layers on which that was said.
     faulty: HashSet<(u32, u32)>,
     groups: u32,
+    has_ignored: bool,
     limits: Limits,
 }
 
@@ -84,6 +85,7 @@ impl<'d> Collector<'d> {
             last: None,
             faulty: HashSet::new(),
             groups: 0,
+            has_ignored: false,
             limits,
         }
     }
@@ -103,9 +105,9 @@ impl<'d> Collector<'d> {
             Ok(Shape::Plain(mut geometry)) => {
                 if let Some(placement) = placed.placement {
                     placement.apply(&mut geometry);
-                    if !geometry.is_sound() {
-                        return self.refuse(placed, layer, &Trouble::TooLarge);
-                    }
+                }
+                if !geometry.is_sound() {
+                    return self.refuse(placed, layer, &Trouble::TooLarge);
                 }
                 self.push(placed, layer, None, geometry)
             }
@@ -193,6 +195,17 @@ impl<'d> Collector<'d> {
         diagnostic.place.point = point;
         let diagnostic = self.located(diagnostic, placed, layer);
         self.drawing.left_out.push(LeftOut { layer, kind, point, diagnostic });
+    }
+
+    /// Passes over what PathDxf2GCode does not know; said once for a drawing.
+    pub(crate) fn ignore(&mut self, placed: &Placed<'_>) -> Result<(), Fatal> {
+        let layer = self.layer(placed);
+        if !std::mem::replace(&mut self.has_ignored, true) {
+            let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).with("entity", placed.kind.name());
+            let diagnostic = self.located(diagnostic, placed, layer);
+            self.drawing.diagnostics.push(diagnostic);
+        }
+        Ok(())
     }
 
     fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {

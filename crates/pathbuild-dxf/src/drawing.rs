@@ -14,6 +14,9 @@ pub struct Options<'a> {
     pub max_entities: usize,
     /// Longest text in bytes before PB005.
     pub max_text: usize,
+    /// As PathDxf2GCode reads: only LINE, ARC, CIRCLE, TEXT and MTEXT count, and nothing in blocks (what else is drawn on wanted layers is
+    /// left out with one warning a drawing), and no MTEXT has a width.
+    pub compatible: bool,
 }
 
 /// What $INSUNITS means. (spec/06-configuration.md, `units`)
@@ -194,6 +197,8 @@ pub struct MText {
     pub anchor: Point3,
     /// Height of a line's letters in mm.
     pub height: f64,
+    /// Width in mm (41) in which the CAD breaks lines that are longer; none where it does not.
+    pub width: Option<f64>,
     /// Rotation in degrees, from 50 or the direction 11/21.
     pub rotation: f64,
     /// From 71.

@@ -236,7 +236,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             Kind::Arc => Shape::Plain(shapes::arc(fields)?),
             Kind::Circle => Shape::Plain(shapes::circle(fields)?),
             Kind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
-            Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options.max_text)?),
+            Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options)?),
             Kind::Ellipse | Kind::Spline
                 if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>
             {

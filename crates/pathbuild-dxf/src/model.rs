@@ -91,7 +91,12 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         match item.shape {
             Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
             shape if self.reader.layers.is_kept(layer) => {
+                let is_compatible = self.reader.options.compatible;
                 let placed = placed(self.reader, &item.traits, layer, around)?;
+                let is_plain = around.insertion.is_none() && matches!(shape, Ok(Shape::Plain(_)));
+                if is_compatible && shape.is_ok() && !is_plain {
+                    return self.collector.ignore(&placed);
+                }
                 self.collector.add(&placed, shape)
             }
             _ => Ok(()),

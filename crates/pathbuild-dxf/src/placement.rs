@@ -126,6 +126,7 @@ impl Placement {
     fn place_mtext(&self, text: &mut MText) {
         text.anchor = self.point(text.anchor);
         text.height *= self.scale;
+        text.width = text.width.map(|width| width * self.scale);
         text.rotation = self.text_rotation(text.rotation);
         if self.mirrored {
             text.horizontal = opposite(text.horizontal);
@@ -137,24 +138,20 @@ impl Placement {
     }
 }
 
+/// No coordinate and no length of a path is larger, in mm: a machine of a kilometre, and digits enough for all that is computed.
+const LARGEST: f64 = 1e6;
+
 impl Geometry {
-    /// Whether all numbers are finite and lengths more than 0: numbers from the file are, but scaling may spoil them.
+    /// Whether no coordinate and no length is beyond [`LARGEST`], and every length more than 0.
     pub(crate) fn is_sound(&self) -> bool {
-        let is_finite = |point: &Point3| point.x.is_finite() && point.y.is_finite() && point.z.is_finite();
-        let is_length = |length: f64| length > 0.0 && length.is_finite();
+        let is_near = |point: &Point3| [point.x, point.y, point.z].iter().all(|it| it.abs() <= LARGEST);
+        let is_length = |length: f64| length > 0.0 && length <= LARGEST;
         match self {
-            Self::Line(line) => is_finite(&line.start) && is_finite(&line.end),
-            Self::Arc(arc) => {
-                let angles_are_finite = arc.start_angle.is_finite() && arc.end_angle.is_finite();
-                is_finite(&arc.centre) && is_length(arc.radius) && angles_are_finite
-            }
-            Self::Circle(circle) => is_finite(&circle.centre) && is_length(circle.radius),
-            Self::Text(text) => {
-                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
-            }
-            Self::MText(text) => {
-                is_finite(&text.anchor) && is_length(text.height) && text.rotation.is_finite()
-            }
+            Self::Line(line) => is_near(&line.start) && is_near(&line.end),
+            Self::Arc(arc) => is_near(&arc.centre) && is_length(arc.radius),
+            Self::Circle(circle) => is_near(&circle.centre) && is_length(circle.radius),
+            Self::Text(text) => is_near(&text.anchor) && is_length(text.height),
+            Self::MText(text) => is_near(&text.anchor) && is_length(text.height),
         }
     }
 }

@@ -57,6 +57,7 @@ fn options(layers: &dyn Fn(&str) -> bool, tolerance: f64) -> Options<'_> {
         approximate_curves: tolerance,
         max_entities: MOST,
         max_text: 100,
+        compatible: false,
     }
 }
 

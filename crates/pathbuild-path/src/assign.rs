@@ -1,6 +1,8 @@
 //! Which element a parameter text belongs to. (spec/10-drawing.md, "The element a text belongs to")
 
 mod boxes;
+#[cfg(test)]
+mod tests;
 
 use pathbuild_diagnostic::ElementId;
 

@@ -3,7 +3,6 @@
 
 mod circles;
 mod cuts;
-mod room;
 mod segments;
 
 use std::sync::Arc;
@@ -16,14 +15,14 @@ use smol_str::SmolStr;
 use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::limits;
+use crate::matrix::ElementClass;
 use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
-use crate::values::Values;
+use crate::values::{Given, Values};
 use crate::variables::{Bindings, Interpolation};
 
-use cuts::Known;
-use room::Room;
+use segments::Scope;
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
@@ -47,10 +46,7 @@ struct Binder<'a> {
     cuts: Vec<CutParameters>,
     holes: Vec<Hole>,
     helices: Vec<Helix>,
-    known: Known,
     problems: Vec<Diagnostic>,
-    /// How often something was reported, also where it had been before.
-    reported: usize,
 }
 
 /// What something is reported at.
@@ -64,19 +60,16 @@ impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation = Interpolation { bindings, limit: language.text_limit };
         let values = Values::of_path(raw.parameters(), &interpolation);
-        let Room { segments, cuts, holes, helices } = Room::take();
         Self {
             raw,
             language,
             interpolation,
             values,
-            segments,
-            cuts,
-            holes,
-            helices,
-            known: Known::new(),
+            segments: Vec::new(),
+            cuts: Vec::new(),
+            holes: Vec::new(),
+            helices: Vec::new(),
             problems: Vec::new(),
-            reported: 0,
         }
     }
 
@@ -122,17 +115,15 @@ impl<'a> Binder<'a> {
 
     fn check_path_values(&mut self) {
         let mut problems = std::mem::take(&mut self.values.problems);
-        for letter in [Letter::O, Letter::T] {
-            if !self.values.has(letter) {
-                let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
-                problems.push(missing.with_text(self.raw.parameters().whole()));
-            }
+        for letter in ElementClass::PathStart.needed_letters().filter(|letter| !self.values.has(*letter)) {
+            let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
+            problems.push(missing.with_text(self.raw.parameters().whole()));
         }
         if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
             let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));
             problems.push(self.values.underline(Letter::E, problem));
         }
-        problems.extend(limits::check(&self.values, &self.values, true));
+        problems.extend(limits::check(&self.values, &self.values, ElementClass::PathStart));
         self.problems.extend(problems.into_iter().map(|problem| {
             let problem = self.raw.at_parameters(problem);
             if problem.path.is_none() { problem.in_path(self.raw.name.as_str()) } else { problem }
@@ -148,11 +139,16 @@ impl<'a> Binder<'a> {
     }
 
     /// The values of an element's text, checked; what is wrong is reported at the element.
-    fn element_values(&mut self, at: At<'_>, text: Option<ParameterText<'a>>, has_bars: bool) -> Values<'a> {
+    fn element_values(
+        &mut self,
+        at: At<'_>,
+        text: Option<ParameterText<'a>>,
+        class: ElementClass,
+    ) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
         let mut values = Values::of(text, &self.interpolation);
         let mut problems = std::mem::take(&mut values.problems);
-        problems.append(&mut limits::check(&values, &self.values, has_bars));
+        problems.append(&mut limits::check(&values, &self.values, class));
         for problem in problems {
             self.report(at, problem);
         }
@@ -161,7 +157,6 @@ impl<'a> Binder<'a> {
 
     /// Reports once what several parts of a polyline, which share a text, have in common.
     fn report(&mut self, at: At<'_>, problem: Diagnostic) {
-        self.reported += 1;
         let origin = match at {
             At::Element(element) => &self.raw.drawn.origin(element),
             At::Marker(marker) => &marker.origin,
@@ -180,21 +175,19 @@ impl<'a> Binder<'a> {
 
     fn add_probes(&mut self, path: &mut Path) {
         for marker in &self.raw.probes {
-            let values = self.element_values(At::Marker(marker), self.raw.drawn.text(marker.text), false);
-            let own_thickness = values.number(Letter::T);
-            if let (Some(_), Some(thickness)) = (&path.surface, own_thickness.number()) {
-                path.probe_surfaces.push(Surface {
-                    origin: marker.origin.clone(),
-                    thickness,
-                    text: marker.text,
-                });
+            let (at, class) = (At::Marker(marker), ElementClass::Probe);
+            let values = self.element_values(at, self.raw.drawn.text(marker.text), class);
+            if let (Some(_), Given::Number(thickness)) = (&path.surface, values.number(Letter::T)) {
+                let origin = marker.origin.clone();
+                path.probe_surfaces.push(Surface { origin, thickness, text: marker.text });
             }
-            let thickness = own_thickness.or(self.values.number(Letter::T)).number().unwrap_or_default();
+            let scope = Scope { at, class, values: &values };
+            let thickness = self.value(&scope, Letter::T).unwrap_or_default();
             path.probes.push(Probe {
                 origin: marker.origin.clone(),
                 at: marker.at,
-                height: thickness + values.number(Letter::H).number().unwrap_or(0.0),
-                feed: values.number(Letter::Z).or(self.values.number(Letter::Z)).number(),
+                height: thickness + self.value(&scope, Letter::H).unwrap_or_default(),
+                feed: self.value(&scope, Letter::Z),
                 label: values.text(Letter::L).map(Into::into),
             });
         }

@@ -83,9 +83,10 @@ pub(crate) struct Grouped<'a> {
 }
 
 impl<'a> Grouped<'a> {
-    /// Nothing so far, in the memory of an empty walk.
-    pub(crate) fn new(path: &'a Path, walked: Walked) -> Self {
-        Self { path, walked, chained: 0 }
+    /// Nothing so far.
+    pub(crate) fn new(path: &'a Path) -> Self {
+        let members = Vec::with_capacity(path.cuts.len());
+        Self { path, walked: Walked { members, ..Walked::default() }, chained: 0 }
     }
 
     /// Takes the next segment that is gone along.
@@ -122,10 +123,13 @@ impl<'a> Grouped<'a> {
     /// Ends the chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
         let Self { path, walked: Walked { items, members, diagnostics }, chained } = self;
-        let [first, others @ ..] = &members[*chained..] else { return };
+        let [first, ..] = &members[*chained..] else { return };
         let has_letters = |member: &ChainSegment| member.cut(path).chain_letters.is_some();
-        for member in others.iter().filter(|member| !member.is_return && has_letters(member)) {
-            diagnostics.extend(member.letters_without_effect(path));
+        for (before, member) in members[*chained..].iter().zip(&members[*chained + 1..]) {
+            // A line that leads into an arc is the same segment as the arc.
+            if !member.is_return && before.segment != member.segment && has_letters(member) {
+                diagnostics.extend(member.letters_without_effect(path));
+            }
         }
         let parameters = first.cut(path).chain;
         match parameters.infeed {

@@ -72,8 +72,8 @@ impl DefaultPattern {
         let mut from = 0;
         let pair = move |start| {
             let first = self.at(text, start)?;
-            let hyphen = (text.as_bytes().get(first.range.end) == Some(&b'-')).then_some(first.range.end)?;
-            Some((first, self.at(text, hyphen + 1)?))
+            let second = first.range.end + behind_dash(&text[first.range.end..])?;
+            Some((first, self.at(text, second)?))
         };
         std::iter::from_fn(move || {
             let found = (from..text.len()).find_map(pair)?;
@@ -126,6 +126,17 @@ impl Match {
         }
     }
 }
+
+/// The length of what stands between both ends of a range, which a text begins with: one letter perhaps, and a hyphen or an en dash with
+/// blanks around it.
+fn behind_dash(text: &str) -> Option<usize> {
+    let rest = &text[letter(text.as_bytes()).unwrap_or_default()..];
+    let rest = rest.trim_start_matches(' ').strip_prefix(DASHES)?.trim_start_matches(' ');
+    Some(text.len() - rest.len())
+}
+
+/// What may stand between both ends of a range: a hyphen or an en dash.
+pub(crate) const DASHES: [char; 2] = ['-', '\u{2013}'];
 
 /// How far digits go from a byte on, at most to another.
 fn digits(bytes: &[u8], from: usize, to: usize) -> usize {

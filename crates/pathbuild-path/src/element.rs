@@ -4,10 +4,11 @@ use pathbuild_diagnostic::words;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
 use smol_str::SmolStr;
 
-use crate::approx::near;
+use crate::approx::{at_least, near};
 use crate::geometry::{Curve, Xy};
-use crate::letter::ElementClass;
+use crate::letter::Letter;
 use crate::line_type::LineType;
+use crate::matrix::ElementClass;
 use crate::text::TextId;
 
 /// A line, arc or circle on a path's layer that stands for something along the path.
@@ -150,6 +151,16 @@ impl Element {
     }
 }
 
+impl Cut {
+    /// The letter that says how deep.
+    pub(crate) fn depth(self) -> Letter {
+        match self {
+            Self::Mill | Self::Support => Letter::B,
+            Self::Mark => Letter::D,
+        }
+    }
+}
+
 impl ElementClass {
     /// Its name in messages.
     pub fn word(self) -> &'static Word {
@@ -172,10 +183,13 @@ impl ElementClass {
     }
 }
 
-/// A circle of exactly the cutter's diameter is a drilled hole, also where bars are asked for: there is nothing to leave standing.
+/// So much, in mm, the diameter of a drilled hole may differ from the cutter's: three decimals cannot tell them apart.
+const AS_DRILLED: f64 = 0.001;
+
+/// A circle of the cutter's diameter is a drilled hole, whatever its line type is.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
-    if near(radius, tool / 2.0) {
+    if at_least(AS_DRILLED, (2.0 * radius - tool).abs()) {
         if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole }
     } else if radius < tool / 2.0 {
         ElementClass::UnknownCircle

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use crate::PathPattern;
-use crate::default_pattern::DefaultPattern;
+use crate::default_pattern::{DASHES, DefaultPattern};
 use crate::group::Groups;
 use crate::number_range::{NumberKey, NumberRange, number_key};
 use crate::pattern::{Name, Pattern, PatternError};
@@ -75,8 +75,8 @@ impl FilePattern {
         if let Some(numbers) = self.0.lone_numbers(stem) {
             return take(NumberRange::new(numbers, None).into());
         }
-        // A range has a hyphen in it, and most names have none.
-        if stem.as_bytes().contains(&b'-') {
+        // A range has a dash in it, and most names have none.
+        if stem.contains(DASHES) {
             self.0.each_range(stem, |from, to| take(NameRange::new(from, Some(to))));
         }
         self.0.each(stem, |name| take(NameRange::new(name, None)));

@@ -49,6 +49,9 @@ pub struct Placement {
     shift: Vector2<f64>,
 }
 
+/// So far from a whole turn, in turns, an arc is still a full circle.
+const WHOLE_TURN: f64 = 1e-9;
+
 impl Curve {
     /// Where it begins.
     pub fn start(&self) -> Xy {
@@ -89,14 +92,6 @@ impl Curve {
         }
     }
 
-    /// The same curve from a point close to its start to its end; an arc keeps its radius as far as it can.
-    pub(crate) fn starting_at(self, start: Xy) -> Self {
-        match self {
-            Self::Line(line) => Self::Line(Line { start, ..line }),
-            Self::Arc(arc) => Self::Arc(arc.starting_at(start)),
-        }
-    }
-
     /// The piece of it from `from` to `to`, both in mm along it from its start.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
@@ -110,45 +105,22 @@ impl Curve {
 }
 
 impl Arc {
-    /// An arc by its angles (degrees, as drawn); equal angles make a full circle.
+    /// An arc by its angles (degrees, as drawn). Angles that differ by nothing or by a whole turn, as far as their digits go, make a full
+    /// circle.
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
-        // Not rem_euclid: a tiny negative difference would round up to 360 and swallow the arc's real direction, which it is meant to.
-        let degrees = ahead - 360.0 * (ahead / 360.0).floor();
-        let degrees = if degrees <= 0.0 { 360.0 } else { degrees };
-        Self {
-            centre,
-            radius,
-            start: on_circle(centre, radius, start_angle),
-            end: on_circle(centre, radius, end_angle),
-            clockwise,
-            degrees,
+        let turns = ahead / 360.0;
+        let start = on_circle(centre, radius, start_angle);
+        if (turns - turns.round()).abs() <= WHOLE_TURN {
+            return Self { centre, radius, start, end: start, clockwise, degrees: 360.0 };
         }
+        let end = on_circle(centre, radius, end_angle);
+        Self { centre, radius, start, end, clockwise, degrees: 360.0 * (turns - turns.floor()) }
     }
 
     /// The length along it, in mm.
     pub fn length(&self) -> f64 {
         self.radius * self.degrees.to_radians()
-    }
-
-    /// The centre is found anew from both ends and the radius, so that both ends are as far from it.
-    fn starting_at(&self, start: Xy) -> Self {
-        let chord = self.end - start;
-        let half = chord.norm() / 2.0;
-        if half == 0.0 {
-            return Self { start, ..*self };
-        }
-        let radius = self.radius.max(half);
-        let height = libm::sqrt(radius * radius - half * half);
-        // The centre is to the left of the chord of a counterclockwise arc of less than half a turn.
-        let is_left = self.clockwise == (self.degrees > 180.0);
-        let left = Vector2::new(-chord.y, chord.x) / (2.0 * half);
-        let centre = start + chord / 2.0 + left * if is_left { height } else { -height };
-        let (from, to) = (start - centre, self.end - centre);
-        let turn = libm::atan2(from.perp(&to), from.dot(&to)).to_degrees();
-        let ahead = if self.clockwise { -turn } else { turn };
-        let degrees = if ahead <= 0.0 { ahead + 360.0 } else { ahead };
-        Self { centre, radius, start, degrees, ..*self }
     }
 
     fn section(&self, from: f64, to: f64) -> Self {

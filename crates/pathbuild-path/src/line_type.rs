@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use crate::packed::{Recent, packed};
-
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the meaning depends on the entity: spec/10-drawing.md has the table")]
@@ -62,26 +60,31 @@ impl LineTypeAliases {
 }
 
 /// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
-pub(crate) struct LineTypes<'l> {
+pub(crate) struct LineTypes<'l, 'd> {
     aliases: &'l LineTypeAliases,
-    recent: Recent<Option<LineType>>,
+    known: Vec<(&'d str, Option<LineType>)>,
 }
 
-impl<'l> LineTypes<'l> {
+impl<'l, 'd> LineTypes<'l, 'd> {
     pub(crate) fn new(aliases: &'l LineTypeAliases) -> Self {
-        Self { aliases, recent: Recent::new() }
+        Self { aliases, known: Vec::new() }
     }
 
-    /// What a name stands for. Long ones are looked up each time.
-    pub(crate) fn get(&mut self, name: &str) -> Option<LineType> {
-        let Some(number) = packed(name) else { return LineType::of(name, self.aliases) };
-        self.recent.get(number).unwrap_or_else(|| {
-            let line_type = LineType::of(name, self.aliases);
-            self.recent.insert(number, line_type);
-            line_type
-        })
+    /// What a name stands for.
+    pub(crate) fn get(&mut self, name: &'d str) -> Option<LineType> {
+        if let Some((_, line_type)) = self.known.iter().find(|(known, _)| *known == name) {
+            return *line_type;
+        }
+        let line_type = LineType::of(name, self.aliases);
+        if self.known.len() < MOST_KNOWN {
+            self.known.push((name, line_type));
+        }
+        line_type
     }
 }
+
+/// A drawing has fewer line types. Names beyond them are looked up each time.
+const MOST_KNOWN: usize = 32;
 
 /// Longest first: what is left of `DASHEDX2` must not be `DASHEDX`.
 const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];

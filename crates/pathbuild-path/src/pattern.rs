@@ -25,7 +25,7 @@ pub(crate) struct RegexPattern {
     source: Box<str>,
     whole: LazyRegex,
     anywhere: LazyRegex,
-    /// Two of them with a hyphen between.
+    /// Two of them with a hyphen or an en dash between.
     range: LazyRegex,
 }
 
@@ -171,7 +171,7 @@ impl RegexPattern {
             source: source.into(),
             whole: LazyRegex::new(format!("^(?:{source})$")),
             anywhere: LazyRegex::new(source),
-            range: LazyRegex::new(format!("(?P<from>{source})-(?P<to>{source})")),
+            range: LazyRegex::new(format!("(?P<from>{source})[A-Z]? *[-\u{2013}] *(?P<to>{source})")),
         };
         pattern.anywhere.check()?;
         pattern.whole.check()?;

@@ -130,26 +130,6 @@ impl Drawn {
         self.texts.get(text?)
     }
 
-    /// Forgets all, but not the memory for it.
-    pub(crate) fn clear(&mut self) {
-        let Self { elements, texts, layers } = self;
-        elements.clear();
-        texts.clear();
-        layers.clear();
-    }
-
-    pub(crate) fn shrink_to_fit(&mut self) {
-        let Self { elements, texts, layers } = self;
-        elements.shrink_to_fit();
-        texts.shrink_to_fit();
-        layers.shrink_to_fit();
-    }
-
-    /// For how much there is room.
-    pub(crate) fn room(&self) -> usize {
-        self.elements.capacity().max(self.texts.room()).max(self.layers.capacity())
-    }
-
     /// Where an element is drawn.
     pub fn origin(&self, element: &Element) -> Origin {
         Origin::new(element.source, &self.layers[element.source.layer as usize], element.shape.point())

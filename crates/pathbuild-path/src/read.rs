@@ -2,7 +2,6 @@
 
 mod checked;
 mod collect;
-mod elements;
 mod found_text;
 mod layers;
 mod listing;
@@ -10,7 +9,6 @@ mod meaning;
 mod parameters;
 mod proxies;
 mod texts;
-mod workspace;
 
 use std::collections::BTreeMap;
 
@@ -22,7 +20,6 @@ use crate::name::PathName;
 use crate::raw::{Language, RawFile};
 
 use collect::Collected;
-use workspace::Workspace;
 
 pub(crate) use collect::Owner;
 
@@ -31,11 +28,7 @@ pub use proxies::{ProxyLine, proxy_lines};
 
 /// Finds the paths of a drawing. A drawing with errors of its own has none.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
-    Workspace::with(|workspace| raw_file_in(workspace, drawing, language))
-}
-
-fn raw_file_in(workspace: &mut Workspace, drawing: &Drawing, language: &Language) -> RawFile {
-    let mut collected = collect::paths(drawing, language, workspace);
+    let mut collected = collect::paths(drawing, language);
     let without_elements = collected.extract_if(.., |path| !path.has_elements()).collect::<Vec<_>>();
     let mut diagnostics = drawing.diagnostics.clone();
     for path in without_elements {
@@ -45,10 +38,7 @@ fn raw_file_in(workspace: &mut Workspace, drawing: &Drawing, language: &Language
         path.assign_texts();
     }
     let starts = starts(&collected);
-    let mut paths = Vec::with_capacity(collected.len());
-    paths.extend(collected.iter_mut().map(|path| path.finish(&starts, workspace)));
-    workspace.keep_collected(collected);
-    RawFile { paths, diagnostics }
+    RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }
 }
 
 /// The start texts of all paths, to which @ can refer; none where nobody does.

@@ -8,49 +8,37 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use crate::letter::{ElementClass, Letter, Letters, Use};
+use crate::letter::{Letter, Letters};
+use crate::matrix::{ElementClass, Use};
 use crate::number::{parse_integer, parse_number};
-use crate::packed::{Recent, packed};
 
 /// The parameter texts of a path, read once: what they say is asked for by several stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterTexts {
-    /// All wordings behind each other.
+    /// All texts behind each other.
     string: String,
     pieces: Vec<Piece>,
-    wordings: Vec<Wording>,
-    /// How many texts there are.
-    count: u32,
+    texts: Vec<Text>,
 }
 
-/// A text of a path.
+/// A text of a path: its number, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TextId {
-    /// Which it is, counted from 1.
-    number: NonZeroU32,
-    /// The number of what it says: what is milled alike is mostly written alike.
-    pub(crate) wording: u32,
-}
+pub struct TextId(NonZeroU32);
 
-/// Where a wording and its pieces are, and what is known of it as a whole.
+/// Where a text and its pieces are, and what is known of it as a whole.
 #[derive(Clone, Debug, PartialEq)]
-struct Wording {
+struct Text {
     string: Range<u32>,
     pieces: Range<u32>,
     letters: Letters,
-    firsts: Firsts,
     is_plain: bool,
 }
-
-/// For each letter that a text has, where its first piece is among its pieces, or, in an endless text, some piece before.
-type Firsts = [u8; Letter::COUNT];
 
 /// A parameter text.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParameterText<'t> {
     string: &'t str,
     pieces: &'t [Piece],
-    firsts: Option<&'t Firsts>,
     /// All that it has.
     pub(crate) letters: Letters,
     /// Whether each of its pieces has another letter and its value is what it should be, without a reference to a variable.
@@ -82,114 +70,63 @@ pub(crate) enum Written {
 }
 
 impl ParameterTexts {
-    /// Adds a text as it is drawn. `recent`: what the last ones of these texts say.
-    pub(crate) fn push_drawn(&mut self, text: &str, recent: &mut Recent<u32>) -> TextId {
-        let drawn = packed(text);
-        if let Some(wording) = drawn.and_then(|drawn| recent.get(drawn)) {
-            return self.add(wording);
+    /// Adds a text as it is drawn.
+    pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
+        // What is milled alike is written alike, mostly nearby.
+        let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
+        if let Some(same) = self.texts.iter().rev().take(NEARBY).find(is_same) {
+            let same = same.clone();
+            return self.add(same);
         }
         // Nearly all texts are what they look like.
         let is_plain = !text.bytes().any(|byte| matches!(byte, b'%' | b'~'));
-        let wording =
-            if is_plain { self.wording(text) } else { self.wording(&joined(&without_percent_codes(text))) };
-        if let Some(drawn) = drawn {
-            recent.insert(drawn, wording);
-        }
-        self.add(wording)
+        if is_plain { self.push(text) } else { self.push(&joined(&without_percent_codes(text))) }
     }
 
     /// Adds a text whose lines are joined and codes replaced.
     pub(crate) fn push(&mut self, text: &str) -> TextId {
-        let wording = self.wording(text);
-        self.add(wording)
-    }
-
-    fn add(&mut self, wording: u32) -> TextId {
-        let number = NonZeroU32::MIN.saturating_add(self.count);
-        self.count = number.get();
-        TextId { number, wording }
-    }
-
-    /// Reads a text; the number of what it says.
-    fn wording(&mut self, text: &str) -> u32 {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
-        let (mut letters, mut firsts) = (Letters::default(), [0; Letter::COUNT]);
-        let (mut is_plain, mut end) = (true, 0);
+        let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
         while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
-            if let Some(letter) = piece.letter.filter(|_| is_new) {
-                firsts[letter as usize] = u8::try_from(self.pieces.len() - first).unwrap_or(u8::MAX);
-            }
             is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
         let (string, pieces) =
             (number(start)..number(self.string.len()), number(first)..number(self.pieces.len()));
-        self.wordings.push(Wording { string, pieces, letters, firsts, is_plain });
-        number(self.wordings.len() - 1)
+        self.add(Text { string, pieces, letters, is_plain })
+    }
+
+    fn add(&mut self, text: Text) -> TextId {
+        self.texts.push(text);
+        TextId(NonZeroU32::MIN.saturating_add(number(self.texts.len() - 1)))
     }
 
     /// One of these texts.
     pub fn get(&self, text: TextId) -> Option<ParameterText<'_>> {
-        self.wordings.get(text.wording as usize).map(|wording| self.text(wording))
+        self.texts.get(text.0.get() as usize - 1).map(|text| self.text(text))
     }
 
     /// The first of these texts.
     pub fn first(&self) -> Option<ParameterText<'_>> {
-        self.wordings.first().map(|wording| self.text(wording))
+        self.texts.first().map(|text| self.text(text))
     }
 
-    fn text<'t>(&'t self, wording: &'t Wording) -> ParameterText<'t> {
-        let Wording { string, pieces, letters, firsts, is_plain } = wording;
+    fn text(&self, text: &Text) -> ParameterText<'_> {
+        let Text { string, pieces, letters, is_plain } = text;
         ParameterText {
             string: &self.string[range(string)],
             pieces: &self.pieces[range(pieces)],
-            firsts: Some(firsts),
             letters: *letters,
             is_plain: *is_plain,
         }
     }
-
-    /// Whether nothing is wrong with a text, see [`ParameterText::is_right`].
-    pub(crate) fn is_right(&self, text: TextId, class: ElementClass) -> bool {
-        let wording = self.wordings.get(text.wording as usize);
-        wording.is_some_and(|it| is_right(it.is_plain, it.letters, class))
-    }
-
-    /// Adds to no texts all those of others.
-    pub(crate) fn copy(&mut self, others: &Self) {
-        let Self { string, pieces, wordings, count } = self;
-        string.reserve(others.string.len());
-        string.push_str(&others.string);
-        pieces.reserve(others.pieces.len());
-        pieces.extend_from_slice(&others.pieces);
-        wordings.reserve(others.wordings.len());
-        wordings.extend_from_slice(&others.wordings);
-        *count = others.count;
-    }
-
-    pub(crate) fn shrink_to_fit(&mut self) {
-        self.string.shrink_to_fit();
-        self.pieces.shrink_to_fit();
-        self.wordings.shrink_to_fit();
-    }
-
-    /// Forgets all texts.
-    pub(crate) fn clear(&mut self) {
-        let Self { string, pieces, wordings, count } = self;
-        string.clear();
-        pieces.clear();
-        wordings.clear();
-        *count = 0;
-    }
-
-    /// For how many pieces there is room.
-    pub(crate) fn room(&self) -> usize {
-        self.pieces.capacity().max(self.string.capacity() / 16)
-    }
 }
+
+/// With so many of the last texts a new one is compared before it is read.
+const NEARBY: usize = 8;
 
 fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
@@ -226,10 +163,7 @@ impl<'t> ParameterText<'t> {
 
     /// Which of the pieces is the first of a letter.
     pub(crate) fn index(self, letter: Letter) -> Option<usize> {
-        let firsts = self.firsts.filter(|_| self.letters.contains(letter))?;
-        let from = usize::from(firsts[letter as usize]);
-        let is_it = |piece: &Piece| piece.letter == Some(letter);
-        self.pieces.get(from..)?.iter().position(is_it).map(|behind| from + behind)
+        self.pieces.iter().position(|piece| piece.letter == Some(letter))
     }
 
     /// A piece's value as written.
@@ -252,11 +186,6 @@ impl<'t> ParameterText<'t> {
     /// The whole text underlined.
     pub fn whole(self) -> TextFault {
         TextFault::new(self.string, 0..self.string.len())
-    }
-
-    /// Whether nothing is wrong with it, as is soon seen of most texts.
-    pub(crate) fn is_right(self, class: ElementClass) -> bool {
-        is_right(self.is_plain, self.letters, class)
     }
 
     /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
@@ -285,7 +214,7 @@ impl<'t> ParameterText<'t> {
             return Some(unknown_letter(first, class));
         };
         let how = class.use_of(letter);
-        if how == Use::Unknown {
+        if matches!(how, Use::Unknown | Use::PathOnly) {
             return Some(unknown_letter(first, class));
         }
         if is_repeated {
@@ -328,10 +257,6 @@ impl Written {
             None => Self::NoNumber,
         }
     }
-}
-
-fn is_right(is_plain: bool, letters: Letters, class: ElementClass) -> bool {
-    is_plain && class.effective_letters().contain(letters)
 }
 
 fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {

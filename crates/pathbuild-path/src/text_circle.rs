@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};
 
+use crate::approx::above;
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
 /// A text's circle, in mm.
@@ -36,8 +37,11 @@ impl TextCircle {
 
     /// The circle of a text of several lines.
     pub fn of_mtext(text: &MText) -> Self {
-        let (lines, longest) = size(&text.plain);
-        let width = LETTER_WIDTH * text.height * longest as f64;
+        let letter = LETTER_WIDTH * text.height;
+        let room = text.width.map_or(f64::INFINITY, |width| width / letter);
+        let rows = text.plain.split('\n').flat_map(|line| Rows { words: line.split(' '), room, next: None });
+        let (lines, longest) = rows.fold((0, 0), |(rows, longest), row| (rows + 1, row.max(longest)));
+        let width = letter * longest as f64;
         let height = text.height * lines as f64;
         let offset = offset(text.horizontal, text.vertical, width, height);
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
@@ -90,20 +94,31 @@ impl TextCircle {
     }
 }
 
-/// How many lines a text has, and how many characters the longest of them.
-fn size(text: &str) -> (usize, usize) {
-    let (mut lines, mut longest, mut length) = (1, 0, 0);
-    for byte in text.bytes() {
-        if byte == b'\n' {
-            lines += 1;
-            longest = longest.max(length);
-            length = 0;
-        } else {
-            // Only the first byte of a character is none of these.
-            length += usize::from(!matches!(byte, 0x80..=0xBF));
+/// The rows in which a CAD draws a line of a text: broken at blanks where the next word has no room. Each by its number of characters.
+struct Rows<'t> {
+    words: std::str::Split<'t, char>,
+    /// For so many characters.
+    room: f64,
+    /// The length of the word that had no room.
+    next: Option<usize>,
+}
+
+impl Iterator for Rows<'_> {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        let mut words = self.words.by_ref().map(|word| word.chars().count());
+        let mut row = self.next.take().or_else(|| words.next())?;
+        for word in words {
+            let longer = row + 1 + word;
+            if above(longer as f64, self.room) {
+                self.next = Some(word);
+                break;
+            }
+            row = longer;
         }
+        Some(row)
     }
-    (lines, longest.max(length))
 }
 
 /// From the anchor to the middle of a text that is not turned.

@@ -3,20 +3,23 @@
 mod ends;
 mod failure;
 mod join;
+mod order;
 mod passage;
-
-use std::cell::Cell;
+mod stars;
+mod twice;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
-use crate::approx::{coincide, near};
+use crate::approx::coincide;
 use crate::chain::{Chain, ChainSegment, Grouped, Item};
-use crate::geometry::Xy;
+use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
-use crate::reuse::Reuse;
 
 use ends::Ends;
+use join::OpenEnds;
+use order::comes_before;
+use stars::Stars;
 
 pub(crate) use passage::{Passage, curve};
 
@@ -54,43 +57,15 @@ impl Walked {
     }
 }
 
-impl Reuse for Walked {
-    fn reuse(self) {
-        let Self { mut items, mut members, .. } = self;
-        items.clear();
-        members.clear();
-        if items.capacity().max(members.capacity()) <= MOST_KEPT {
-            WALKED.set(Self { items, members, diagnostics: Vec::new() });
-        }
-    }
-
-    fn shrink_to_fit(&mut self) {
-        self.items.shrink_to_fit();
-        self.members.shrink_to_fit();
-    }
-}
-
-/// Lists that are needed while a path is walked along.
-#[derive(Default)]
-struct Workspace {
-    ends: Ends,
-    is_traversed: Vec<bool>,
-    found: Vec<usize>,
-}
-
-thread_local! {
-    /// Those of the path before, for the next one.
-    static KEPT: Cell<Workspace> = Cell::default();
-    /// The memory of a walk that nobody keeps, empty.
-    static WALKED: Cell<Walked> = Cell::default();
-}
-
-/// They are kept if there is room in them for no more segments than these.
-const MOST_KEPT: usize = 1024;
+/// With so many segments at a point they are put in order at once.
+const CROWDED: usize = 16;
 
 struct Walk<'a> {
     path: &'a Path,
     ends: Ends,
+    stars: Stars,
+    /// The ends of segments that are not traversed, once one is looked for within the tolerance.
+    open_ends: Option<OpenEnds>,
     is_traversed: Vec<bool>,
     /// Segments at the current point; only room.
     found: Vec<usize>,
@@ -111,34 +86,29 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(path: &'a Path, join_tolerance: f64) -> Self {
-        let Workspace { mut ends, mut is_traversed, found } = KEPT.take();
         let count = path.segments.len();
-        ends.fill(path);
-        is_traversed.clear();
-        is_traversed.resize(count, false);
         Self {
             path,
             join_tolerance,
             joined: Vec::new(),
-            ends,
-            is_traversed,
-            found,
+            ends: Ends::new(path),
+            stars: Stars::default(),
+            open_ends: None,
+            is_traversed: vec![false; count],
+            found: Vec::new(),
             left: count,
             at: path.start,
             last: None,
-            grouped: Grouped::new(path, WALKED.take()),
+            grouped: Grouped::new(path),
             way_back: Vec::new(),
             has_acted: vec![false; path.turns.len()],
         }
     }
 
-    /// What came of it. Lists are kept for the next path.
+    /// What came of it.
     fn finish(self, result: Result<(), Box<Diagnostic>>) -> Walked {
         let idle = self.idle_markers();
-        let Self { ends, is_traversed, found, grouped, mut joined, .. } = self;
-        if ends.room() <= MOST_KEPT {
-            KEPT.set(Workspace { ends, is_traversed, found });
-        }
+        let Self { grouped, mut joined, .. } = self;
         let mut walked = match result {
             Ok(()) => grouped.finish(),
             Err(problem) => Walked::failed(*problem),
@@ -177,42 +147,49 @@ impl<'a> Walk<'a> {
 
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&mut self) -> Option<usize> {
+        if let Some(next) = self.stars.next(self.at, self.path, &self.ends, &self.is_traversed) {
+            return next;
+        }
         let mut found = std::mem::take(&mut self.found);
         self.ends.find_near(self.at, |segment| !self.is_traversed[segment], &mut found);
         // One scan in segment order: lengths are compared approximately, which is not transitive.
         found.sort_unstable();
-        let before = |best: usize, other: usize| if self.comes_before(other, best) { other } else { best };
+        let (path, ends) = (self.path, &self.ends);
+        let before = |best, other| if comes_before(path, ends, other, best) { other } else { best };
         let next = found.iter().copied().reduce(before);
+        if found.len() > CROWDED
+            && let Some(crowd) = ends.crowd(self.at, |segment| !self.is_traversed[segment])
+        {
+            self.stars.insert(self.at, crowd, path, ends);
+        }
         self.found = found;
         next
-    }
-
-    fn comes_before(&self, a: usize, b: usize) -> bool {
-        let rank = |segment: usize| {
-            let segment = &self.path.segments[segment];
-            (segment.order, segment.preference())
-        };
-        if rank(a) != rank(b) {
-            return rank(a) < rank(b);
-        }
-        let (length, other) = (self.chord(a), self.chord(b));
-        if near(length, other) { a < b } else { length < other }
-    }
-
-    /// The length of a segment at a star.
-    fn chord(&self, segment: usize) -> f64 {
-        let [start, end] = self.ends.of(segment);
-        (end - start).norm()
     }
 
     fn take(&mut self, segment: usize) {
         self.is_traversed[segment] = true;
         self.left -= 1;
+        if let Some(open_ends) = &mut self.open_ends {
+            open_ends.remove(segment, &self.ends);
+        }
         let passage = self.as_met_here(segment, Passage::drawn(self.ends.of(segment)), false);
+        // An arc keeps its centre and its radius: the gap before it becomes a short line.
+        if self.is_milled_arc(segment) && !coincide(passage.start, self.at) {
+            self.go(segment, passage.lead_in(self.at));
+        }
+        self.go(segment, passage);
+    }
+
+    fn go(&mut self, segment: usize, passage: Passage) {
         if !self.path.turns.is_empty() {
             self.way_back.push((segment, passage.clone()));
         }
         self.follow(segment, passage, false);
+    }
+
+    fn is_milled_arc(&self, segment: usize) -> bool {
+        let segment = &self.path.segments[segment];
+        matches!(segment.kind, SegmentKind::Cut(_)) && matches!(self.path.curve(segment), Some(Curve::Arc(_)))
     }
 
     #[inline]
@@ -233,14 +210,15 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The same of one that is near. Holes and circles stay where they are.
-    fn as_joined_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
-        let segment = &self.path.segments[segment];
+    /// The same of one that is near. Holes, circles and arcs stay where they are.
+    fn as_joined_here(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
+        let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
         let passage = if is_nearer_at_end { passage.turned_round() } else { passage };
         match segment.kind {
             SegmentKind::Hole(_) | SegmentKind::Helix(_) if !is_return => passage,
-            _ => passage.starting_at(self.at, self.path, segment),
+            SegmentKind::Cut(_) if self.is_milled_arc(number) => passage,
+            _ => passage.starting_at(self.at, segment),
         }
     }
 

@@ -50,6 +50,13 @@ messages! {
         help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
         help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
     }
+    /// Support bars where nothing is left to stand.
+    BARS_ON_HOLE: UnknownLineType {
+        en: "BORDER and CENTER have no meaning on a drilled hole",
+        de: "BORDER und CENTER haben auf einem Bohrloch keine Bedeutung",
+        help_en: "a circle of the cutter's diameter is drilled and leaves no support bars: use CONTINUOUS (to B) or DIVIDE (to D)",
+        help_de: "ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege: CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden",
+    }
     /// A text that belongs to nothing.
     TEXT_WITHOUT_ELEMENT: TextWithoutElement {
         en: "the text \"{text}\" belongs to no element: its circle is at {centre} with a diameter of {diameter} mm",

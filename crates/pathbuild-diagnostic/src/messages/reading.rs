@@ -72,12 +72,12 @@ messages! {
         help_en: "the entity has no extent; delete it or draw it anew",
         help_de: "das Element hat keine Ausdehnung; löschen oder neu zeichnen",
     }
-    /// A number that overflows when it is scaled, or a length that vanishes.
+    /// A coordinate or length beyond a kilometre, or a length that vanishes.
     TOO_LARGE: InvalidDxf {
-        en: "{entity} is too large or too small to be computed with",
-        de: "{entity} ist zu groß oder zu klein, um damit zu rechnen",
-        help_en: "the entity, or the block that it is in, has an absurd size; delete it or draw it anew",
-        help_de: "das Element oder der Block, in dem es steht, hat eine unsinnige Größe; löschen oder neu zeichnen",
+        en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0",
+        de: "{entity} liegt oder reicht weiter als 1.000.000 mm vom Nullpunkt, oder seine Größe ist 0",
+        help_en: "draw near the origin, at true size: move the entity, or the block that it is in, or delete it",
+        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: das Element oder seinen Block verschieben oder löschen",
     }
     /// An extrusion other than (0,0,1) and (0,0,-1).
     TILTED: OffPlane {
@@ -113,6 +113,13 @@ messages! {
         de: "{entity} wird ausgelassen: nur Linien und Bögen werden gefräst",
         help_en: "draw it with arcs, or set `approximate-curves` in pathbuild.toml to the largest deviation in mm that is allowed",
         help_de: "mit Bögen zeichnen, oder `approximate-curves` in pathbuild.toml auf die größte erlaubte Abweichung in mm setzen",
+    }
+    /// Polylines, blocks and curves with `compatible`; once a drawing.
+    NOT_COMPATIBLE: UnsupportedCurve {
+        en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
+        de: "Polylinien, Blöcke und Kurven auf Pfad-Layern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
+        help_en: "explode it into lines and arcs, or work without `compatible`, where it is milled",
+        help_de: "in Linien und Bögen auflösen, oder ohne `compatible` arbeiten: dann wird gefräst",
     }
     /// 3D polylines, meshes, polyface meshes.
     POLYLINE_NOT_FLAT: UnsupportedCurve {

@@ -89,6 +89,9 @@ const FRAME_POINT: i64 = 16;
 /// Bulges below this are straight: over a chord of a metre they are 5 nm high, and the radius would be too large to be accurate.
 const FLAT: f64 = 1e-8;
 
+/// An arc that is no higher than this, in mm, over its chord is printed as a line. It is one where its centre is too far off.
+const INVISIBLE: f64 = 0.0005;
+
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     x: f64,
@@ -122,12 +125,12 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
     if start == end {
         return None;
     }
-    let is_straight = from.bulge.abs() < FLAT || (start.x == end.x && start.y == end.y);
-    Some(if is_straight {
-        Geometry::Line(Line { start, end })
-    } else {
-        Geometry::Arc(bulged(start, end, from.bulge))
-    })
+    if from.bulge.abs() < FLAT || (start.x == end.x && start.y == end.y) {
+        return Some(Geometry::Line(Line { start, end }));
+    }
+    let arc = Geometry::Arc(bulged(start, end, from.bulge));
+    let height = libm::hypot(end.x - start.x, end.y - start.y) * from.bulge.abs() / 2.0;
+    Some(if height < INVISIBLE && !arc.is_sound() { Geometry::Line(Line { start, end }) } else { arc })
 }
 
 /// The arc over a chord. Its height is half the chord times the bulge.

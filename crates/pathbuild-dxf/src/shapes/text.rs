@@ -8,7 +8,7 @@ use crate::fields::{BadGroup, Fields};
 use crate::mtext::plain_text;
 use crate::placement::opposite;
 use crate::trouble::Trouble;
-use crate::{Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
+use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
 
 use super::{from_object_coordinates, is_mirrored};
 
@@ -43,9 +43,9 @@ pub(crate) fn text<'a>(
 pub(crate) fn mtext<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
-    longest: usize,
+    options: &Options<'_>,
 ) -> Result<Geometry, Trouble<'a>> {
-    let plain = plain_text(&joined_chunks(fields, decoder, longest)?);
+    let plain = plain_text(&joined_chunks(fields, decoder, options.max_text)?);
     let attachment = fields.whole(71)?.unwrap_or(1);
     let (horizontal, vertical) = attachment_align(attachment);
     let is_mirrored = is_mirrored(fields)?;
@@ -54,6 +54,7 @@ pub(crate) fn mtext<'a>(
         plain,
         anchor: fields.point(10)?,
         height: fields.length(40)?,
+        width: fields.number(41)?.filter(|width| *width > 0.0 && !options.compatible),
         rotation,
         horizontal: if is_mirrored { opposite(horizontal) } else { horizontal },
         vertical,

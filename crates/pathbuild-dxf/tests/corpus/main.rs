@@ -25,6 +25,7 @@ fn read_all(bytes: &[u8]) -> Drawing {
         approximate_curves: 0.01,
         max_entities: 1_000_000,
         max_text: 65_536,
+        compatible: false,
     };
     read(bytes, &options)
 }

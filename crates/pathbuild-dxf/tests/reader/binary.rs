@@ -50,7 +50,7 @@ fn binary(ascii: &str, codes: Codes) -> Vec<u8> {
 const HEADER: &str = "9 $ACADVER\n1 AC1021\n9 $INSUNITS\n70 4";
 const TABLES: &str = "0 TABLE\n2 LAYER\n0 LAYER\n2 A\n70 1\n62 7\n6 DASHED\n290 1\n370 -3\n0 ENDTAB";
 const BLOCKS: &str = "0 BLOCK\n2 B\n10 1\n20 0\n0 CIRCLE\n8 A\n10 1\n20 0\n40 1\n0 ENDBLK";
-const ENTITIES: &str = "0 LINE\n5 1F\n8 A\n420 16711680\n10 0.1\n20 -1e-7\n11 1e300\n21 3\n1001 APP\n1070 5\n1071 70000\n1040 1.5\n1004 abc\n0 TEXT\n8 A\n10 0\n20 0\n40 2.5\n1 T3 94°\n160 5\n310 xyz\n0 INSERT\n8 A\n2 B\n10 5\n20 5\n";
+const ENTITIES: &str = "0 LINE\n5 1F\n8 A\n420 16711680\n10 0.1\n20 -1e-7\n11 1e5\n21 3\n1001 APP\n1070 5\n1071 70000\n1040 1.5\n1004 abc\n0 TEXT\n8 A\n10 0\n20 0\n40 2.5\n1 T3 94°\n160 5\n310 xyz\n0 INSERT\n8 A\n2 B\n10 5\n20 5\n";
 
 #[test]
 fn both_kinds_are_read_like_ascii() {

@@ -3,6 +3,7 @@
 mod binary;
 mod block_layers;
 mod blocks;
+mod compatible;
 mod curves;
 mod encoding;
 mod entities;

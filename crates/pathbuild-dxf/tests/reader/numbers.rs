@@ -5,11 +5,11 @@ use proptest::prelude::*;
 
 use crate::support::{entities, faults, read_all};
 
-/// What is read from a number's text.
+/// What is read from a number's text: of an angle, which may be any number.
 fn number(text: &str) -> Result<f64, String> {
-    let drawing = read_all(entities(&format!("0 CIRCLE\n8 A\n10 {text}\n20 0\n40 1")));
+    let drawing = read_all(entities(&format!("0 TEXT\n8 A\n50 {text}\n10 0\n20 0\n40 1\n1 x")));
     match drawing.entities.first().map(|entity| &entity.geometry) {
-        Some(Geometry::Circle(circle)) => Ok(circle.centre.x),
+        Some(Geometry::Text(text)) => Ok(text.rotation),
         _ => Err(faults(&drawing).join("; ")),
     }
 }
@@ -41,19 +41,16 @@ fn usual_forms_are_read() {
 fn other_forms_are_errors() {
     for text in ["", " ", "x", "1x", "1 2", "-", ".", "-.", "1.2.3", "--1", "1e", "0x10", "1_000", "D2", "1D"]
     {
-        let fault = format!("PB002 10 A: CIRCLE: group 10 should hold a number, not \"{}\"", text.trim());
+        let fault = format!("PB002 10 A: TEXT: group 50 should hold a number, not \"{}\"", text.trim());
         assert_eq!(number(text), Err(fault), "{text:?}");
     }
 }
 
 #[test]
 fn a_decimal_comma_is_named_as_such() {
-    let fault = "PB002 10 A: CIRCLE: \"1,5\" in group 10 has a decimal comma, DXF numbers have a point";
+    let fault = "PB002 10 A: TEXT: \"1,5\" in group 50 has a decimal comma, DXF numbers have a point";
     assert_eq!(number("1,5"), Err(fault.into()));
-    assert_eq!(
-        number("1,5,0"),
-        Err("PB002 10 A: CIRCLE: group 10 should hold a number, not \"1,5,0\"".into())
-    );
+    assert_eq!(number("1,5,0"), Err("PB002 10 A: TEXT: group 50 should hold a number, not \"1,5,0\"".into()));
     let drawing = read_all(entities("0 CIRCLE\n8 A\n10 1,5\n20 0\n40 1"));
     let text = drawing.faults[0].diagnostic.text.as_ref().expect("the value");
     assert_eq!((&*text.text, text.span()), ("1,5", 1..2));
@@ -62,10 +59,40 @@ fn a_decimal_comma_is_named_as_such() {
 #[test]
 fn numbers_that_are_not_finite_are_errors() {
     for text in ["nan", "NaN", "inf", "-inf", "infinity", "1e400", "-1e400", "1D999"] {
-        let fault = format!("PB002 10 A: CIRCLE: \"{text}\" in group 10 is no finite number");
+        let fault = format!("PB002 10 A: TEXT: \"{text}\" in group 50 is no finite number");
         assert_eq!(number(text), Err(fault), "{text:?}");
     }
     assert_eq!(number("1e308"), Ok(1e308));
+}
+
+/// Beyond a kilometre nothing is drawn that a machine could reach.
+#[test]
+fn coordinates_and_lengths_are_at_most_a_kilometre() {
+    let is_sound = |entity: &str| read_all(entities(entity)).faults.is_empty();
+    for (number, is_within) in
+        [("1000000", true), ("-1000000", true), ("1000000.001", false), ("-1e37", false)]
+    {
+        assert_eq!(is_sound(&format!("0 CIRCLE\n8 A\n10 {number}\n20 0\n40 1")), is_within, "{number}");
+        assert_eq!(is_sound(&format!("0 LINE\n8 A\n10 0\n20 0\n11 0\n21 {number}")), is_within, "{number}");
+        assert_eq!(
+            is_sound(&format!("0 ARC\n8 A\n10 0\n20 {number}\n40 1\n50 0\n51 9")),
+            is_within,
+            "{number}"
+        );
+        assert_eq!(is_sound(&format!("0 TEXT\n8 A\n10 {number}\n20 0\n40 1\n1 x")), is_within, "{number}");
+    }
+    for (length, is_within) in [("1000000", true), ("1000000.001", false), ("1e308", false)] {
+        assert_eq!(is_sound(&format!("0 CIRCLE\n8 A\n10 0\n20 0\n40 {length}")), is_within, "{length}");
+        assert_eq!(
+            is_sound(&format!("0 ARC\n8 A\n10 0\n20 0\n40 {length}\n50 0\n51 9")),
+            is_within,
+            "{length}"
+        );
+        assert_eq!(is_sound(&format!("0 TEXT\n8 A\n10 0\n20 0\n40 {length}\n1 x")), is_within, "{length}");
+        assert_eq!(is_sound(&format!("0 MTEXT\n8 A\n10 0\n20 0\n40 {length}\n1 x")), is_within, "{length}");
+    }
+    let fault = "PB002 5 A: CIRCLE lies or reaches more than 1,000,000 mm from the origin, or its size is 0";
+    assert_eq!(faults(&read_all(entities("0 CIRCLE\n8 A\n10 1e7\n20 0\n40 1"))), [fault]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ pub(crate) fn options() -> Options<'static> {
         approximate_curves: 0.0,
         max_entities: 100_000,
         max_text: 65_536,
+        compatible: false,
     }
 }
 

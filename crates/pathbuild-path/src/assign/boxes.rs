@@ -17,7 +17,6 @@ pub(crate) enum Boxes {
 }
 
 /// The boxes of a few candidates.
-#[derive(Default)]
 pub(crate) struct List {
     fours: Vec<Four>,
     count: usize,
@@ -41,25 +40,18 @@ const SLACK: f64 = 1e-6;
 
 impl Default for Boxes {
     fn default() -> Self {
-        Self::List(List::default())
+        Self::new(&[])
     }
 }
 
 impl Boxes {
-    /// Takes those of these candidates for any that there were before.
-    pub(crate) fn fill(&mut self, candidates: &[Candidate]) {
+    pub(crate) fn new(candidates: &[Candidate]) -> Self {
         let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
-        if candidates.len() > FEW {
-            let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
-            *self = Self::Tree(RTree::bulk_load(numbered.collect()));
-            return;
+        if candidates.len() <= FEW {
+            return Self::List(List::new(boxes));
         }
-        let mut list = match self {
-            Self::List(list) => std::mem::take(list),
-            Self::Tree(_) => List::default(),
-        };
-        list.fill(boxes);
-        *self = Self::List(list);
+        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
+        Self::Tree(RTree::bulk_load(numbered.collect()))
     }
 
     /// Takes each candidate whose box a circle touches, in any order; in a list also some that it nearly touches.
@@ -88,21 +80,20 @@ impl Boxes {
 }
 
 impl List {
-    fn fill(&mut self, boxes: impl Iterator<Item = AABB<[f64; 2]>>) {
-        let Self { fours, count } = self;
-        fours.clear();
-        *count = 0;
+    fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
+        let (mut fours, mut count) = (Vec::new(), 0);
         let mut sides = boxes.map(|box_| sides(&box_));
         while let Some(first) = sides.next() {
             // What is missing in the last is nowhere.
             let mut four = [first, [f32::INFINITY; 4], [f32::INFINITY; 4], [f32::INFINITY; 4]];
-            *count += 1;
+            count += 1;
             for (place, next) in four[1..].iter_mut().zip(&mut sides) {
                 *place = next;
-                *count += 1;
+                count += 1;
             }
             fours.push(Four(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
         }
+        Self { fours, count }
     }
 
     fn each_within(&self, limits: Sides, mut take: impl FnMut(usize)) {

@@ -1,15 +1,15 @@
-//! Circles: drilled holes, of which many say the same, and helical circles.
+//! Circles: drilled holes and helical circles.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, walk};
 
-use super::cuts::key;
-use super::segments::Scope;
+use super::segments::{Scope, pushed};
 use super::{At, Binder};
-use crate::approx::{above, near};
+use crate::approx::above;
 use crate::element::{Cut, Element};
 use crate::geometry::Xy;
-use crate::letter::{ElementClass, Letter};
+use crate::letter::Letter;
+use crate::matrix::ElementClass;
 use crate::path::{Helix, Hole, SegmentKind};
 use crate::values::Given;
 
@@ -26,54 +26,44 @@ impl Binder<'_> {
         radius: f64,
         tool: Option<f64>,
     ) -> Option<(f64, SegmentKind)> {
-        let is_hole = tool.is_some_and(|tool| near(radius, tool / 2.0));
-        let key = key(element, cut);
-        if let Some((order, number)) = self.known.get(key).filter(|_| is_hole) {
-            return Some((order, SegmentKind::Hole(number)));
-        }
-        let reported = self.reported;
         let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
-        let values = self.element_values(At::Element(element), text, class == ElementClass::HelicalSupport);
-        let scope = Scope { element, class, values: &values, tool };
+        let values = self.element_values(At::Element(element), text, class);
+        let scope = Scope { at: At::Element(element), class, values: &values };
         let tool = tool?;
-        if is_hole {
-            let hole = self.hole(&scope, cut)?;
-            let number = u32::try_from(self.holes.len()).unwrap_or(u32::MAX);
-            self.holes.push(hole);
-            if self.reported == reported {
-                self.known.insert(key, (BEFORE_ALL, number));
+        match class {
+            ElementClass::DrilledHole | ElementClass::DrilledMark => {
+                let hole = self.hole(&scope, cut)?;
+                Some((BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole))))
             }
-            return Some((BEFORE_ALL, SegmentKind::Hole(number)));
+            ElementClass::UnknownCircle => {
+                let problem = Diagnostic::new(&drawing::CIRCLE_TOO_SMALL)
+                    .with("diameter", 2.0 * radius)
+                    .with("tool", tool);
+                self.report(scope.at, problem);
+                None
+            }
+            _ => {
+                let helix = self.helix(&scope, cut, centre, radius, tool)?;
+                Some((BEFORE_ALL + radius, SegmentKind::Helix(pushed(&mut self.helices, helix))))
+            }
         }
-        if radius < tool / 2.0 {
-            let problem =
-                Diagnostic::new(&drawing::CIRCLE_TOO_SMALL).with("diameter", 2.0 * radius).with("tool", tool);
-            self.report(At::Element(element), problem);
-            return None;
-        }
-        let helix = self.helix(&scope, cut, centre, radius, tool)?;
-        let number = u32::try_from(self.helices.len()).unwrap_or(u32::MAX);
-        self.helices.push(helix);
-        Some((BEFORE_ALL + radius, SegmentKind::Helix(number)))
     }
 
     fn hole(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<Hole> {
-        let bottom = self.needed(scope, if cut == Cut::Mark { Letter::D } else { Letter::B })?;
         Some(Hole {
-            bottom,
-            feed: self.allowed(scope, Letter::F),
-            peck: self.allowed(scope, Letter::C),
+            bottom: self.value(scope, cut.depth())?,
+            feed: self.value(scope, Letter::F),
+            peck: self.value(scope, Letter::C),
             comment: scope.values.text(Letter::Q).map(Into::into),
         })
     }
 
     fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Option<Helix> {
         self.check_size(scope, radius, tool);
-        let infeed = self.needed(scope, Letter::I);
-        let bottom = self.needed(scope, if cut == Cut::Mark { Letter::D } else { Letter::B });
+        let (infeed, bottom) = (self.value(scope, Letter::I), self.value(scope, cut.depth()));
         let bars = if cut == Cut::Support {
             let inner = radius - tool / 2.0;
-            Some(self.bars(scope, 2.0 * std::f64::consts::PI * inner)?)
+            Some(self.bars(scope, 2.0 * std::f64::consts::PI * inner, Some(tool))?)
         } else {
             None
         };
@@ -83,7 +73,7 @@ impl Binder<'_> {
             radius,
             bottom: bars.map_or(bottom, |bars| bars.top),
             bars: bars.map(|bars| (bottom, bars)),
-            feed: self.allowed(scope, Letter::F),
+            feed: self.value(scope, Letter::F),
             infeed: infeed?,
             comment: scope.values.text(Letter::Q).map(Into::into),
         })
@@ -98,7 +88,7 @@ impl Binder<'_> {
         if above(2.0 * radius, largest) {
             let problem =
                 Diagnostic::new(&walk::HELIX_TOO_LARGE).with("diameter", 2.0 * radius).with("limit", largest);
-            self.report(At::Element(scope.element), problem);
+            self.report(scope.at, problem);
         }
     }
 }

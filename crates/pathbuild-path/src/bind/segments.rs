@@ -7,7 +7,8 @@ use smol_str::SmolStr;
 use super::{At, Binder};
 use crate::element::{Element, Role, Shape};
 use crate::geometry::Curve;
-use crate::letter::{ElementClass, Letter};
+use crate::letter::Letter;
+use crate::matrix::{ElementClass, Use};
 use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{ParameterText, Piece};
 use crate::values::{Given, Values};
@@ -20,6 +21,7 @@ impl Binder<'_> {
         let raw = self.raw;
         let mut segments = std::mem::take(&mut self.segments);
         segments.reserve(raw.drawn.elements.len());
+        self.cuts.reserve(raw.drawn.elements.len());
         for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
             let segment = |order, kind| Segment { element: number, order, kind };
             match (element.role, &element.shape) {
@@ -46,17 +48,19 @@ impl Binder<'_> {
     /// What any other element is in the path, with its order at a star.
     fn other(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
         let Shape::Curve(curve) = element.shape else { return None };
-        let values = self.element_values(At::Element(element), self.raw.drawn.text(element.text), false);
-        let order = values.number(Letter::N).number().unwrap_or(UNNUMBERED);
+        let class = element.class(None);
+        let values = self.element_values(At::Element(element), self.raw.drawn.text(element.text), class);
+        let scope = Scope { at: At::Element(element), class, values: &values };
+        let order = self.value(&scope, Letter::N).unwrap_or(UNNUMBERED);
         if element.role != Role::Subpath {
-            return Some((order, SegmentKind::Sweep { height: values.number(Letter::S).number() }));
+            return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
         }
-        let subpath = self.subpath(element, &values, curve)?;
+        let subpath = self.subpath(element, &scope, curve)?;
         Some((order, SegmentKind::Subpath(Box::new(subpath))))
     }
 
-    fn subpath(&mut self, element: &Element, values: &Values<'_>, curve: Curve) -> Option<Subpath> {
-        let inherited = |letter| values.number(letter).or(self.values.number(letter)).number();
+    fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Option<Subpath> {
+        let values = scope.values;
         let own_text = |letter| values.text(letter).map(SmolStr::from);
         let value = |(value, piece): (&str, &Piece)| {
             let mut characters = value.chars();
@@ -68,10 +72,10 @@ impl Binder<'_> {
             start: curve.start(),
             end: curve.end(),
             name: self.subpath_name(values, self.raw.drawn.text(element.text)),
-            thickness: inherited(Letter::T)?,
-            tool: inherited(Letter::O)?,
+            thickness: self.value(scope, Letter::T)?,
+            tool: self.value(scope, Letter::O)?,
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
-            height: values.number(Letter::H).number().unwrap_or(0.0),
+            height: self.value(scope, Letter::H).unwrap_or_default(),
             values: values.variables().map(value).collect(),
             text: element.text,
         })
@@ -90,28 +94,35 @@ impl Binder<'_> {
         }
     }
 
-    /// A value that the element or the path must give: PB201 where neither does.
-    pub(super) fn needed(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
-        let given = scope.values.number(letter).or(self.values.number(letter));
-        if given == Given::Absent {
+    /// What a letter says on an element by the table of letters: its own value, else the path's; PB201 where it is needed and neither gives one.
+    pub(super) fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
+        let usage = scope.class.use_of(letter);
+        let given = match usage {
+            Use::Unknown | Use::Ignored => return None,
+            Use::PathOnly => self.values.number(letter),
+            _ => scope.values.number(letter).or(self.values.number(letter)),
+        };
+        // What every path must give is missing there, and reported once.
+        let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
+        if usage == Use::Needed && given == Given::Absent && is_missing_here() {
             let problem = Diagnostic::new(&messages::MISSING)
                 .with("letter", letter.as_char())
                 .with("element", scope.class.word());
-            self.report(At::Element(scope.element), problem);
+            self.report(scope.at, problem);
         }
         given.number()
     }
-
-    /// A value that the element or the path may give.
-    pub(super) fn allowed(&self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
-        scope.values.number(letter).or(self.values.number(letter)).number()
-    }
 }
 
-/// The element whose segment is being made.
+/// The element whose values are asked for.
 pub(super) struct Scope<'a> {
-    pub(super) element: &'a Element,
+    pub(super) at: At<'a>,
     pub(super) class: ElementClass,
     pub(super) values: &'a Values<'a>,
-    pub(super) tool: Option<f64>,
+}
+
+/// The index of something behind all others.
+pub(super) fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
+    list.push(thing);
+    u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
 }

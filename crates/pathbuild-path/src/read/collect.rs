@@ -9,15 +9,14 @@ use pathbuild_dxf::Drawing;
 
 use super::Starts;
 use super::checked::Checked;
-use super::elements::{Elements, Place};
-use super::layers::{FoundLayer, Membership};
+use super::layers::{FoundLayer, Membership, PathLayers};
 use super::texts::Texts;
-use super::workspace::Workspace;
 use crate::assign::Candidate;
-use crate::element::Marker;
+use crate::element::{Element, Marker, Shape};
+use crate::geometry::Curve;
 use crate::line_type::LineTypes;
 use crate::name::PathName;
-use crate::raw::{Language, Position, RawPath, SourceMap};
+use crate::raw::{Drawn, Language, Position, RawPath, SourceMap};
 use crate::text::ParameterTexts;
 
 /// A path while its entities are being collected.
@@ -27,7 +26,8 @@ pub(crate) struct Collected<'d> {
     pub(super) end: Option<Marker>,
     pub(super) turns: Vec<Marker>,
     pub(crate) probes: Vec<Marker>,
-    pub(crate) elements: Elements,
+    /// In file order.
+    pub(crate) elements: Vec<Element>,
     /// The texts that found an element.
     pub(crate) given: ParameterTexts,
     pub(crate) map: SourceMap,
@@ -44,23 +44,20 @@ pub(crate) struct Collected<'d> {
 pub(crate) enum Owner {
     Start,
     Probe(usize),
-    Element(Place),
+    /// By its place among the path's elements.
+    Element(usize),
     /// An element that is reported anyway.
     Faulty,
 }
 
 /// The paths of a drawing in order of first appearance, their texts not yet assigned.
-pub(super) fn paths<'d>(
-    drawing: &'d Drawing,
-    language: &Language,
-    workspace: &mut Workspace,
-) -> Vec<Collected<'d>> {
-    let mut layers = workspace.path_layers();
-    layers.find(drawing, &language.path_pattern);
-    // Mostly there is one layer, with everything on it.
-    let room = drawing.entities.len() / layers.count().max(1);
-    let mut paths = workspace.collected();
-    paths.extend(layers.by_path().map(|layers| Collected::new(drawing, layers, room, workspace)));
+pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
+    let layers = PathLayers::find(drawing, &language.path_pattern);
+    let mut paths: Vec<_> = layers.by_path().map(|layers| Collected::new(drawing, layers)).collect();
+    if let [path] = &mut paths[..] {
+        path.map.0.reserve(drawing.entities.len());
+        path.elements.reserve(drawing.entities.len());
+    }
     let mut line_types = LineTypes::new(&language.line_types);
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
         if let Some(Membership { path, layer }) = layers.membership(entity.layer) {
@@ -79,23 +76,22 @@ pub(super) fn paths<'d>(
             paths[path].add_located(&left_out.diagnostic);
         }
     }
-    workspace.keep_path_layers(layers);
     paths
 }
 
 impl Collected<'_> {
-    /// A path with these layers, with room for so many entities on each.
-    fn new(drawing: &Drawing, layers: &[FoundLayer], room: usize, workspace: &mut Workspace) -> Self {
+    /// A path with these layers.
+    fn new(drawing: &Drawing, layers: &[FoundLayer]) -> Self {
         let mut path = Self {
             name: layers[0].path.clone(),
             start: None,
             end: None,
             turns: Vec::new(),
             probes: Vec::new(),
-            elements: workspace.elements(),
-            given: workspace.texts(),
-            map: workspace.map(layers.len() * room),
-            texts: Texts::new(workspace.layers()),
+            elements: Vec::new(),
+            given: ParameterTexts::default(),
+            map: SourceMap::default(),
+            texts: Texts::default(),
             left_out: Vec::new(),
             diagnostics: Vec::new(),
             has_broken_circle: false,
@@ -104,7 +100,7 @@ impl Collected<'_> {
         };
         for found in layers {
             let layer = &drawing.layers[found.number];
-            path.texts.add_layer(&layer.name, workspace.layer());
+            path.texts.add_layer(&layer.name);
             if layer.hidden {
                 path.report_hidden(&layer.name);
             }
@@ -144,33 +140,32 @@ impl Collected<'_> {
         }
     }
 
-    /// Puts the elements into the order of segments, and checks what needs no values. Nothing is left here.
-    pub(super) fn finish(&mut self, starts: &Starts, workspace: &mut Workspace) -> (RawPath, SourceMap) {
-        let mut shared = workspace.drawn();
-        let drawn = Arc::make_mut(&mut shared);
-        self.elements.take_in_order(&mut drawn.elements);
-        drawn.texts.copy(&self.given);
-        take(&mut self.texts).take_layer_names(&mut drawn.layers, workspace);
-        workspace.keep_elements(take(&mut self.elements));
-        workspace.keep_texts(take(&mut self.given));
+    /// Puts the elements into the order of segments, and checks what needs no values.
+    pub(super) fn finish(mut self, starts: &Starts) -> (RawPath, SourceMap) {
+        self.elements.sort_by_key(|element| match element.shape {
+            Shape::Circle { .. } => 0,
+            Shape::Curve(Curve::Line(_)) => 1,
+            Shape::Curve(Curve::Arc(_)) => 2,
+        });
+        let drawn = Drawn { elements: self.elements, texts: self.given, layers: self.texts.layer_names() };
         let mut raw = RawPath {
-            name: self.name.clone(),
-            start: self.start.take(),
-            end: self.end.take(),
-            turns: take(&mut self.turns),
-            probes: take(&mut self.probes),
-            drawn: shared,
+            name: self.name,
+            start: self.start,
+            end: self.end,
+            turns: self.turns,
+            probes: self.probes,
+            drawn: Arc::new(drawn),
             parameters: None,
             borrowed_from: None,
             definitions: Vec::new(),
-            left_out: take(&mut self.left_out),
-            diagnostics: take(&mut self.diagnostics),
+            left_out: self.left_out,
+            diagnostics: self.diagnostics,
         };
         let (has_broken_circle, has_broken_entity) = (self.has_broken_circle, self.has_broken_entity);
         let mut checked = Checked { raw: &mut raw, has_broken_circle, has_broken_entity };
         checked.check_markers();
         checked.check_parameters(starts);
-        (raw, take(&mut self.map))
+        (raw, self.map)
     }
 
     fn report_hidden(&mut self, layer: &str) {

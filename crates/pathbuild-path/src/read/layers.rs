@@ -1,11 +1,10 @@
 //! Which layers belong to which path. (spec/20-paths-and-files.md)
 
-use pathbuild_dxf::Drawing;
+use pathbuild_dxf::{Drawing, Layer};
 
 use crate::name::{PathName, PathPattern};
 
 /// The path layers of a drawing.
-#[derive(Default)]
 pub(super) struct PathLayers {
     /// In file order, but those of a path behind its first.
     found: Vec<FoundLayer>,
@@ -33,14 +32,13 @@ pub(super) struct Membership {
 }
 
 impl PathLayers {
-    /// Takes those of a drawing for any that there were before.
-    pub(super) fn find(&mut self, drawing: &Drawing, pattern: &PathPattern) {
-        let Self { found, memberships } = self;
-        found.clear();
-        found.extend(drawing.layers.iter().enumerate().filter_map(|(number, layer)| {
+    /// Those of a drawing.
+    pub(super) fn find(drawing: &Drawing, pattern: &PathPattern) -> Self {
+        let layer = |(number, layer): (usize, &Layer)| {
             let path = pattern.layer(&layer.name)?.path;
             Some(FoundLayer { path, number, first: number })
-        }));
+        };
+        let mut found: Vec<FoundLayer> = drawing.layers.iter().enumerate().filter_map(layer).collect();
         found.sort_by(|one, other| one.path.cmp(&other.path));
         for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
             let first = of_path[0].number;
@@ -49,18 +47,13 @@ impl PathLayers {
             }
         }
         found.sort_by_key(|layer| layer.first);
-        memberships.clear();
-        memberships.resize(drawing.layers.len(), None);
-        for (path, layers) in by_path(found).enumerate() {
+        let mut memberships = vec![None; drawing.layers.len()];
+        for (path, layers) in by_path(&found).enumerate() {
             for (layer, found) in (0_u32..).zip(layers) {
                 memberships[found.number] = Some(Membership { path, layer });
             }
         }
-    }
-
-    /// How many there are.
-    pub(super) fn count(&self) -> usize {
-        self.found.len()
+        Self { found, memberships }
     }
 
     /// The layers of each path, in order of first appearance.
@@ -71,11 +64,6 @@ impl PathLayers {
     /// The path that a layer belongs to; `None` for a layer that is no path layer.
     pub(super) fn membership(&self, layer: u32) -> Option<Membership> {
         self.memberships[layer as usize]
-    }
-
-    /// For how many layers there is room.
-    pub(super) fn room(&self) -> usize {
-        self.found.capacity().max(self.memberships.capacity())
     }
 }
 

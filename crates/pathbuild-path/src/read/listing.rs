@@ -7,7 +7,6 @@ use pathbuild_dxf::{Drawing, Entity};
 
 use super::collect::{self, Collected};
 use super::texts::Match;
-use super::workspace::Workspace;
 use crate::element::Shape;
 use crate::name::PathName;
 use crate::raw::{Language, Position};
@@ -49,7 +48,7 @@ pub struct AssignedElement {
 pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedText> {
     let entities = entities_by_path(drawing, language);
     let mut texts: Vec<AssignedText> = Vec::new();
-    for path in collect::paths(drawing, language, &mut Workspace::default()) {
+    for path in collect::paths(drawing, language) {
         let Collected { name, map, texts: found, .. } = path;
         let Some(entities) = entities.get(&name) else { continue };
         let at = |id: ElementId| map.positions()[id.0 as usize];

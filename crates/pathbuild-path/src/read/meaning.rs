@@ -29,7 +29,7 @@ impl<'d> Collected<'d> {
         entity: &'d Entity,
         layer: u32,
         position: Position,
-        line_types: &mut LineTypes<'_>,
+        line_types: &mut LineTypes<'_, 'd>,
     ) {
         let source = Source { id: self.next_id(position), entity: entity.kind, layer };
         let found = |line_type| Found { source, entity, line_type };
@@ -95,7 +95,7 @@ impl<'d> Collected<'d> {
             CircleMeaning::UnknownDiameter => {
                 let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
                     .with("line_type", &*found.entity.line_type)
-                    .with("diameter", 2.0 * radius);
+                    .with("diameter", exact(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
                 self.candidate(found, shape, Owner::Faulty);
             }
@@ -147,7 +147,7 @@ impl<'d> Collected<'d> {
 
     fn add_element(&mut self, found: &Found<'_>, shape: Shape, role: Role) {
         if role != Role::SilentSweep {
-            self.candidate(found, shape, Owner::Element(self.elements.next(&shape)));
+            self.candidate(found, shape, Owner::Element(self.elements.len()));
         }
         self.elements.push(Element { source: found.source, shape, role, text: None });
     }
@@ -157,6 +157,12 @@ impl<'d> Collected<'d> {
         let candidate = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
         self.texts.add_candidate(source.layer, candidate);
     }
+}
+
+/// A length with as many digits as tell it from what it nearly is: 1.0001, not 1.
+fn exact(length: f64) -> Value {
+    let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
+    if is_shown { length.into() } else { format!("{length:.9}").trim_end_matches('0').into() }
 }
 
 pub(super) fn xy(point: Point3) -> Xy {

@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
+use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
 use super::checked::Checked;
 use super::{Start, Starts};
 use crate::definition::Definition;
-use crate::letter::{ElementClass, Letter};
+use crate::element::{Cut, Role};
+use crate::letter::Letter;
+use crate::matrix::ElementClass;
 use crate::name::PathName;
 use crate::text::{ParameterText, Piece};
 
@@ -34,10 +37,8 @@ impl Checked<'_> {
                 }
             }
         }
-        if !self.raw.parameters().is_right(ElementClass::PathStart) {
-            for problem in self.raw.parameters().problems(ElementClass::PathStart) {
-                self.report(self.raw.at_parameters(problem));
-            }
+        for problem in self.raw.parameters().problems(ElementClass::PathStart) {
+            self.report(self.raw.at_parameters(problem));
         }
         self.define_variables();
         self.check_elements(self.raw.tool());
@@ -50,6 +51,12 @@ impl Checked<'_> {
 
     fn check_elements(&mut self, tool: Option<f64>) {
         let drawn = Arc::clone(&self.raw.drawn);
+        for element in &drawn.elements {
+            let class = element.class(tool);
+            if element.role == Role::Cut(Cut::Support) && class == ElementClass::DrilledHole {
+                self.report(drawn.origin(element).at(Diagnostic::new(&BARS_ON_HOLE)));
+            }
+        }
         let mut seen = None;
         for element in &drawn.elements {
             let Some(text) = element.text else { continue };
@@ -57,11 +64,7 @@ impl Checked<'_> {
             if seen.replace(text) == Some(text) {
                 continue;
             }
-            let class = element.class(tool);
-            if drawn.texts.is_right(text, class) {
-                continue;
-            }
-            let problems = drawn.texts.get(text).map(|text| text.problems(class));
+            let problems = drawn.texts.get(text).map(|text| text.problems(element.class(tool)));
             for problem in problems.into_iter().flatten() {
                 self.report(drawn.origin(element).at(problem));
             }

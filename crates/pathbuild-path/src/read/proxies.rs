@@ -7,7 +7,7 @@ use pathbuild_dxf::{Drawing, Entity, Geometry};
 
 use super::collect::Owner;
 use super::meaning::{plane_arc, xy};
-use super::texts::{LayerTexts, Texts};
+use super::texts::Texts;
 use crate::assign::Candidate;
 use crate::element::{Origin, Shape, Source};
 use crate::geometry::{Curve, Line};
@@ -68,7 +68,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
     let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
     for layer in &drawing.layers {
-        texts.add_layer(&layer.name, LayerTexts::default());
+        texts.add_layer(&layer.name);
     }
     for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
         if is_path[entity.layer as usize] {

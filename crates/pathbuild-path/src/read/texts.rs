@@ -10,11 +10,9 @@ use smol_str::SmolStr;
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
-use super::workspace::{Workspace, emptied};
 use crate::assign::{Boxes, Candidate, find, nearest_miss};
 use crate::element::{Origin, Shape, Source, shown};
 use crate::geometry::Xy;
-use crate::packed::Recent;
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 use crate::text_circle::TextCircle;
 
@@ -26,7 +24,7 @@ pub(crate) struct Texts<'d> {
 
 /// Those of one layer.
 #[derive(Default)]
-pub(super) struct LayerTexts<'d> {
+struct LayerTexts<'d> {
     name: SmolStr,
     candidates: Vec<Candidate>,
     /// Where they lie, once that is asked for.
@@ -43,24 +41,14 @@ pub(crate) struct Match<'d> {
 }
 
 impl<'d> Texts<'d> {
-    /// None yet, in the room of an empty list of layers.
-    pub(super) fn new(layers: Vec<LayerTexts<'d>>) -> Self {
-        Self { layers }
+    /// The next layer.
+    pub(super) fn add_layer(&mut self, name: &str) {
+        self.layers.push(LayerTexts { name: name.into(), ..LayerTexts::default() });
     }
 
-    /// The next layer, in the room of an empty one.
-    pub(super) fn add_layer(&mut self, name: &str, room: LayerTexts<'d>) {
-        self.layers.push(LayerTexts { name: name.into(), ..room });
-    }
-
-    /// Takes the names of the layers in order; the rest is room for the next path.
-    pub(super) fn take_layer_names(mut self, names: &mut Vec<SmolStr>, workspace: &mut Workspace) {
-        names.reserve(self.layers.len());
-        for mut layer in self.layers.drain(..) {
-            names.push(std::mem::take(&mut layer.name));
-            workspace.keep_layer(layer);
-        }
-        workspace.keep_layers(self.layers);
+    /// The names of the layers in order.
+    pub(super) fn layer_names(self) -> Vec<SmolStr> {
+        self.layers.into_iter().map(|layer| layer.name).collect()
     }
 
     /// Where an entity is that begins, or has its centre, at a point.
@@ -101,15 +89,14 @@ impl<'d> Texts<'d> {
 
     /// Gives each text to its element; what finds none is PB107.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
-        let mut recent = Recent::new();
         for layer in &mut self.layers {
-            layer.assign(path, &mut recent);
+            layer.assign(path);
         }
         if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
         }
         for layer in &mut self.layers {
-            layer.boxes.fill(&layer.candidates);
+            layer.boxes = Boxes::new(&layer.candidates);
         }
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
@@ -127,11 +114,11 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Gives each text to its element. What finds no element stays in `texts`.
-    fn assign(&mut self, path: &mut Collected<'_>, recent: &mut Recent<u32>) {
+    fn assign(&mut self, path: &mut Collected<'_>) {
         self.each_match(|layer, text, _, owners| {
             let has_owner = !owners.is_empty();
             if has_owner {
-                let text = path.given.push_drawn(text.string(), recent);
+                let text = path.given.push_drawn(text.string());
                 layer.give(text, owners, path);
             }
             has_owner
@@ -147,7 +134,7 @@ impl<'d> LayerTexts<'d> {
         if self.texts.is_empty() {
             return;
         }
-        self.boxes.fill(&self.candidates);
+        self.boxes = Boxes::new(&self.candidates);
         let mut texts = std::mem::take(&mut self.texts);
         texts.sort_by_key(FoundText::is_mtext);
         texts.retain(|text| {
@@ -160,18 +147,6 @@ impl<'d> LayerTexts<'d> {
             !is_taken(self, text, circle, owners)
         });
         self.texts = texts;
-    }
-
-    /// Its room, for a layer of any drawing.
-    pub(super) fn emptied(self) -> LayerTexts<'static> {
-        let Self { mut candidates, boxes, texts, .. } = self;
-        candidates.clear();
-        LayerTexts { name: SmolStr::default(), candidates, boxes, texts: emptied(texts) }
-    }
-
-    /// For how many entities there is room.
-    pub(super) fn room(&self) -> usize {
-        self.candidates.capacity().max(self.texts.capacity())
     }
 
     /// A candidate, and what is part of the same polyline: they were read one after the other.
@@ -191,7 +166,7 @@ impl<'d> LayerTexts<'d> {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),
                 Owner::Probe(probe) => Some(&mut path.probes[probe].text),
-                Owner::Element(element) => Some(&mut path.elements.get_mut(element).text),
+                Owner::Element(element) => Some(&mut path.elements[element].text),
                 Owner::Faulty => None,
             };
             if let Some(owner) = owner {

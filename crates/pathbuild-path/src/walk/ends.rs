@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
-use crate::path::Path;
+use crate::path::{Path, Segment};
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
 #[derive(Default)]
@@ -23,8 +23,22 @@ struct SegmentEnds {
 }
 
 /// Its column and row, see [`strip`].
-#[derive(Clone, Copy)]
-struct Square(u64, u64);
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Square(u64, u64);
+
+/// The squares around a point: one, or up to four where they meet.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Squares {
+    first: Square,
+    /// Behind the last.
+    end: Square,
+}
+
+/// Segments that meet at a point, and at every other point that coincides with both corners around their ends.
+pub(super) struct Crowd {
+    pub(super) corners: [Xy; 2],
+    pub(super) segments: Vec<usize>,
+}
 
 /// There is no further end in a bucket.
 const NONE: u32 = u32::MAX;
@@ -40,26 +54,19 @@ const REACH: f64 = 0.01;
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
-    /// Takes those of a path for any that there were before.
-    pub(super) fn fill(&mut self, path: &Path) {
-        let Self { segments, buckets } = self;
+    pub(super) fn new(path: &Path) -> Self {
         let count = (BUCKETS * path.segments.len()).next_power_of_two();
-        buckets.clear();
-        buckets.resize(count, NONE);
-        segments.clear();
-        segments.extend((0_u32..).zip(&path.segments).map(|(number, segment)| {
+        let mut buckets = vec![NONE; count];
+        let segment = |(number, segment): (u32, &Segment)| {
             let drawn = path.ends(segment);
             let mut enter = |end: u32| {
                 let bucket = bucket_of(square(drawn[end as usize]), count);
                 std::mem::replace(&mut buckets[bucket], 2 * number + end)
             };
             SegmentEnds { drawn, next: [enter(0), enter(1)] }
-        }));
-    }
-
-    /// For how many segments there is room.
-    pub(super) fn room(&self) -> usize {
-        self.segments.capacity()
+        };
+        let segments = (0_u32..).zip(&path.segments).map(segment).collect();
+        Self { segments, buckets }
     }
 
     /// Where a segment starts and where it ends, as drawn.
@@ -70,16 +77,32 @@ impl Ends {
     /// Finds the wanted segments that have an end at a point, in any order; one may be named several times.
     pub(super) fn find_near(&self, point: Xy, is_wanted: impl Fn(usize) -> bool, found: &mut Vec<usize>) {
         found.clear();
-        for column in around(point.x) {
-            for row in around(point.y) {
-                self.each_in(Square(column, row), |segment, end| {
-                    let is_found = is_wanted(segment) & coincide(self.segments[segment].drawn[end], point);
-                    // No branch: which of those in a bucket it is can not be foreseen.
+        for square in Squares::around(point).each() {
+            self.each_in(square, |segment, end| {
+                if coincide(self.segments[segment].drawn[end], point) && is_wanted(segment) {
                     found.push(segment);
-                    found.truncate(found.len() - usize::from(!is_found));
-                });
-            }
+                }
+            });
         }
+    }
+
+    /// The wanted segments with an end at a point; `None` where others end so close by that another point here may have others.
+    pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
+        let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
+        for square in Squares::around(point).each() {
+            self.each_in(square, |segment, end| {
+                let end = self.segments[segment].drawn[end];
+                if coincide(end, point) && is_wanted(segment) {
+                    (low, high) = (low.inf(&end), high.sup(&end));
+                    segments.push(segment);
+                } else if is_wanted(segment) {
+                    is_alone &= !coincide(point + (end - point) / 3.0, point);
+                }
+            });
+        }
+        segments.sort_unstable();
+        segments.dedup();
+        (is_alone && coincide(low, high)).then_some(Crowd { corners: [low, high], segments })
     }
 
     /// Takes the ends in a square, and those of others that share its bucket.
@@ -93,7 +116,20 @@ impl Ends {
     }
 }
 
-fn square(point: Xy) -> Square {
+impl Squares {
+    pub(super) fn around(point: Xy) -> Self {
+        let (columns, rows) = (around(point.x), around(point.y));
+        Self { first: Square(columns.start, rows.start), end: Square(columns.end, rows.end) }
+    }
+
+    pub(super) fn each(self) -> impl Iterator<Item = Square> {
+        let Self { first, end } = self;
+        (first.0..end.0).flat_map(move |column| (first.1..end.1).map(move |row| Square(column, row)))
+    }
+}
+
+/// The square that a point is in.
+pub(super) fn square(point: Xy) -> Square {
     Square(strip(in_squares(point.x)), strip(in_squares(point.y)))
 }
 

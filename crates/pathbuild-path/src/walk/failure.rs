@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Diagnostic, Word, words};
 
 use super::Walk;
-use crate::approx::{coincide, near};
+use super::twice::Curves;
 use crate::element::shown;
 use crate::geometry::Xy;
 use crate::path::SegmentKind;
@@ -73,12 +73,12 @@ impl Walk<'_> {
 
     /// A segment drawn twice is left over, and looks just like the one that was traversed.
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
-        let duplicate = self.open().find(|open| {
-            let ([start, _], mut others) = (self.ends.of(*open), Vec::new());
-            self.ends.find_near(start, |other| self.is_traversed[other], &mut others);
-            others.into_iter().any(|other| self.is_same_curve(*open, other))
-        });
-        let Some(segment) = duplicate else { return problem };
+        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
+        let curves = Curves::new(self.path, &self.ends, traversed.clone());
+        // There and back over a line that is drawn twice nothing is left over.
+        let Some(segment) = self.open().chain(traversed).find(|segment| curves.have_another(*segment)) else {
+            return problem;
+        };
         let [start, _] = self.ends.of(segment);
         problem.note(
             &messages::DUPLICATE,
@@ -95,20 +95,6 @@ impl Walk<'_> {
             .reduce(|best, other| if distance(&other.1) < distance(&best.1) { other } else { best });
         let Some((kind, begin)) = nearest else { return problem };
         problem.note(&messages::LEFT_OUT_HERE, vec![("kind", kind.name().into()), ("point", (*begin).into())])
-    }
-
-    fn is_same_curve(&self, a: usize, b: usize) -> bool {
-        let length = |segment: usize| {
-            let segment = &self.path.segments[segment];
-            match segment.kind {
-                SegmentKind::Cut(_) => self.path.curve(segment).map(|curve| curve.length()),
-                _ => None,
-            }
-        };
-        let (Some(first), Some(second)) = (length(a), length(b)) else { return false };
-        let ([a, b], [c, d]) = (self.ends.of(a), self.ends.of(b));
-        let is_between_same = (coincide(a, c) && coincide(b, d)) || (coincide(a, d) && coincide(b, c));
-        is_between_same && near(first, second)
     }
 
     fn word(&self, segment: usize) -> &'static Word {

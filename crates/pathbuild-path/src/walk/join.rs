@@ -3,9 +3,45 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
 use super::Walk;
+use super::ends::Ends;
 use crate::approx::{above, at_least};
 use crate::element::Origin;
+use crate::geometry::Xy;
+
+/// The ends of the segments that are left, found by where they are.
+pub(super) struct OpenEnds(RTree<End>);
+
+type End = GeomWithData<[f64; 2], usize>;
+
+impl OpenEnds {
+    fn new(segments: impl Iterator<Item = usize>, ends: &Ends) -> Self {
+        Self(RTree::bulk_load(segments.flat_map(|segment| of(segment, ends)).collect()))
+    }
+
+    /// Takes the ends of a segment out.
+    pub(super) fn remove(&mut self, segment: usize, ends: &Ends) {
+        for end in of(segment, ends) {
+            self.0.remove(&end);
+        }
+    }
+
+    /// The segment whose end is nearest to a point, and how far that is; the first of several.
+    fn nearest(&self, point: Xy) -> Option<(usize, f64)> {
+        let by_distance = self.0.nearest_neighbor_iter([point.x, point.y]);
+        let mut ends = by_distance.map(|end| (end.data, (Xy::from(*end.geom()) - point).norm()));
+        let (first, distance) = ends.next()?;
+        let others = ends.take_while(|(_, other)| *other <= distance).map(|(segment, _)| segment);
+        Some((others.fold(first, usize::min), distance))
+    }
+}
+
+fn of(segment: usize, ends: &Ends) -> [End; 2] {
+    ends.of(segment).map(|end| GeomWithData::new([end.x, end.y], segment))
+}
 
 impl Walk<'_> {
     /// The segment with the nearest end, if that is within the tolerance; joining it is reported.
@@ -13,12 +49,11 @@ impl Walk<'_> {
         if self.join_tolerance <= 0.0 {
             return None;
         }
-        let distances = self.open().map(|segment| {
-            let [to_start, to_end] = self.ends.of(segment).map(|end| (end - self.at).norm());
-            (segment, to_start.min(to_end))
-        });
-        let (nearest, distance) =
-            distances.reduce(|best, other| if other.1 < best.1 { other } else { best })?;
+        let (open, ends) = (|segment: &usize| !self.is_traversed[*segment], &self.ends);
+        let open_ends = self
+            .open_ends
+            .get_or_insert_with(|| OpenEnds::new((0..self.is_traversed.len()).filter(open), ends));
+        let (nearest, distance) = open_ends.nearest(self.at)?;
         if above(distance, self.join_tolerance) {
             return None;
         }

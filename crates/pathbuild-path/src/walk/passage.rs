@@ -1,6 +1,6 @@
 //! A segment as it is gone along.
 
-use crate::geometry::{Curve, Xy};
+use crate::geometry::{Curve, Line, Xy};
 use crate::path::{Path, Segment, SegmentKind};
 
 /// From where the tool is to where it comes.
@@ -37,17 +37,17 @@ impl Passage {
         self
     }
 
-    /// The same from a point close to its start: the gap that a person left is closed by moving the end, not by a move of its own.
-    pub(super) fn starting_at(self, start: Xy, path: &Path, segment: &Segment) -> Self {
-        let moved = match segment.kind {
-            SegmentKind::Cut(_) => self.curve(path, segment).map(|curve| Box::new(curve.starting_at(start))),
-            _ => None,
-        };
+    /// The same from a point close to its start: the end of a line is moved there.
+    pub(super) fn starting_at(self, start: Xy, segment: &Segment) -> Self {
+        let line = Curve::Line(Line { start, end: self.end });
+        let moved = matches!(segment.kind, SegmentKind::Cut(_)).then(|| Box::new(line));
         Self { start, moved, ..self }
     }
 
-    fn curve(&self, path: &Path, segment: &Segment) -> Option<Curve> {
-        curve(path, segment, self.is_turned, self.moved.as_deref())
+    /// A short line from a point close to its start to its start.
+    pub(super) fn lead_in(&self, from: Xy) -> Self {
+        let line = Curve::Line(Line { start: from, end: self.start });
+        Self { start: from, end: self.start, is_turned: false, moved: Some(Box::new(line)) }
     }
 }
 

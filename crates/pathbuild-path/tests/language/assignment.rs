@@ -109,11 +109,11 @@ fn a_line_must_be_nearer_than_the_texts_radius() {
 
 #[test]
 fn a_text_finds_its_element_also_where_coordinates_are_large() {
-    let line = "mill 1000000.3,0 1000000.3,40";
-    assert!(finds(line, &mtext("1000001.699999,20", "F100")));
-    assert!(!finds(line, &mtext("1000001.700001,20", "F100")));
-    assert!(finds(line, &mtext("999998.900001,20", "F100")));
-    assert!(!finds(line, &mtext("999998.899999,20", "F100")));
+    let line = "mill 900000.3,0 900000.3,40";
+    assert!(finds(line, &mtext("900001.699999,20", "F100")));
+    assert!(!finds(line, &mtext("900001.700001,20", "F100")));
+    assert!(finds(line, &mtext("899998.900001,20", "F100")));
+    assert!(!finds(line, &mtext("899998.899999,20", "F100")));
 }
 
 #[test]

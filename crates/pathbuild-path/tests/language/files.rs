@@ -41,12 +41,40 @@ fn anything_may_stand_between_and_around_names() {
     assert_eq!(held("gears", &names), [""; 0]);
 }
 
-/// Blanks beside the hyphen make two names of a range.
 #[test]
-fn a_range_has_nothing_but_its_hyphen_between_its_ends() {
-    assert!(holds("8000-8002", "8001.1A"));
-    assert!(!holds("8000 - 8002", "8001.1A"));
-    assert!(holds("8000 - 8002", "8002.1A"));
+fn a_range_may_have_blanks_an_en_dash_and_a_letter_behind_either_end() {
+    for stem in [
+        "8000-8002",
+        "8000 - 8002",
+        "8000\u{2013}8002",
+        "8000  \u{2013} 8002",
+        "8000.1P\u{2013}8002.1P",
+        "8000P - 8002",
+    ] {
+        assert!(holds(stem, "8001.1A"), "{stem}");
+        assert!(!holds(stem, "8003.1A"), "{stem}");
+    }
+    for stem in ["8000PQ-8002", "8000_-8002", "8000, 8002", "8000 8002", "8000--8002", "8000 P-8002"] {
+        assert!(!holds(stem, "8001.1A"), "{stem}");
+        assert!(holds(stem, "8002.1A"), "{stem}");
+    }
+    let pattern = "([A-Z]+)([0-9]+)";
+    assert!(holds_with(pattern, "([A-Z]+)([0-9]+)", "AB1P \u{2013} AB5", "AB3"));
+    assert!(!holds_with(pattern, "([A-Z]+)([0-9]+)", "AB1PQ \u{2013} AB5", "AB3"));
+}
+
+/// A group that takes no part ends the comparison: with groups left, the name in the file's name is greater.
+#[test]
+fn optional_groups_of_a_custom_pattern_end_the_comparison() {
+    let pattern = "([A-Z]+)(?:-([0-9]+))?(?:[.]([0-9]+))?";
+    let holds = |stem, name| holds_with(pattern, pattern, stem, name);
+    assert!(holds("AB", "AB-1.2"), "all numbers of AB");
+    assert!(holds("AB-1", "AB-1.2"));
+    assert!(!holds("AB-2", "AB-1.2"));
+    assert!(!holds("AB-1", "AB"), "the file has a group more than the path");
+    assert!(!holds("AB-1.2", "AB-1"));
+    assert!(holds("AB.2", "AB.2"), "an empty group in the middle on both sides");
+    assert!(holds("AB.2", "AB-1"), "as many groups are left on both sides");
 }
 
 /// Leftmost first and not overlapping: the middle name belongs to the first range, and no second one begins with it.

@@ -157,8 +157,14 @@ fn drilled_hole() {
 
 /// There is nothing to leave standing in a hole.
 #[test]
-fn drilled_hole_with_bars() {
-    check_row("F:o B:! D:- C:o Q:o", circle("BORDER 40,0 d 3"));
+fn a_drilled_hole_has_no_bars() {
+    for line_type in ["BORDER", "CENTER"] {
+        let drawn =
+            |diameter: &str| format!("sweep 0,0 40,0\ncircle {line_type} 40,0 d {diameter}\nend 40,0");
+        assert_eq!(wrong(&path(PATH, &drawn("3"))), ["PB106"]);
+        assert_eq!(wrong(&path(PATH, &drawn("3.001"))), ["PB106"]);
+        assert_eq!(wrong(&path(PATH, &drawn("10"))), [""; 0]);
+    }
 }
 
 #[test]

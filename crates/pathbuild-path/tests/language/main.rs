@@ -5,8 +5,10 @@
 mod assignment;
 mod chains;
 mod circles;
+mod crowded;
 mod default_patterns;
 mod files;
+mod full_circles;
 mod letters;
 mod limits;
 mod line_types;

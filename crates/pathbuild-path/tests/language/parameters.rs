@@ -131,7 +131,7 @@ fn a_sweep_has_its_own_height_or_that_of_the_path() {
         let SegmentKind::Sweep { height } = path.segments[0].kind else { panic!() };
         height
     };
-    assert_eq!((height(""), height("\"S12\"")), (None, Some(12.0)));
+    assert_eq!((height(""), height("\"S12\"")), (Some(20.0), Some(12.0)));
 }
 
 #[test]

@@ -49,6 +49,7 @@ pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
         approximate_curves: 0.0,
         max_entities: 10_000,
         max_text: 65_536,
+        compatible: false,
     };
     raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &options), language)
 }

@@ -25,6 +25,7 @@ fn mtext() -> MText {
         plain: "0123456789\n012".into(),
         anchor: ANCHOR,
         height: 2.0,
+        width: None,
         rotation: 0.0,
         horizontal: HorizontalAlign::Left,
         vertical: VerticalAlign::Top,
@@ -53,6 +54,22 @@ fn the_radius_of_an_mtext_is_half_its_diagonal_but_at_most_0_7_of_its_height() {
     assert!(close(TextCircle::of_mtext(&narrow).radius, (3.6_f64 * 3.6 + 16.0).sqrt() / 2.0));
     let one_line = MText { plain: "0".into(), ..mtext() };
     assert!(close(TextCircle::of_mtext(&one_line).radius, (1.2_f64 * 1.2 + 4.0).sqrt() / 2.0));
+}
+
+#[test]
+fn rows_longer_than_the_width_are_broken_at_blanks() {
+    let size = |plain: &str, width: f64| {
+        let text = MText { plain: plain.into(), width: Some(width), ..mtext() };
+        let unbroken = |plain: &str| TextCircle::of_mtext(&MText { plain: plain.into(), ..mtext() });
+        move |rows: &str| TextCircle::of_mtext(&text) == unbroken(rows)
+    };
+    // A letter is 1.2 mm wide: nine of them have 10.8 mm.
+    assert!(size("B4.5 F50 QTeil-Eins", 10.8)("B4.5 F50\nQTeil-Eins"));
+    assert!(size("B4.5 F50 Q", 9.6)("B4.5 F50\nQ"), "just room for eight");
+    assert!(size("B4.5 F50 Q", 9.5)("B4.5\nF50 Q"), "just none");
+    assert!(size("B4.5 QTeil-Eins-Zwei B", 6.0)("B4.5\nQTeil-Eins-Zwei\nB"), "a word is never broken");
+    assert!(size("B1\nC2 D3", 3.0)("B1\nC2\nD3"), "each line by itself");
+    assert!(size("B4.5 F50", 100.0)("B4.5 F50"));
 }
 
 #[test]

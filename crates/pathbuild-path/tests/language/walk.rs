@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::support::{codes, compile, compile_raw, items, language, path, raw, wrong};
-use pathbuild_path::Bindings;
+use pathbuild_path::{Bindings, Curve, Xy};
 
 const P: &str = "T5 O3 I1 B0 D2";
 
@@ -28,7 +28,7 @@ fn segments_follow_each_other_whatever_way_they_are_drawn() {
 fn an_arc_is_turned_round_with_its_direction() {
     let arc = |statement: &str| {
         let compiled = compile(&path(P, &format!("{statement}\nend 20,0")));
-        let pathbuild_path::Curve::Arc(arc) = compiled.first_chain()[0] else { panic!() };
+        let Curve::Arc(arc) = compiled.first_chain()[0] else { panic!() };
         (arc.clockwise, arc.degrees.round())
     };
     assert_eq!(arc("mill arc centre 10,0 r 10 from 180 to 0"), (false, 180.0));
@@ -134,6 +134,41 @@ fn ends_within_the_tolerance_are_joined() {
     assert_eq!(found(0.0), ["PB401"]);
     assert_eq!(found(0.009), ["PB401"]);
     assert_eq!(found(0.011), ["PB115", "PB115"]);
+}
+
+/// An arc's centre and radius stay: a short line leads to it. Lines are drawn out.
+#[test]
+fn a_joined_arc_stays_where_it_is() {
+    let joined = |drawn: &str| {
+        let language = pathbuild_path::Language { join_tolerance: 0.02, ..language() };
+        compile_raw(&raw(&path(P, drawn)), &Bindings::default(), &language)
+    };
+    let compiled =
+        joined("mill 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180\nmill 25.01,5 40,5\nend 40,5");
+    assert_eq!(codes(&compiled.found), ["PB115"]);
+    let chain = compiled.first_chain();
+    let [Curve::Line(line), Curve::Line(lead), Curve::Arc(arc), Curve::Line(_)] = chain[..] else {
+        panic!("{chain:?}")
+    };
+    assert_eq!((line.end, lead.start, lead.end), (Xy::new(20.0, 0.0), Xy::new(20.0, 0.0), arc.start));
+    assert_eq!((arc.centre, arc.radius, arc.end), (Xy::new(25.01, 0.0), 5.0, Xy::new(25.01, 5.0)));
+    // Back over it from a dead end.
+    let compiled = joined("mill 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180\nturn 25.01,5\nend 0,0");
+    let ends: Vec<Xy> = compiled.first_chain().iter().map(Curve::end).collect();
+    let tip = Xy::new(25.01, 5.0);
+    let begin = Xy::new(20.010_000_000_000_002, 0.0);
+    assert_eq!(ends.len(), 6, "{ends:?}");
+    assert!((ends[2] - tip).norm() < 1e-9 && (ends[3] - begin).norm() < 1e-9, "{ends:?}");
+    assert_eq!([ends[4], ends[5]], [Xy::new(20.0, 0.0), Xy::new(0.0, 0.0)]);
+}
+
+/// The line that leads into an arc is no segment of its own: letters of the arc are those of the chain's first segment.
+#[test]
+fn a_joined_arc_may_begin_a_chain() {
+    let drawn = "sweep 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180 \"I1\"\nend 25.01,5";
+    let language = pathbuild_path::Language { join_tolerance: 0.02, ..language() };
+    let compiled = compile_raw(&raw(&path("T5 O3 B0", drawn)), &Bindings::default(), &language);
+    assert_eq!(codes(&compiled.found), ["PB115"]);
 }
 
 #[test]

@@ -16,6 +16,7 @@ pub(crate) fn drawing(bytes: &[u8]) -> Drawing {
             approximate_curves: 0.0,
             max_entities: 100_000,
             max_text: 65_536,
+            compatible: false,
         },
     )
 }

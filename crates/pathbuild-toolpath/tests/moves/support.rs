@@ -65,6 +65,7 @@ fn drawn(drawing: &str) -> Drawn {
         approximate_curves: 0.0,
         max_entities: 10_000,
         max_text: 65_536,
+        compatible: false,
     };
     let file = raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &reading), &language);
     let walked = |raw: &pathbuild_path::RawPath| {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{Database, Limits, Lookup, Reading, Settings};
+use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
 use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
@@ -27,6 +27,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         entities: count(limits.entities.value),
         text_length: count(limits.text_length.value),
         is_hashed,
+        compatible: general.compatible.value,
     };
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),

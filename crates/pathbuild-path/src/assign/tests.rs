@@ -1,0 +1,55 @@
+//! Looking at what lies around a text finds what looking at everything finds.
+
+use pathbuild_diagnostic::ElementId;
+use proptest::prelude::*;
+
+use super::{Boxes, Candidate, find, gap, nearest_miss, overlap};
+use crate::element::Shape;
+use crate::geometry::{Arc, Curve, Line, Xy};
+use crate::read::Owner;
+use crate::text_circle::TextCircle;
+
+fn point() -> impl Strategy<Value = Xy> {
+    // Some far off, where an f32 has no thousandths, and many at round numbers, where boxes touch.
+    let coordinate = || prop_oneof![-20.0..20.0, (-20..20).prop_map(f64::from), 99_990.0..100_010.0];
+    (coordinate(), coordinate()).prop_map(|(x, y)| Xy::new(x, y))
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        (point(), point()).prop_map(|(start, end)| Shape::Curve(Curve::Line(Line { start, end }))),
+        (point(), 0.1..9.0).prop_map(|(centre, radius)| Shape::Circle { centre, radius }),
+        (point(), 0.1..9.0, 0.0..360.0, 0.0..360.0).prop_map(|(centre, radius, from, to)| {
+            Shape::Curve(Curve::Arc(Arc::from_angles(centre, radius, from, to, false)))
+        }),
+    ]
+}
+
+fn candidate((shape, is_taken): (Shape, bool)) -> Candidate {
+    Candidate { id: ElementId(0), shape, group: None, owner: Owner::Faulty, is_taken }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// In lists and in trees.
+    #[test]
+    fn boxes_hide_nothing(
+        shapes in prop_oneof![
+            prop::collection::vec((shape(), prop::bool::weighted(0.1)), 0..60),
+            prop::collection::vec((shape(), prop::bool::weighted(0.1)), 129..200),
+        ],
+        centre in point(),
+        radius in 0.1..6.0,
+    ) {
+        let (circle, candidates) = (TextCircle { centre, radius }, shapes.into_iter().map(candidate).collect::<Vec<_>>());
+        let boxes = Boxes::new(&candidates);
+        let free = || candidates.iter().enumerate().filter(|(_, candidate)| !candidate.is_taken);
+        let overlapped = free().filter_map(|(index, it)| overlap(&circle, &it.shape).map(|(kind, distance)| (kind, distance, index)));
+        let nearest = overlapped.reduce(|best, other| if other < best { other } else { best });
+        prop_assert_eq!(find(&circle, &candidates, &boxes), nearest.map(|(_, _, index)| index));
+        let gaps = free().map(|(index, it)| (gap(&circle, &it.shape), index));
+        let least = gaps.reduce(|best, other| if other < best { other } else { best });
+        prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes).map(|miss| (miss.distance, miss.candidate)), least);
+    }
+}

@@ -1,0 +1,114 @@
+//! Crowded points: the order of their segments is found once, so that the work of a walk grows as the number of segments does.
+
+use std::collections::BTreeMap;
+
+use super::ends::{Crowd, Ends, Squares};
+use super::order::{comes_before, length, rank};
+use crate::approx::{coincide, near};
+use crate::geometry::Xy;
+use crate::path::Path;
+
+/// The crowded points that the walk has come to.
+#[derive(Default)]
+pub(super) struct Stars(BTreeMap<Squares, Star>);
+
+/// A crowded point.
+struct Star {
+    /// Around the ends that meet here.
+    corners: [Xy; 2],
+    /// In the order in which their segments are taken, the next one last.
+    groups: Vec<Group>,
+}
+
+/// Segments of the same order and preference whose lengths are near each other.
+struct Group {
+    /// In segment order.
+    segments: Vec<usize>,
+    /// How many of the first of them are traversed at least.
+    traversed: usize,
+    /// Whether the lengths of each two of them are near.
+    is_level: bool,
+}
+
+impl Stars {
+    /// The star at a point, if one is known there.
+    fn at(&mut self, point: Xy) -> Option<&mut Star> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let star = self.0.get_mut(&Squares::around(point))?;
+        star.corners.iter().all(|corner| coincide(*corner, point)).then_some(star)
+    }
+
+    /// The segment that is next at a point, if that is known to be crowded; else `None`.
+    pub(super) fn next(
+        &mut self,
+        point: Xy,
+        path: &Path,
+        ends: &Ends,
+        is_traversed: &[bool],
+    ) -> Option<Option<usize>> {
+        self.at(point).map(|star| star.next(path, ends, is_traversed))
+    }
+
+    /// Notes that these segments meet at a point.
+    pub(super) fn insert(&mut self, point: Xy, crowd: Crowd, path: &Path, ends: &Ends) {
+        self.0.insert(Squares::around(point), Star::new(crowd, path, ends));
+    }
+}
+
+impl Star {
+    fn new(crowd: Crowd, path: &Path, ends: &Ends) -> Self {
+        let Crowd { corners, mut segments } = crowd;
+        let key = |segment: &usize| {
+            let (order, preference) = rank(path, *segment);
+            // Without the sign of 0.
+            (order + 0.0, preference, length(ends, *segment))
+        };
+        segments.sort_by(|a, b| {
+            let ((order, preference, length), (other_order, other_preference, other_length)) =
+                (key(a), key(b));
+            let ranks = order.total_cmp(&other_order).then(preference.cmp(&other_preference));
+            ranks.then(length.total_cmp(&other_length)).then(a.cmp(b))
+        });
+        let is_near = |a: &usize, b: &usize| {
+            rank(path, *a) == rank(path, *b) && near(length(ends, *a), length(ends, *b))
+        };
+        let groups = segments.chunk_by(is_near).rev().map(|group| {
+            let is_level = is_near(&group[0], &group[group.len() - 1]);
+            let mut segments = group.to_vec();
+            segments.sort_unstable();
+            Group { segments, traversed: 0, is_level }
+        });
+        Self { corners, groups: groups.collect() }
+    }
+
+    /// The next segment. Lengths of different groups are not near: one scan of all segments finds the one that a scan of the first group
+    /// finds.
+    fn next(&mut self, path: &Path, ends: &Ends, is_traversed: &[bool]) -> Option<usize> {
+        while let Some(group) = self.groups.last_mut() {
+            group.pass(is_traversed);
+            let mut open =
+                group.segments[group.traversed..].iter().copied().filter(|segment| !is_traversed[*segment]);
+            let Some(first) = open.next() else {
+                self.groups.pop();
+                continue;
+            };
+            if group.is_level {
+                return Some(first);
+            }
+            return Some(open.fold(
+                first,
+                |best, other| if comes_before(path, ends, other, best) { other } else { best },
+            ));
+        }
+        None
+    }
+}
+
+impl Group {
+    fn pass(&mut self, is_traversed: &[bool]) {
+        let passed = self.segments[self.traversed..].iter().take_while(|segment| is_traversed[**segment]);
+        self.traversed += passed.count();
+    }
+}
