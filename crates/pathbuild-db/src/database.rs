@@ -8,45 +8,29 @@ use camino::{Utf8Path, Utf8PathBuf};
 use rustc_hash::FxHashMap;
 use salsa::Setter;
 
-use crate::arrivals::{Arrivals, Lister};
-use crate::inputs::{Directory, Insight, SourceFile};
-use crate::queries;
-use crate::settings::Settings;
+use crate::db::Db;
+use crate::inputs::{Directory, Role, SourceFile, Target};
+use crate::listing::{Listings, PendingListing};
+use crate::scratch::ScratchPool;
 use crate::system::{Names, System};
-
-/// What queries may ask besides each other.
-#[salsa::db]
-pub trait Db: salsa::Database {
-    /// The outside world.
-    fn system(&self) -> &dyn System;
-
-    /// The input that stands for a file, there or not. The path must be normalised.
-    fn file(&self, path: &Utf8Path) -> SourceFile;
-
-    /// The input that stands for a directory, there or not. The path must be normalised.
-    fn directory(&self, path: &Utf8Path) -> Directory;
-
-    /// Whether drawings are surveyed: [`Database::survey_drawings`].
-    fn is_surveying(&self) -> bool;
-
-    /// Whether paths are kept: [`Database::keep_paths`].
-    fn keeps_paths(&self) -> bool;
-
-    /// Directories that are being listed.
-    fn arrivals(&self) -> &Arrivals;
-}
 
 /// All queries' results. Clones share them; each thread needs its own.
 #[salsa::db]
 #[derive(Clone)]
 pub struct Database {
-    system: Arc<dyn System>,
-    inputs: Arc<Mutex<Inputs>>,
-    is_surveying: bool,
-    keeps_paths: bool,
-    arrivals: Arc<Arrivals>,
+    shared: Arc<Shared>,
     /// Last: it must be dropped after everything that its threads could still use.
     storage: salsa::Storage<Self>,
+}
+
+/// What all clones share besides results.
+struct Shared {
+    system: Arc<dyn System>,
+    inputs: Mutex<Inputs>,
+    listings: Listings,
+    /// Drawings with other bytes than their indexes were made from, some more than once.
+    changed: Mutex<Vec<SourceFile>>,
+    scratch: ScratchPool,
 }
 
 /// The inputs by path. Paths are normalised, so that equal ones are equal texts, which are compared sooner than their parts.
@@ -54,6 +38,7 @@ pub struct Database {
 struct Inputs {
     files: FxHashMap<Box<str>, SourceFile>,
     directories: FxHashMap<Box<str>, Directory>,
+    targets: FxHashMap<(SourceFile, Box<str>, Role), Target>,
 }
 
 impl Database {
@@ -66,21 +51,21 @@ impl Database {
     pub fn with_log(system: Arc<dyn System>, log: Arc<Mutex<Vec<String>>>) -> Self {
         let listener = move |event: salsa::Event| {
             if let salsa::EventKind::WillExecute { database_key } = event.kind {
-                log.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{database_key:?}"));
+                lock(&log).push(format!("{database_key:?}"));
             }
         };
         Self::over(system, salsa::Storage::new(Some(Box::new(listener))))
     }
 
     fn over(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
-        Self {
+        let shared = Shared {
             system,
-            inputs: Arc::default(),
-            arrivals: Arc::default(),
-            is_surveying: false,
-            keeps_paths: false,
-            storage,
-        }
+            inputs: Mutex::default(),
+            listings: Listings::default(),
+            changed: Mutex::default(),
+            scratch: ScratchPool::default(),
+        };
+        Self { shared: Arc::new(shared), storage }
     }
 
     /// The directories in which paths were looked for, in order.
@@ -99,9 +84,22 @@ impl Database {
         paths.into_iter().map(|path| self.file_among(&mut inputs, Cow::Owned(path))).collect()
     }
 
+    /// The input that stands for a path of a drawing in a role: the same one whenever it is asked for.
+    pub fn target(&self, file: SourceFile, name: &str, role: Role) -> Target {
+        let key = (file, name.into(), role);
+        let new = |(file, name, role): &(SourceFile, Box<str>, Role)| {
+            Target::new(self, *file, name.clone(), role.clone())
+        };
+        *self.inputs().targets.entry(key).or_insert_with_key(new)
+    }
+
     /// Tells that a file may have changed, appeared or gone.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         let file = self.file(path);
+        self.touch(file);
+    }
+
+    fn touch(&mut self, file: SourceFile) {
         let next = file.revision(self) + 1;
         file.set_revision(self).to(next);
     }
@@ -109,57 +107,37 @@ impl Database {
     /// Tells that a directory may hold other names.
     pub fn touch_directory(&mut self, path: &Utf8Path) {
         let directory = self.directory(path);
+        self.shared.listings.forget(directory);
         let next = directory.revision(self) + 1;
         directory.set_revision(self).to(next);
     }
 
-    /// From now on where paths are in a directory is guessed by the names of paths alone, while another thread lists it.
-    pub fn begin_guessing(&mut self, path: &Utf8Path) -> Lister {
-        let directory = self.set_insight(path, Insight::Unlisted);
-        self.arrivals.begin(directory, Settings::get(self).lookup(self).file_pattern.clone());
-        Lister {
-            system: Arc::clone(&self.system),
-            arrivals: Arc::clone(&self.arrivals),
-            directory,
-            path: path.to_owned(),
+    /// Raises the revision of the drawings that turned out to have other bytes than those that they were indexed by. Whether there were any:
+    /// then what was asked meanwhile must be asked again.
+    pub fn take_over_changes(&mut self) -> bool {
+        let changed = std::mem::take(&mut *lock(&self.shared.changed));
+        let has_changes = !changed.is_empty();
+        for file in changed {
+            self.touch(file);
         }
+        has_changes
     }
 
-    /// The names of files in a directory that somebody listed already, so that it is not listed once more when they are first wanted. For runs that
-    /// nobody tells when they change.
+    /// A directory will be listed by another thread. The query that wants its names waits for them.
+    pub fn list_ahead(&self, path: &Utf8Path) -> PendingListing {
+        let system = Arc::clone(&self.shared.system);
+        self.shared.listings.begin(self.directory(path), path.to_owned(), system)
+    }
+
+    /// The names of files in a directory that was just listed, so that it is not listed once more when a query wants them.
     pub fn know_names(&self, path: &Utf8Path, names: Names) {
-        let pattern = Settings::get(self).lookup(self).file_pattern.clone();
-        self.arrivals.put(self.directory(path), pattern, names);
+        self.shared.listings.put(self.directory(path), names);
     }
 
-    /// How much is known of the names in a directory. What was found by knowing less is asked again.
-    pub fn set_insight(&mut self, path: &Utf8Path, insight: Insight) -> Directory {
-        let directory = self.directory(path);
-        directory.set_insight(self).to(insight);
-        directory
-    }
-
-    /// From now on large values that can be made again are dropped when [`Self::drop_large`] says so: what was read from drawings, and what
-    /// was made of single paths. What others ask of them stays. For runs that go through a library once; where drawings change, a value that
-    /// is made again could be that of a file as nobody has told it is.
-    pub fn bound_memory(&mut self) {
-        queries::bound(self, 1);
-    }
-
-    /// Drops the large values, where memory is bounded.
-    pub fn drop_large(&mut self) {
+    /// Drops the large values that were not used lately: what was read from drawings, what was made of single paths, programs. They are made
+    /// again where they are asked for again.
+    pub fn drop_unused(&mut self) {
         salsa::Database::trigger_lru_eviction(self);
-    }
-
-    /// From now on paths are kept as they were bound and walked along to judge them: for runs that make programs of them. Before the first query.
-    pub fn keep_paths(&mut self) {
-        self.keeps_paths = true;
-    }
-
-    /// From now on all that is asked of a drawing is found when it is first read, and its content is dropped then: for runs that go through a
-    /// library once. Nothing that is found differs. After an edit more is found anew than would have to be.
-    pub fn survey_drawings(&mut self) {
-        self.is_surveying = true;
     }
 
     fn file_among(&self, inputs: &mut Inputs, path: Cow<'_, Utf8Path>) -> SourceFile {
@@ -173,9 +151,13 @@ impl Database {
     }
 
     fn inputs(&self) -> MutexGuard<'_, Inputs> {
-        // Nothing panics while holding the lock but an allocation that fails, after which the maps are still whole.
-        self.inputs.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.shared.inputs)
     }
+}
+
+/// What is locked is whole whenever the lock is free: nothing panics in between but an allocation that fails.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[salsa::db]
@@ -184,7 +166,7 @@ impl salsa::Database for Database {}
 #[salsa::db]
 impl Db for Database {
     fn system(&self) -> &dyn System {
-        &*self.system
+        &*self.shared.system
     }
 
     fn file(&self, path: &Utf8Path) -> SourceFile {
@@ -196,26 +178,26 @@ impl Db for Database {
         if let Some(directory) = inputs.directories.get(path.as_str()) {
             return *directory;
         }
-        let directory = Directory::new(self, path.to_owned(), 0, Insight::Listed);
+        let directory = Directory::new(self, path.to_owned(), 0);
         inputs.directories.insert(path.as_str().into(), directory);
         directory
     }
 
-    fn is_surveying(&self) -> bool {
-        self.is_surveying
+    fn listed(&self, directory: Directory) -> Option<Names> {
+        self.shared.listings.take(directory)
     }
 
-    fn keeps_paths(&self) -> bool {
-        self.keeps_paths
+    fn note_changed(&self, file: SourceFile) {
+        lock(&self.shared.changed).push(file);
     }
 
-    fn arrivals(&self) -> &Arrivals {
-        &self.arrivals
+    fn scratch(&self) -> &ScratchPool {
+        &self.shared.scratch
     }
 }
 
 impl fmt::Debug for Database {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Database").field("system", &self.system).finish_non_exhaustive()
+        f.debug_struct("Database").field("system", &self.shared.system).finish_non_exhaustive()
     }
 }

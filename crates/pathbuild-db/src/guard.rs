@@ -7,8 +7,9 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use salsa::{CancellationToken, Cancelled, Database as _};
 
+use crate::bugs::internal_error;
 use crate::database::Database;
-use crate::queries::internal_error;
+use crate::drift::Drifted;
 
 /// Work that is under way over one handle of the database.
 #[derive(Debug)]
@@ -35,16 +36,26 @@ impl Database {
     /// Does some work on this handle.
     ///
     /// # Errors
-    /// PB005 when it was given up, PB006 when it panicked; without a place.
-    pub fn guarded<R>(&self, limit: Duration, work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
-        catch_unwind(AssertUnwindSafe(work))
-            .map_err(|payload| match payload.downcast_ref::<Cancelled>() {
+    /// PB005 when it was given up, PB001 when a drawing changed meanwhile, PB006 when it panicked; without a place.
+    pub fn guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
+        loop {
+            let payload = match catch_unwind(AssertUnwindSafe(&work)) {
+                Ok(result) => return Ok(result),
+                Err(payload) => payload,
+            };
+            let problem = match payload.downcast_ref::<Cancelled>() {
+                // A query that another thread was running has panicked there. If it panics here too, it is known why.
+                Some(Cancelled::PropagatedPanic) => continue,
                 Some(_) => Diagnostic::new(&messages::LIMIT)
                     .with("what", "the time that this path takes")
                     .with("limit", format!("{} s", limit.as_secs_f64()))
                     .with("key", "seconds-per-path"),
+                None if payload.is::<Drifted>() => {
+                    Diagnostic::new(&messages::UNREADABLE).with("reason", "it changes while it is being read")
+                }
                 None => internal_error(&*payload),
-            })
-            .map_err(Box::new)
+            };
+            return Err(Box::new(problem));
+        }
     }
 }

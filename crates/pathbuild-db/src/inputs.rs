@@ -22,20 +22,6 @@ pub struct Directory {
     /// Raised whenever a file in it was created, removed or renamed.
     #[returns(copy)]
     pub revision: u64,
-    /// How much is known of its names.
-    #[returns(copy)]
-    pub insight: Insight,
-}
-
-/// How much is known of the names in a directory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Insight {
-    /// Nothing: a path is taken to be in the drawing of its name.
-    Unlisted,
-    /// They are coming: where there is no such drawing, it is taken to be in the first whose name's range holds it.
-    Coming,
-    /// All of them.
-    Listed,
 }
 
 /// A path that somebody asks for.

@@ -9,24 +9,30 @@
 
 #![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
 
-mod arrivals;
+mod bugs;
 mod database;
+mod db;
+mod drift;
 mod guard;
 mod inputs;
+mod listing;
 mod queries;
+mod scratch;
 mod settings;
 pub mod system;
 
-pub use arrivals::{Arrivals, Lister};
-pub use database::{Database, Db};
+pub use database::Database;
+pub use db::Db;
 pub use guard::Underway;
-pub use inputs::{Directory, Insight, Role, SourceFile, Target};
+pub use inputs::{Directory, Role, SourceFile, Target};
+pub use listing::PendingListing;
 pub use queries::{
-    Brief, Clear, Closure, Destination, Edge, Embedding, Found, Head, Instance, MissingOption, NameKey,
-    Outcome, PathPlace, QProject, QProjectLine, Reached, Sought, Summary, Survey, Trace, assigned_texts,
-    chains, check_file, check_target, clear, closure, combinations, content_hash, drawing_names, embeds,
-    find_path, has_subpaths, head, holders, likely_file, locate, name_table, path, path_names, path_place,
-    program, q_project, q_project_findings, raw_file, raw_path, search_directories, summary, survey, trace,
+    Closure, Destination, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey, Outcome, PathIndex,
+    PathPlace, PathSummary, Reached, Resolved, Sought, Trace, assigned_texts, chains, check_file,
+    check_target, closure, combinations, content_hash, drawing_names, embeds, embeds_others, file_index,
+    holders, likely_file, locate, name_table, path, path_index, path_names, path_place, prefetch, program,
+    q_project, q_project_findings, raw_file, resolve_path, search_directories, summary, trace,
 };
-pub use settings::{Limits, Lookup, Reading, Restriction, Settings};
+pub use scratch::ScratchPool;
+pub use settings::{Limits, Lookup, Reading, Settings};
 pub use system::System;

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, PathName};
+use pathbuild_path::{FilePattern, Language, Restriction};
 use pathbuild_toolpath::FoldOptions;
-use regex::Regex;
 
 /// The settings of a run.
 #[salsa::input(singleton, debug)]
@@ -60,15 +59,6 @@ pub struct Lookup {
     pub search: Vec<Utf8PathBuf>,
 }
 
-/// `--restrict PARENT:CHILD`: paths whose name matches PARENT may embed only those that match CHILD.
-#[derive(Clone, Debug)]
-pub struct Restriction {
-    /// Searched in the embedding path's name.
-    pub parent: Regex,
-    /// Searched in the embedded path's name.
-    pub child: Regex,
-}
-
 /// What is refused as too much: PB005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -76,26 +66,6 @@ pub struct Limits {
     pub moves: u64,
     /// Most paths in a program that differ in their drawings or values: each costs memory, however little it mills.
     pub paths: u64,
-}
-
-impl Restriction {
-    /// A rule of two regular expressions.
-    ///
-    /// # Errors
-    /// When one of them is none.
-    pub fn new(parent: &str, child: &str) -> Result<Self, regex::Error> {
-        Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
-    }
-
-    /// Whether the rule is about what this path embeds.
-    pub fn concerns(&self, parent: &PathName) -> bool {
-        parent.is_match(&self.parent)
-    }
-
-    /// Whether it lets this path be embedded.
-    pub fn allows(&self, child: &PathName) -> bool {
-        child.is_match(&self.child)
-    }
 }
 
 impl Default for Reading {

@@ -1,13 +1,10 @@
 //! Paths: raw paths with their variables bound and every parameter known. (spec/30-parameters.md, spec/50-path-building.md)
 
-use std::iter;
 use std::sync::Arc;
 
-use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Point, TextFault, Word, words};
+use pathbuild_diagnostic::{EntityKind, Point, TextFault, Word, words};
 use smol_str::SmolStr;
 
-use crate::approx::above;
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
@@ -296,37 +293,6 @@ impl Path {
 
     fn element(&self, segment: &Segment) -> &Element {
         &self.drawn.elements[segment.element as usize]
-    }
-
-    /// What is wrong with the sweep height that the path's role gives it; nothing where the path gives its own, which is checked with
-    /// its other values.
-    pub fn check_sweep_height(&self, height: f64) -> Vec<Diagnostic> {
-        let Some(surface) = &self.surface else { return Vec::new() };
-        let is_too_high = |thickness: f64| !above(height, thickness);
-        let surfaces = iter::once(surface).chain(&self.probe_surfaces);
-        let surfaces = surfaces.filter(|surface| is_too_high(surface.thickness)).cloned();
-        let of_segment = |segment: &Segment| match &segment.kind {
-            SegmentKind::Subpath(subpath) if is_too_high(subpath.thickness) => {
-                self.own_surface(segment, subpath)
-            }
-            _ => None,
-        };
-        let report = |surface: Surface| {
-            let mut problem = Diagnostic::new(&messages::DEFAULT_SWEEP_TOO_LOW)
-                .with("value", height)
-                .with("limit", surface.thickness)
-                .in_path(self.name.as_str());
-            problem.text = self.drawn.text(surface.text).and_then(|text| text.fault_of(Letter::T));
-            surface.origin.at(problem)
-        };
-        surfaces.chain(self.segments.iter().filter_map(of_segment)).map(report).collect()
-    }
-
-    /// The upper face that a subpath's own T says.
-    fn own_surface(&self, segment: &Segment, subpath: &Subpath) -> Option<Surface> {
-        let says_so = self.drawn.text(subpath.text)?.letters.contains(Letter::T);
-        let Subpath { thickness, text, .. } = *subpath;
-        says_so.then(|| Surface { origin: self.origin(segment), thickness, text })
     }
 }
 

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_path::{Bindings, Combinations, PathName};
 
 use super::raw::raw_by_name;
-use crate::database::Db;
+use crate::db::Db;
 use crate::inputs::SourceFile;
 
 /// The combinations of values of a path's variables, and a warning where there are more than `limit`; `None` for a path without variables,

@@ -3,10 +3,10 @@
 use pathbuild_diagnostic::{Code, Diagnostic, Point};
 use pathbuild_path::PathName;
 
+use super::closures::Closure;
 use super::embedding::{Embedding, Outcome, embeds};
 use super::instance::Instance;
-use super::reach::Closure;
-use crate::database::Db;
+use crate::db::Db;
 
 /// A subpath segment of a path in a closure.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,16 +1,14 @@
 //! What a path embeds: every subpath segment with the path it names, checked against each other.
 //! (spec/50-path-building.md, "Subpaths"; the order of errors: spec/80-diagnostics.md)
 
-use pathbuild_diagnostic::messages::subpaths as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity, Value};
-use pathbuild_path::{Origin, PathName, Segment, SegmentKind, Subpath, SubpathName};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_path::{Judge, Origin, PathName, PathSignature, SubpathCall, SubpathName};
 
-use super::brief::{Head, head, summary};
-use super::fit::{Outer, bindings};
-use super::instance::{Instance, bound_path};
-use super::lookup::{Found, find_path, names_in};
-use super::raw::NameKey;
-use crate::database::Db;
+use super::index::{NameKey, file_index, path_index};
+use super::instance::{Instance, summary};
+use super::lookup::{Resolved, find_path};
+use crate::db::Db;
+use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
 /// A subpath segment and what came of it.
@@ -46,150 +44,81 @@ pub enum Outcome<'db> {
     },
 }
 
-/// What a path embeds, segment by segment; not what those embed.
+/// What a path embeds, in the order of its segments; not what those embed.
 pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
-    // Most paths embed nothing, and need not be asked for once more.
-    let embeds_any = summary(db, instance).brief.as_ref().is_some_and(|brief| brief.has_subpaths);
-    if embeds_any { embeddings(db, instance) } else { &[] }
+    // Most paths embed nothing, and need no query for that.
+    if summary(db, instance).has_subpaths() { embeddings(db, instance) } else { &[] }
 }
 
 #[salsa::tracked]
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
-    let Some(path) = bound_path(db, instance) else { return Vec::new() };
-    let embedder = Embedder { db, instance, outer: Outer { db, path } };
-    let subpaths = path.segments.iter().enumerate().filter_map(|(index, segment)| match &segment.kind {
-        SegmentKind::Subpath(subpath) => Some((index, segment, subpath)),
-        _ => None,
-    });
-    subpaths.map(|(index, segment, subpath)| embedder.embedding(index, segment, subpath)).collect()
+    let Some(outer) = &summary(db, instance).signature else { return Vec::new() };
+    let settings = Settings::get(db);
+    let judge = Judge::new(outer, settings.restrictions(db), &settings.language(db).path_pattern);
+    let embedder = Embedder { db, file: instance.file(db), judge };
+    outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
 }
 
 struct Embedder<'db> {
     db: &'db dyn Db,
-    instance: Instance<'db>,
-    outer: Outer<'db>,
+    /// The drawing that embeds.
+    file: SourceFile,
+    judge: Judge<'db>,
 }
 
 impl<'db> Embedder<'db> {
-    fn embedding(&self, index: usize, segment: &Segment, subpath: &Subpath) -> Embedding<'db> {
-        let mut warnings = Vec::new();
-        let outcome = match &subpath.name {
-            SubpathName::Missing { text } => {
-                let problem = Diagnostic::new(&messages::MISSING_NAME);
-                Outcome::Refused(self.outer.at(segment, problem, text.as_ref()))
-            }
-            SubpathName::Invalid { value } => {
-                let pattern = Settings::get(self.db).language(self.db).path_pattern.as_str();
-                let problem =
-                    Diagnostic::new(&messages::INVALID_NAME).with("value", &**value).with("pattern", pattern);
-                Outcome::Refused(self.outer.at_name(segment, subpath, problem))
-            }
-            SubpathName::Found { name, has_more } => {
-                warnings.extend(has_more.as_ref().map(|value| {
-                    let mut warning = Diagnostic::new(&messages::MORE_THAN_NAME)
-                        .with("value", &**value)
-                        .with("name", name.as_str());
-                    warning.severity = Severity::Warning;
-                    self.outer.at_name(segment, subpath, warning)
-                }));
-                self.named(segment, subpath, name)
-            }
+    fn embedding(&self, call: &SubpathCall) -> Embedding<'db> {
+        let name = match &call.subpath.name {
+            SubpathName::Found { name, .. } => Some(name.clone()),
+            SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
         };
-        let origin = self.outer.path.origin(segment);
-        Embedding { segment: index, origin, name: segment.embedded_name().cloned(), outcome, warnings }
+        let outcome = match self.judge.name(call) {
+            Ok(name) => self.named(call, name),
+            Err(problem) => Outcome::Refused(*problem),
+        };
+        let warnings = self.judge.warnings(call);
+        Embedding { segment: call.segment, origin: call.origin.clone(), name, outcome, warnings }
     }
 
-    fn named(&self, segment: &Segment, subpath: &Subpath, name: &PathName) -> Outcome<'db> {
-        if let Some(problem) = self.outer.forbidden(name) {
-            return Outcome::Refused(self.outer.at_name(segment, subpath, problem));
-        }
+    fn named(&self, call: &SubpathCall, name: &PathName) -> Outcome<'db> {
         let key = NameKey::of(self.db, name);
-        let found = find_path(self.db, self.instance.file(self.db), key);
-        match found.files.as_slice() {
-            [] => Outcome::NotFound(self.outer.at_name(segment, subpath, self.nowhere(name, &found))),
-            [file] => match head(self.db, *file, key) {
-                Some(head) => {
-                    self.bound(segment, subpath, head, Instance::new(self.db, *file, key, bindings(subpath)))
-                }
-                None => Outcome::NotFound(self.outer.at_name(segment, subpath, self.nowhere(name, &found))),
-            },
+        let Some(resolved) = find_path(self.db, self.file, key) else {
+            return self.bound(call, self.file, key);
+        };
+        match resolved.files.as_slice() {
+            [] => Outcome::NotFound(self.not_found(call, name, resolved)),
+            [file] => self.bound(call, *file, key),
             [first, second, ..] => {
-                let problem = Diagnostic::new(&messages::DEFINED_TWICE)
-                    .with("name", name.as_str())
-                    .with("first", first.path(self.db).as_str())
-                    .with("second", second.path(self.db).as_str());
-                Outcome::NotFound(self.outer.at_name(segment, subpath, problem))
+                let [first, second] = [first, second].map(|file| file.path(self.db).as_str());
+                Outcome::NotFound(self.judge.defined_twice(call, name, first, second))
             }
         }
     }
 
-    /// Checks the values against the path's variables. A path whose drawing has errors is not asked for its variables.
-    fn bound(&self, segment: &Segment, subpath: &Subpath, head: &Head, child: Instance<'db>) -> Outcome<'db> {
-        let problems =
-            if head.is_sound { self.outer.binding_problems(segment, subpath, head) } else { Vec::new() };
+    fn not_found(&self, call: &SubpathCall, name: &PathName, resolved: &Resolved) -> Diagnostic {
+        let directories: Value =
+            resolved.directories.iter().map(|it| shown(it.path(self.db).as_str())).collect();
+        let files: Value = resolved.searched.iter().map(|file| file.path(self.db).as_str()).collect();
+        let known = resolved.searched.iter().flat_map(|file| file_index(self.db, *file).names());
+        self.judge.not_found(call, name, directories, files, known.cloned().collect())
+    }
+
+    /// Checks the values against the path's variables, then the segment against the path.
+    fn bound(&self, call: &SubpathCall, file: SourceFile, name: NameKey<'db>) -> Outcome<'db> {
+        let problems = path_index(self.db, file, name)
+            .as_ref()
+            .map(|inner| self.judge.binding_problems(call, &inner.header))
+            .unwrap_or_default();
         if !problems.is_empty() {
             return Outcome::Unbound(problems);
         }
-        let problems = match &summary(self.db, child).brief {
-            Some(inner) => self.outer.misfits(segment, subpath, inner),
-            None => Vec::new(),
-        };
+        let child = Instance::new(self.db, file, name, call.bindings());
+        let inner: Option<&PathSignature> = summary(self.db, child).signature.as_ref();
+        let problems = inner.map(|inner| self.judge.misfits(call, inner)).unwrap_or_default();
         Outcome::Found { child, problems }
     }
-
-    fn nowhere(&self, name: &PathName, found: &Found) -> Diagnostic {
-        let directories: Value = found
-            .directories
-            .iter()
-            .map(|directory| shown_directory(directory.path(self.db).as_str()))
-            .collect();
-        let files: Value = found.searched.iter().map(|file| file.path(self.db).as_str()).collect();
-        let problem = Diagnostic::new(&messages::NOT_FOUND)
-            .with("name", name.as_str())
-            .with("directories", directories)
-            .with("files", files);
-        let near = near_names(name, names_in(self.db, &found.searched));
-        if near.is_empty() {
-            return problem;
-        }
-        problem.note(&messages::NEAR_NAMES, vec![("names", near.iter().map(PathName::as_str).collect())])
-    }
 }
 
-fn shown_directory(path: &str) -> &str {
-    if path.is_empty() { "." } else { path }
-}
-
-/// Names that differ from a name by little: most like `8999.1P` for `8999.01P`.
-pub(crate) fn near_names(name: &PathName, mut known: Vec<PathName>) -> Vec<PathName> {
-    let plain = |name: &PathName| {
-        let parts = name.folded();
-        let parts = parts.split('.').map(|part| part.trim_start_matches('0').to_owned());
-        parts.collect::<Vec<_>>().join(".")
-    };
-    let wanted = plain(name);
-    known.retain(|other| distance(&wanted, &plain(other)) <= 1);
-    known.sort();
-    known.dedup();
-    known.truncate(5);
-    known
-}
-
-/// The edit distance of two names, as far as 2.
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    if a.len().abs_diff(b.len()) > 2 {
-        return 3;
-    }
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
+fn shown(directory: &str) -> &str {
+    if directory.is_empty() { "." } else { directory }
 }

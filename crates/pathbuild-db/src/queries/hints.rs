@@ -1,17 +1,20 @@
 //! What helps with a path that does not go on: ends near by on other layers. Looked for only when it does not go on.
 
+use std::cell::OnceCell;
+
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Number, Point};
-use pathbuild_dxf::Geometry;
-use pathbuild_path::{PathName, Xy, on_circle};
+use pathbuild_dxf::{Drawing, Geometry};
+use pathbuild_path::{PathName, PathPattern, Xy, on_circle};
 
-use super::layers::read_layers;
-use crate::database::Db;
-use crate::inputs::SourceFile;
-use crate::settings::Settings;
+/// The ends of all lines and arcs of a drawing, on whatever layer: the drawing is read once more for them when they are first wanted.
+pub(super) struct LayerEnds<'a> {
+    /// All layers of the drawing.
+    read: &'a dyn Fn() -> Drawing,
+    ends: OnceCell<Vec<LayerEnd>>,
+}
 
 /// An end of a line or arc on any layer.
-#[derive(Clone, Debug, PartialEq, Eq)]
 struct LayerEnd {
     layer: Box<str>,
     kind: EntityKind,
@@ -21,39 +24,42 @@ struct LayerEnd {
 /// How far off an end on another layer is still worth naming, in mm.
 const WORTH_NAMING: f64 = 1.0;
 
-/// Adds to PB401 the nearest end on another layer: a line on the wrong layer is its second most usual cause.
-pub(super) fn with_other_layers(
-    db: &dyn Db,
-    file: SourceFile,
-    path: &PathName,
-    diagnostic: Diagnostic,
-) -> Diagnostic {
-    if diagnostic.code() != Code::NothingContinues {
-        return diagnostic;
+impl<'a> LayerEnds<'a> {
+    pub(super) fn new(read: &'a dyn Fn() -> Drawing) -> Self {
+        Self { read, ends: OnceCell::new() }
     }
-    let Some(point) = diagnostic.place.point else { return diagnostic };
-    let pattern = &Settings::get(db).language(db).path_pattern;
-    let is_other = |end: &&LayerEnd| pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path);
-    let distances = all_ends(db, file).iter().filter(is_other).map(|end| (end, distance(end.point, point)));
-    let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
-    match nearest {
-        Some((end, distance)) if distance <= WORTH_NAMING => diagnostic.note(
-            &messages::END_ON_OTHER_LAYER,
-            vec![
-                ("layer", (&*end.layer).into()),
-                ("element", end.kind.name().into()),
-                ("point", end.point.into()),
-                ("distance", distance.into()),
-            ],
-        ),
-        _ => diagnostic,
+
+    /// Adds to PB401 the nearest end on another layer: a line on the wrong layer is its second most usual cause.
+    pub(super) fn with_hint(
+        &self,
+        path: &PathName,
+        pattern: &PathPattern,
+        diagnostic: Diagnostic,
+    ) -> Diagnostic {
+        if diagnostic.code() != Code::NothingContinues {
+            return diagnostic;
+        }
+        let Some(point) = diagnostic.place.point else { return diagnostic };
+        let ends = self.ends.get_or_init(|| all_ends(&(self.read)()));
+        let is_other = |end: &&LayerEnd| pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path);
+        let distances = ends.iter().filter(is_other).map(|end| (end, distance(end.point, point)));
+        let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
+        match nearest {
+            Some((end, distance)) if distance <= WORTH_NAMING => diagnostic.note(
+                &messages::END_ON_OTHER_LAYER,
+                vec![
+                    ("layer", (&*end.layer).into()),
+                    ("element", end.kind.name().into()),
+                    ("point", end.point.into()),
+                    ("distance", distance.into()),
+                ],
+            ),
+            _ => diagnostic,
+        }
     }
 }
 
-/// The ends of all lines and arcs of a drawing, on whatever layer: the drawing is read once more for that.
-#[salsa::tracked]
-fn all_ends(db: &dyn Db, file: SourceFile) -> Vec<LayerEnd> {
-    let drawing = read_layers(db, file, &|_| true);
+fn all_ends(drawing: &Drawing) -> Vec<LayerEnd> {
     let mut ends = Vec::new();
     for entity in &drawing.entities {
         let layer = &drawing.layers[entity.layer as usize].name;

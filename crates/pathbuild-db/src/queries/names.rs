@@ -3,7 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{FilePattern, PathKey, RangeTable, Ranges};
 
-use crate::database::Db;
+use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
 use crate::system::Names;
@@ -15,51 +15,19 @@ pub struct NameTable {
     ranges: RangeTable,
 }
 
-/// A [`NameTable`] on the way there.
-#[derive(Debug, Default)]
-pub(crate) struct GatheredNames {
-    names: Names,
-    ranges: Ranges,
-}
-
-impl GatheredNames {
-    /// Adds the drawings among some names.
-    pub(crate) fn add(&mut self, names: &Names, pattern: &FilePattern) {
-        for name in names.iter().filter(|name| is_drawing(name)) {
-            let number = number(self.len());
+impl NameTable {
+    /// The drawings among some file names.
+    fn new(files: &Names, pattern: &FilePattern) -> Self {
+        let (mut names, mut ranges) = (Names::default(), Ranges::default());
+        for name in files.iter().filter(|name| is_drawing(name)) {
+            let number = u32::try_from(names.len()).expect("a directory has fewer than 2^32 names");
             let stem = &name[..name.len() - EXTENSION.len()];
-            pattern.each_range(stem, |range| self.ranges.push(range, number));
-            self.names.push(name);
+            pattern.each_range(stem, |range| ranges.push(range, number));
+            names.push(name);
         }
-    }
-
-    /// How many drawings there are.
-    pub(crate) fn len(&self) -> usize {
-        self.names.len()
-    }
-
-    /// The names that may hold a path, in order, without the first so many.
-    pub(crate) fn find(&self, key: &PathKey, seen: usize) -> Vec<String> {
-        let files = self.ranges.files(key, number(seen)).into_iter();
-        let mut names: Vec<String> =
-            files.filter_map(|file| self.names.get(file as usize)).map(str::to_owned).collect();
-        names.sort_unstable();
-        names.dedup();
-        names
-    }
-}
-
-impl From<GatheredNames> for NameTable {
-    fn from(GatheredNames { names, ranges }: GatheredNames) -> Self {
         Self { names, ranges: ranges.into() }
     }
-}
 
-fn number(name: usize) -> u32 {
-    u32::try_from(name).expect("a directory has fewer than 2^32 names")
-}
-
-impl NameTable {
     /// Whether look-ups use an order; else each looks at every name.
     pub fn is_sorted(&self) -> bool {
         self.ranges.is_sorted()
@@ -79,13 +47,9 @@ impl NameTable {
 #[salsa::tracked]
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
-    db.arrivals().take(directory).unwrap_or_else(|| {
-        let pattern = &Settings::get(db).lookup(db).file_pattern;
-        let listed = db.system().list(directory.path(db)).unwrap_or_default();
-        let mut names = GatheredNames::default();
-        names.add(&listed.files, pattern);
-        names.into()
-    })
+    let pattern = &Settings::get(db).lookup(db).file_pattern;
+    let list = || db.system().list(directory.path(db)).unwrap_or_default().files;
+    NameTable::new(&db.listed(directory).unwrap_or_else(list), pattern)
 }
 
 /// The names of the drawings in a directory, as its name ranges were read from them.

@@ -2,8 +2,8 @@
 
 use pathbuild_path::AssignedText;
 
-use super::layers::read_layers;
-use crate::database::Db;
+use super::rereading::read_layers;
+use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 

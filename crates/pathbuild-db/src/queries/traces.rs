@@ -1,14 +1,14 @@
-//! What a target was made from: by which a driver knows after an edit which targets to ask again, and a cache whether a result still holds.
+//! What a target was made from: by which a driver knows after an edit which targets to ask again, and a cache whether a result is up to date.
 
 use camino::Utf8PathBuf;
 use pathbuild_path::PathName;
+use rustc_hash::FxHashSet;
 
+use super::closures::closure;
 use super::embedding::embeds;
-use super::instance::Instance;
-use super::lookup::{Found, find_path};
-use super::raw::NameKey;
-use super::reach::closure;
-use crate::database::Db;
+use super::index::NameKey;
+use super::lookup::find_path;
+use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 
 /// Everything outside that a target depends on, besides the settings.
@@ -21,7 +21,7 @@ pub struct Trace {
 }
 
 /// A path that was looked for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Sought {
     /// The path.
     pub name: PathName,
@@ -32,39 +32,37 @@ pub struct Sought {
 /// The trace of a target. An edit outside it does not change what comes of the target.
 #[salsa::tracked]
 pub fn trace(db: &dyn Db, target: Target) -> Trace {
-    let mut trace = Trace { files: vec![target.file(db)], lookups: Vec::new() };
+    let (mut files, mut lookups) = (Distinct::default(), Distinct::default());
+    files.push(target.file(db));
     for reached in &closure(db, target).reached {
-        trace.add(db, reached.instance);
+        let from = reached.instance.file(db);
+        files.push(from);
+        for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
+            let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
+            resolved.searched.iter().for_each(|file| files.push(*file));
+            let directories = resolved.directories.iter().map(|directory| directory.path(db).clone());
+            lookups.push(Sought { name: name.clone(), directories: directories.collect() });
+        }
     }
-    trace
+    Trace { files: files.all, lookups: lookups.all }
 }
 
-impl Trace {
-    fn add(&mut self, db: &dyn Db, instance: Instance<'_>) {
-        let from = instance.file(db);
-        self.add_file(from);
-        for name in embeds(db, instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
-            self.add_found(db, name, &find_path(db, from, NameKey::of(db, name)));
+/// A list of things, each once.
+struct Distinct<T> {
+    all: Vec<T>,
+    seen: FxHashSet<T>,
+}
+
+impl<T: Clone + Eq + std::hash::Hash> Distinct<T> {
+    fn push(&mut self, one: T) {
+        if self.seen.insert(one.clone()) {
+            self.all.push(one);
         }
     }
+}
 
-    /// Adds what was looked for.
-    pub(super) fn add_found(&mut self, db: &dyn Db, name: &PathName, found: &Found) {
-        for file in &found.searched {
-            self.add_file(*file);
-        }
-        if !found.directories.is_empty() {
-            let directories = found.directories.iter().map(|directory| directory.path(db).clone());
-            let sought = Sought { name: name.clone(), directories: directories.collect() };
-            if !self.lookups.contains(&sought) {
-                self.lookups.push(sought);
-            }
-        }
-    }
-
-    fn add_file(&mut self, file: SourceFile) {
-        if !self.files.contains(&file) {
-            self.files.push(file);
-        }
+impl<T> Default for Distinct<T> {
+    fn default() -> Self {
+        Self { all: Vec::new(), seen: FxHashSet::default() }
     }
 }

@@ -35,27 +35,29 @@ fn world() -> World {
 }
 
 const OF_SIBLING: [&str; 8] = [
+    "file_index sibling",
+    "path_index sibling",
     "raw_file sibling",
-    "path_entry sibling",
-    "head sibling",
+    "raw_path sibling",
     "path sibling",
     "chains sibling",
-    "summary sibling",
     "closure sibling",
     "program sibling",
 ];
 
 /// What drawing and looking up a project comes to, apart from what it embeds.
-const OF_PROJECT: [&str; 8] = [
+const OF_PROJECT: [&str; 7] = [
+    "file_index project",
+    "path_index project",
     "raw_file project",
-    "path_entry project",
-    "head project",
+    "raw_path project",
     "path project",
     "chains project",
-    "summary project",
-    "find_path project",
-    "files_for project",
+    "resolve_path project",
 ];
+
+/// All but the look-up.
+const DRAWN: std::ops::RangeTo<usize> = ..6;
 
 #[test]
 fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
@@ -64,15 +66,15 @@ fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
     world.draw(COMPONENT, &component("1111.1P", "1"));
     world.expect(
         &[
+            "file_index component",
             "raw_file component",
-            "path_entry component",
-            "path_names project",
-            "head component",
+            "raw_path component",
+            "path_index component",
             "path component",
             "chains component",
-            "summary component",
             "closure component",
             "program component",
+            "resolve_path project",
             "embeddings project",
             "closure project",
             "program project",
@@ -81,8 +83,8 @@ fn an_edited_component_runs_its_stages_and_the_placing_in_its_users() {
         ],
         &[
             &OF_SIBLING[..],
-            &OF_PROJECT,
-            &["name_table project", "path outer", "chains outer", "embeddings outer", "find_path outer"],
+            &OF_PROJECT[DRAWN],
+            &["name_table project", "path outer", "chains outer", "embeddings outer", "resolve_path outer"],
         ]
         .concat(),
     );
@@ -97,10 +99,16 @@ fn a_remark_in_a_component_runs_only_the_reader() {
     let mut world = world();
     world.draw(COMPONENT, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{}", component("1111.1P", "0")));
     world.expect(
-        &["raw_file component", "path_entry component", "path_names project"],
+        &["file_index component", "raw_file component", "raw_path component"],
         &[
             &OF_PROJECT[..],
-            &["head component", "path component", "embeddings project", "closure project", "program outer"],
+            &[
+                "path_index component",
+                "path component",
+                "embeddings project",
+                "closure project",
+                "program outer",
+            ],
         ]
         .concat(),
     );
@@ -111,11 +119,11 @@ fn a_new_unrelated_file_runs_only_lookups() {
     let mut world = world();
     world.draw("lib/3000.1P.dxf", &component("3000.1P", "0"));
     world.expect(
-        &["name_table project", "files_for project", "files_for outer"],
+        &["name_table project", "resolve_path project", "resolve_path outer"],
         &[
             &OF_SIBLING[..],
-            &OF_PROJECT[..7],
-            &["find_path outer", "embeddings project", "closure project", "program project", "program outer"],
+            &OF_PROJECT[DRAWN],
+            &["embeddings project", "closure project", "program project", "program outer"],
         ]
         .concat(),
     );
@@ -130,15 +138,13 @@ fn a_new_file_that_could_hold_the_path_is_read() {
     world.expect(
         &[
             "name_table project",
-            "files_for project",
-            "files_for outer",
-            "find_path project",
-            "raw_file new",
-            "path_names new",
+            "resolve_path project",
+            "resolve_path outer",
+            "file_index new",
+            "path_index new",
             "embeddings project",
         ],
-        &[&OF_SIBLING[..], &["find_path outer", "closure project", "program project", "program outer"]]
-            .concat(),
+        &[&OF_SIBLING[..], &["closure project", "program project", "program outer"]].concat(),
     );
     assert_eq!(world.outcome("project"), before);
 }
@@ -150,9 +156,8 @@ fn a_file_that_makes_a_path_ambiguous_makes_its_users_fail_and_removing_it_mends
     world.draw("lib/1111 copy.dxf", &component("1111.1P", "0"));
     let of_users = [
         "name_table project",
-        "files_for project",
-        "files_for outer",
-        "find_path project",
+        "resolve_path project",
+        "resolve_path outer",
         "embeddings project",
         "closure project",
         "program project",
@@ -161,11 +166,11 @@ fn a_file_that_makes_a_path_ambiguous_makes_its_users_fail_and_removing_it_mends
     ];
     let spared = [
         &OF_SIBLING[..],
-        &OF_PROJECT[..6],
-        &["path component", "closure component", "program component", "find_path outer", "path outer"],
+        &OF_PROJECT[DRAWN],
+        &["path component", "closure component", "program component", "path outer"],
     ]
     .concat();
-    world.expect(&[&of_users[..], &["raw_file new", "path_names new"]].concat(), &spared);
+    world.expect(&[&of_users[..], &["file_index new", "path_index new"]].concat(), &spared);
     assert_eq!(world.codes("project"), ["PB504"]);
     assert_eq!(world.codes("outer"), ["PB504", "PB511"]);
     assert_eq!(world.outcome("component"), before[0]);
@@ -182,22 +187,20 @@ fn a_component_that_is_gone_makes_its_users_fail_and_putting_it_back_mends_them(
     world.remove(COMPONENT);
     world.expect(
         &[
-            "raw_file component",
-            "path_entry component",
-            "head component",
+            "file_index component",
+            "path_index component",
             "closure component",
             "program component",
             "name_table project",
-            "files_for project",
-            "files_for outer",
-            "find_path project",
+            "resolve_path project",
+            "resolve_path outer",
             "embeddings project",
             "closure project",
             "program project",
             "closure outer",
             "program outer",
         ],
-        &[&OF_SIBLING[..], &OF_PROJECT[..6], &["path outer", "find_path outer"]].concat(),
+        &[&OF_SIBLING[..], &OF_PROJECT[DRAWN], &["path outer", "raw_file component"]].concat(),
     );
     assert_eq!(world.codes("project"), ["PB503"]);
     assert_eq!(world.codes("outer"), ["PB503", "PB511"]);
@@ -217,22 +220,20 @@ fn a_cycle_is_found_when_it_is_made_and_forgotten_when_it_is_mended() {
     world.draw(COMPONENT, &component("1111.1P", "0"));
     world.expect(
         &[
+            "file_index component",
             "raw_file component",
-            "path_entry component",
-            "path_names project",
-            "head component",
-            "path component",
-            "chains component",
-            "summary component",
+            "raw_path component",
+            "path_index component",
             "closure component",
             "program component",
+            "resolve_path project",
             "embeddings project",
             "closure project",
             "program project",
             "closure outer",
             "program outer",
         ],
-        &[&OF_SIBLING[..], &OF_PROJECT, &["path outer", "embeddings outer"]].concat(),
+        &[&OF_SIBLING[..], &OF_PROJECT[DRAWN], &["path outer", "embeddings outer"]].concat(),
     );
     assert_eq!(["component", "project", "outer"].map(|label| world.outcome(label)), before);
 }

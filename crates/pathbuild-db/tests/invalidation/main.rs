@@ -1,12 +1,12 @@
 //! What is computed again after an edit, and what must not be. (ARCHITECTURE.md, "Queries")
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 
+mod drift;
 mod embedding;
-mod guessing;
 mod incremental;
 mod library;
+mod listing;
 mod memory;
 mod one_file;
 mod settings;
-mod survey;
 mod world;

@@ -29,29 +29,24 @@ fn world() -> World {
     world
 }
 
-/// Everything that is asked of the first path.
-const OF_PATH: [&str; 6] =
-    ["head path", "path path", "chains path", "summary path", "closure path", "program path"];
+/// Everything that is made of the first path.
+const OF_PATH: [&str; 4] = ["path path", "chains path", "closure path", "program path"];
 
-const OF_SIBLING: [&str; 6] = [
-    "head sibling",
-    "path sibling",
-    "chains sibling",
-    "summary sibling",
-    "closure sibling",
-    "program sibling",
-];
+const OF_SIBLING: [&str; 4] = ["path sibling", "chains sibling", "closure sibling", "program sibling"];
 
 /// The drawing, and its paths taken out of it.
-const READING: [&str; 3] = ["raw_file sibling", "path_entry path", "path_entry sibling"];
+const READING: [&str; 4] = ["file_index sibling", "raw_file sibling", "raw_path path", "raw_path sibling"];
+
+/// The paths taken out of the drawing's index.
+const INDEX: [&str; 2] = ["path_index path", "path_index sibling"];
 
 const OF_OTHER: [&str; 8] = [
+    "file_index other",
+    "path_index other",
     "raw_file other",
-    "path_entry other",
-    "head other",
+    "raw_path other",
     "path other",
     "chains other",
-    "summary other",
     "closure other",
     "program other",
 ];
@@ -65,7 +60,7 @@ fn a_remark_before_the_first_element_runs_only_the_reader() {
     let mut world = world();
     let (before, outcome) = (world.place("path"), world.outcome("path"));
     world.draw(FILE, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{DRAWING}"));
-    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&INDEX, &OF_PATH, &OF_SIBLING, &OF_OTHER]));
     assert_eq!(world.outcome("path"), outcome);
     let after = world.place("path");
     assert!(after.line > before.line, "{before:?} {after:?}");
@@ -80,7 +75,7 @@ fn a_comment_in_the_file_runs_only_the_reader() {
     let with_comment = text.replacen("ENTITIES\r\n", "ENTITIES\r\n999\r\na remark\r\n", 1);
     assert_ne!(text, with_comment);
     world.put(FILE, with_comment.into_bytes());
-    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&INDEX, &OF_PATH, &OF_SIBLING, &OF_OTHER]));
     assert_eq!(world.outcome("path"), outcome);
     let after = world.place("path");
     assert_eq!(after.line, before.line.map(|line| line + 2));
@@ -91,21 +86,18 @@ fn a_comment_in_the_file_runs_only_the_reader() {
 fn a_file_that_was_saved_without_a_change_runs_only_the_reader() {
     let mut world = world();
     world.draw(FILE, DRAWING);
-    world.expect(&READING, &all_of(&[&OF_PATH, &OF_SIBLING, &OF_OTHER]));
+    world.expect(&READING, &all_of(&[&INDEX, &OF_PATH, &OF_SIBLING, &OF_OTHER]));
 }
 
-/// Where the walk does not go on, the whole drawing is searched for what might: that is read again, too.
+/// Where the walk does not go on, all layers of the drawing are searched for what might.
 #[test]
-fn a_remark_in_a_drawing_with_a_gap_runs_the_reader_and_the_search_for_ends() {
+fn a_remark_in_a_drawing_with_a_gap_runs_only_the_reader() {
     let gap = DRAWING.replace("mill 20,0 20,10", "mill 20,1 20,10");
     let mut world = World::new(&[(FILE, &gap)]);
     world.ask("path", FILE, "1111.1P");
     assert!(world.codes("path").contains(&"PB401".to_owned()));
     world.draw(FILE, &format!("layer REMARKS\ntext 0,90 \"a remark\"\n{gap}"));
-    world.expect(
-        &["raw_file path", "path_entry path", "all_ends path"],
-        &["head path", "path path", "summary path", "closure path", "program path"],
-    );
+    world.expect(&["file_index path"], &["path_index path", "closure path", "program path"]);
 }
 
 #[test]
@@ -114,7 +106,7 @@ fn a_moved_line_runs_the_stages_of_its_path() {
     let before = world.outcome("path").program;
     let moved = DRAWING.replace("20,0 20,10", "20,0 20,11").replace("end 20,10", "end 20,11");
     world.draw(FILE, &moved);
-    world.expect(&all_of(&[&READING, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
+    world.expect(&all_of(&[&READING, &INDEX, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
     assert_ne!(world.outcome("path").program, before);
 }
 
@@ -123,7 +115,7 @@ fn a_changed_parameter_text_runs_the_stages_of_its_path() {
     let mut world = world();
     let before = world.outcome("path").program;
     world.draw(FILE, &DRAWING.replacen("B0", "B1", 1));
-    world.expect(&all_of(&[&READING, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
+    world.expect(&all_of(&[&READING, &INDEX, &OF_PATH]), &all_of(&[&OF_SIBLING, &OF_OTHER]));
     assert_ne!(world.outcome("path").program, before);
 }
 
@@ -132,7 +124,7 @@ fn an_edited_sibling_runs_nothing_of_the_path() {
     let mut world = world();
     let before = world.outcome("path");
     world.draw(FILE, &DRAWING.replace("mill 0,50 20,50", "mill 0,50 10,60\nmill 10,60 20,50"));
-    world.expect(&all_of(&[&READING, &OF_SIBLING]), &all_of(&[&OF_PATH, &OF_OTHER]));
+    world.expect(&all_of(&[&READING, &INDEX, &OF_SIBLING]), &all_of(&[&OF_PATH, &OF_OTHER]));
     assert_eq!(world.outcome("path"), before);
 }
 
@@ -142,7 +134,7 @@ fn a_renamed_sibling_runs_nothing_of_the_path() {
     let mut world = world();
     world.draw(FILE, &DRAWING.replace("layer 1111.2P", "layer 1111.3P"));
     world.expect(
-        &all_of(&[&READING, &["head sibling", "closure sibling", "program sibling"]]),
+        &all_of(&[&READING[..3], &INDEX, &["closure sibling", "program sibling"]]),
         &all_of(&[&OF_PATH, &OF_OTHER]),
     );
     assert_eq!(world.outcome("sibling").program, None);

@@ -1,8 +1,8 @@
 //! Settings: one field for each consumer.
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Lookup, Restriction, Settings};
-use pathbuild_path::FilePattern;
+use pathbuild_db::{Lookup, Settings};
+use pathbuild_path::{FilePattern, Restriction};
 use pathbuild_toolpath::FoldOptions;
 use salsa::Setter;
 
@@ -19,8 +19,14 @@ fn world() -> World {
     world
 }
 
-const READING: [&str; 4] =
-    ["raw_file component", "raw_file project", "path_entry component", "path_entry project"];
+const READING: [&str; 6] = [
+    "file_index component",
+    "file_index project",
+    "raw_file component",
+    "raw_file project",
+    "raw_path component",
+    "raw_path project",
+];
 
 const VALUES: [&str; 4] = ["path component", "path project", "chains component", "chains project"];
 
@@ -33,7 +39,8 @@ fn another_feed_reads_no_drawing_again() {
     settings.set_fold(&mut world.db).to(fold);
     world.expect(
         &["closure component", "closure project", "program component", "program project"],
-        &[&READING[..], &VALUES, &["embeddings project", "find_path project", "name_table project"]].concat(),
+        &[&READING[..], &VALUES, &["embeddings project", "resolve_path project", "name_table project"]]
+            .concat(),
     );
     assert_ne!(world.outcome("project").program, before.program);
 }
@@ -45,7 +52,8 @@ fn a_restriction_runs_only_the_embedding() {
     settings.set_restrictions(&mut world.db).to(vec![Restriction::new("^8", "^2").unwrap()]);
     world.expect(
         &["embeddings project", "closure project", "program project"],
-        &[&READING[..], &VALUES, &["find_path project", "closure component", "program component"]].concat(),
+        &[&READING[..], &VALUES, &["resolve_path project", "closure component", "program component"]]
+            .concat(),
     );
     assert_eq!(world.codes("project"), ["PB507"]);
 }
@@ -57,7 +65,7 @@ fn a_search_directory_runs_only_lookups() {
     let settings = Settings::get(&world.db);
     settings.set_lookup(&mut world.db).to(lookup);
     world.expect(
-        &["name_table project", "find_path project", "name_table new", "files_for new", "embeddings project"],
-        &[&READING[..], &VALUES, &["files_for project", "closure project", "program project"]].concat(),
+        &["name_table project", "name_table new", "resolve_path project", "embeddings project"],
+        &[&READING[..], &VALUES, &["closure project", "program project"]].concat(),
     );
 }

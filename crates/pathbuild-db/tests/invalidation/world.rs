@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{MemorySystem, System};
@@ -9,7 +10,7 @@ use pathbuild_db::{
     Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathName, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
 use pathbuild_testkit::sheet;
 use pathbuild_toolpath::FoldOptions;
 
@@ -96,9 +97,24 @@ impl World {
         &self.ran
     }
 
-    /// The input that stands for a drawing, and the name of a path in it.
-    pub(crate) fn path(&self, file: &str, path: &str) -> (SourceFile, PathName) {
-        (self.db.file(file.into()), PathName::new(path))
+    /// The input that stands for a drawing.
+    pub(crate) fn file(&self, file: &str) -> SourceFile {
+        self.db.file(file.into())
+    }
+
+    /// Does work that may be given up.
+    pub(crate) fn guarded<R>(&self, work: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
+        self.db.guarded(Duration::MAX, || work(&self.db))
+    }
+
+    /// Writes a drawing without telling the database.
+    pub(crate) fn put_unnoticed(&self, file: &str, text: &str) {
+        self.system.put(file, dxf(text));
+    }
+
+    /// Removes a drawing without telling the database.
+    pub(crate) fn remove_unnoticed(&self, file: &str) {
+        self.system.remove(file.into()).unwrap();
     }
 
     fn new_target(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Target {

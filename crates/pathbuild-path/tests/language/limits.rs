@@ -1,6 +1,6 @@
 //! Values against their limits: PB203. (spec/30-parameters.md, "Checks")
 
-use pathbuild_path::Path;
+use pathbuild_path::{Path, SweepLimits};
 
 use crate::support::{codes, compile, path, wrong};
 
@@ -149,7 +149,7 @@ fn the_default_sweep_height_is_above_every_t() {
         let statements = format!("subpath 0,0 40,0 \">1111.1P\"\nprobe 20,40 \"{text}\"\nend 40,0");
         compile(&path("T5 O3 I1 B0", &statements)).path.unwrap()
     };
-    let check = |path: &Path, height: f64| codes(&path.check_sweep_height(height));
+    let check = |path: &Path, height: f64| codes(&SweepLimits::of(path).check(height));
     assert_eq!(check(&path_of("Lx"), 5.1), [""; 0]);
     assert_eq!(check(&path_of("Lx"), 5.0), ["PB203"]);
     assert_eq!(check(&path_of("T7"), 7.1), [""; 0]);

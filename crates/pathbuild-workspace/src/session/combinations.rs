@@ -7,16 +7,16 @@ use pathbuild_diagnostic::messages::variables as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault};
 use pathbuild_path::{Bindings, PathName};
 
-use super::{CheckedTarget, Session};
+use super::{Asking, CheckedTarget};
 
 /// With how many combinations of values a path is checked at most.
 const MOST_COMBINATIONS: usize = 1000;
 
-impl Session<'_> {
+impl Asking<'_> {
     /// The targets that check a path with each combination of values, and a warning where there are too many. Of a path without variables
     /// that is one target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
-        let target = |role| self.target_in(file, name, role);
+        let target = |role| self.db().target(file, name.as_str(), role);
         match combinations(self.db(), file, name, MOST_COMBINATIONS) {
             None => (vec![target(Role::Checked)], None),
             Some((values, warning)) => {

@@ -6,9 +6,9 @@ mod graph;
 mod keeper;
 mod library;
 mod outputs;
+mod prefetch;
 mod provenance;
 mod q_projects;
-mod rehearsal;
 mod resolve;
 mod settings;
 pub mod timings;
@@ -16,13 +16,12 @@ mod watchdog;
 mod work;
 mod workers;
 
-use std::cell::RefCell;
-use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, Overlay, System};
-use pathbuild_db::{Database, Db, Role, SourceFile, Target};
+use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
 use self::watchdog::Watchdog;
@@ -52,13 +51,12 @@ pub struct Session<'a> {
     progress: Option<Box<dyn Advance>>,
     /// Worker threads.
     workers: OnceLock<Option<Workers>>,
-    /// The targets that were asked for, in a session that asks for the same again: each is an input of the database, which stays for ever.
-    targets: Option<RefCell<Targets>>,
     /// Where the time went.
     timings: Timings,
 }
 
-type Targets = HashMap<(SourceFile, Box<str>, Role), Target>;
+/// So often a piece of work is done again because drawings changed meanwhile. Who keeps writing a drawing is told so.
+const ROUNDS: usize = 8;
 
 impl<'a> Session<'a> {
     /// A session over the files of the operating system.
@@ -68,9 +66,7 @@ impl<'a> Session<'a> {
 
     /// A session that makes programs, and can say out of which drawings.
     pub fn with_hashes(context: &'a Workspace) -> Self {
-        let mut session = Self::over(context, true, Arc::new(OsSystem));
-        session.db.keep_paths();
-        session
+        Self::over(context, true, Arc::new(OsSystem))
     }
 
     /// A session whose results may be kept for later runs: what they were made from is noted.
@@ -81,11 +77,6 @@ impl<'a> Session<'a> {
     /// From now on it is noted what targets are made from.
     pub fn note_traces(&mut self) {
         self.is_traced = true;
-    }
-
-    /// A session that goes on while drawings change.
-    pub fn watching(context: &'a Workspace) -> Self {
-        Self { targets: Some(RefCell::default()), ..Self::traced(context) }
     }
 
     /// Tells that a drawing may have changed, appeared or gone.
@@ -104,9 +95,16 @@ impl<'a> Session<'a> {
         Self::over(context, false, Arc::new(overlay))
     }
 
-    /// From now on drawings are surveyed: see [`Database::survey_drawings`].
-    pub fn survey_drawings(&mut self) {
-        self.db.survey_drawings();
+    /// Does some work over one state of the drawings: if one of them changes between two looks at it, the work is done again.
+    pub fn settled<R>(&mut self, mut work: impl FnMut(&mut Self) -> R) -> R {
+        let mut rounds = 0;
+        loop {
+            let result = catch_unwind(AssertUnwindSafe(|| work(self)));
+            rounds += 1;
+            if !self.db.take_over_changes() || rounds == ROUNDS {
+                return result.unwrap_or_else(|panic| resume_unwind(panic));
+            }
+        }
     }
 
     fn over(context: &'a Workspace, is_hashed: bool, system: Arc<dyn System>) -> Self {
@@ -119,7 +117,6 @@ impl<'a> Session<'a> {
             watchdog: OnceLock::new(),
             progress: None,
             workers: OnceLock::new(),
-            targets: None,
             timings: Timings::default(),
         }
     }

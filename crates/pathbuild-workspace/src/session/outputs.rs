@@ -56,17 +56,11 @@ impl OutputKind {
         }
     }
 
-    /// The whole text; programs hand on each part of it, of whole lines, as soon as it is written.
-    pub fn text(
-        self,
-        program: &Program,
-        provenance: &str,
-        writing: &Writing,
-        take: &mut dyn FnMut(&str),
-    ) -> String {
+    /// The whole text.
+    pub fn text(self, program: &Program, provenance: &str, writing: &Writing) -> String {
         let header = Header { provenance: provenance.to_owned() };
         match self {
-            Self::Milling | Self::Clean => native::program_in_parts(program, &header, &writing.options, take),
+            Self::Milling | Self::Clean => native::program(program, &header, &writing.options),
             Self::Probing => native::probing_program(program, &header, writing.probe_feed, &writing.options),
             Self::Values => native::values_file(program, writing.options.charset),
         }

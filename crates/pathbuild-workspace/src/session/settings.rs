@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{Database, Limits, Lookup, Reading, Restriction, Settings};
+use pathbuild_db::{Database, Limits, Lookup, Reading, Settings};
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
 use pathbuild_toolpath::FoldOptions;
 
 use super::normal;

@@ -1,6 +1,7 @@
 //! Where the time of a run went: `check --timings`.
 
-use std::cell::{Cell, RefCell};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use pathbuild_diagnostic::Word;
@@ -9,9 +10,9 @@ use pathbuild_diagnostic::Word;
 #[derive(Debug, Default)]
 pub struct Timings {
     /// Whether somebody wants to know. A run that goes on would gather paths without end.
-    is_on: Cell<bool>,
-    phases: RefCell<Vec<(&'static Word, Duration)>>,
-    paths: RefCell<Vec<(String, Duration)>>,
+    is_on: AtomicBool,
+    phases: Mutex<Vec<(&'static Word, Duration)>>,
+    paths: Mutex<Vec<(String, Duration)>>,
 }
 
 /// Finding the drawings that the arguments mean.
@@ -31,23 +32,22 @@ const SLOWEST: usize = 10;
 impl Timings {
     /// Begins to measure.
     pub fn switch_on(&self) {
-        self.is_on.set(true);
+        self.is_on.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it measures.
-    pub fn is_on(&self) -> bool {
-        self.is_on.get()
+    fn is_on(&self) -> bool {
+        self.is_on.load(Ordering::Relaxed)
     }
 
     /// Does some work and notes how long it took.
     pub fn measure<R>(&self, phase: &'static Word, work: impl FnOnce() -> R) -> R {
-        if !self.is_on.get() {
+        if !self.is_on() {
             return work();
         }
         let begun = Instant::now();
         let result = work();
         let time = begun.elapsed();
-        let mut phases = self.phases.borrow_mut();
+        let mut phases = lock(&self.phases);
         match phases.iter_mut().find(|(known, _)| *known == phase) {
             Some((_, sum)) => *sum += time,
             None => phases.push((phase, time)),
@@ -55,11 +55,15 @@ impl Timings {
         result
     }
 
-    /// Notes how long a path took.
-    pub(super) fn add_path(&self, name: impl FnOnce() -> String, time: Duration) {
-        if self.is_on.get() {
-            self.paths.borrow_mut().push((name(), time));
+    /// Works on a path and notes how long it took.
+    pub(super) fn measure_path<R>(&self, name: impl FnOnce() -> String, work: impl FnOnce() -> R) -> R {
+        if !self.is_on() {
+            return work();
         }
+        let begun = Instant::now();
+        let result = work();
+        lock(&self.paths).push((name(), begun.elapsed()));
+        result
     }
 
     /// A line for each phase, then one for each of the slowest paths, the slowest first.
@@ -70,10 +74,14 @@ impl Timings {
             pathbuild_diagnostic::Lang::De => word.de,
         };
         let mut lines: Vec<String> =
-            self.phases.borrow().iter().map(|(phase, time)| line(*time, word(phase))).collect();
-        let mut paths = self.paths.borrow().clone();
+            lock(&self.phases).iter().map(|(phase, time)| line(*time, word(phase))).collect();
+        let mut paths = lock(&self.paths).clone();
         paths.sort_by(|(a, slow), (b, slower)| slower.cmp(slow).then_with(|| a.cmp(b)));
         lines.extend(paths.iter().take(SLOWEST).map(|(name, time)| line(*time, name)));
         lines
     }
+}
+
+fn lock<T>(measured: &Mutex<T>) -> MutexGuard<'_, T> {
+    measured.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,17 +1,17 @@
 //! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
 
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use pathbuild_db::{
-    Brief, Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, check_file, closure,
-    locate, path_names, summary, trace,
+    Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, closure, file_index, locate,
+    path_names, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::PathName;
+use pathbuild_path::{PathName, PathSignature};
 use rayon::prelude::*;
 
-use super::timings::{CHECKING, READING};
+use super::timings::{CHECKING, READING, Timings};
 use super::watchdog::Watchdog;
 use super::workers::Workers;
 use super::{Session, WantedPath};
@@ -51,11 +51,8 @@ pub struct Asking<'a> {
     is_traced: bool,
     limit: Duration,
     watchdog: &'a OnceLock<Watchdog>,
+    timings: &'a Timings,
 }
-
-/// So many drawings are in memory at once while a library is checked: enough that nobody waits for the last of a batch, and at some 15 KB
-/// each no burden.
-const BATCH: usize = 2048;
 
 /// So many items at most are worked on in a row: no other thread can take them over, which would wait at the end for as many. Each row has a
 /// database of its own, whose lists grow anew: shorter rows cost more than waiting does.
@@ -65,7 +62,7 @@ impl Session<'_> {
     /// A target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
         let names = path_names(&self.db, file).iter();
-        names.map(|name| self.target_in(file, name, role.clone())).collect()
+        names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
     }
 
     /// The target for a path that was named.
@@ -73,16 +70,9 @@ impl Session<'_> {
         self.target_in(path.file, &path.name, role)
     }
 
-    /// The target for a path of a drawing: the same again, in a session that asks again.
+    /// The target for a path of a drawing.
     pub fn target_in(&self, file: SourceFile, name: &PathName, role: Role) -> Target {
-        let new = |role| Target::new(&self.db, file, name.as_str().into(), role);
-        match &self.targets {
-            None => new(role),
-            Some(known) => {
-                let key = (file, name.as_str().into(), role.clone());
-                *known.borrow_mut().entry(key).or_insert_with(|| new(role))
-            }
-        }
+        self.db.target(file, name.as_str(), role)
     }
 
     /// Whether it is noted what targets were made from.
@@ -90,35 +80,25 @@ impl Session<'_> {
         self.is_traced
     }
 
-    /// Reads files ahead, on all cores.
+    /// Indexes drawings, on all cores.
     pub fn read_ahead(&self, files: &[SourceFile]) {
-        let progress = self.progress.as_ref();
-        let read = |db: &Database, file: &SourceFile| {
-            path_names(db, *file);
-            check_file(db, *file);
-            progress.inspect(|progress| progress.advance());
-        };
+        let read = |db: &Database, file: &SourceFile| _ = file_index(db, *file);
         self.timings.measure(&READING, || self.spread(files, read));
     }
 
-    /// Works through drawings batch by batch. Where there are several batches, what was read for one is not kept for the next, so that memory
-    /// grows with what is found in a library, not with what is drawn.
-    pub fn in_batches<R>(
+    /// Works through many things in batches of that size. What is read for one batch is not kept for the next, so that memory grows with what
+    /// is found in a library, not with what is drawn.
+    pub fn in_batches<T, R>(
         &mut self,
-        files: &[SourceFile],
-        work: impl Fn(&Self, &[SourceFile]) -> Vec<R>,
+        all: &[T],
+        size: usize,
+        mut work: impl FnMut(&Self, &[T]) -> Vec<R>,
     ) -> Vec<R> {
-        if files.len() <= BATCH {
-            return work(self, files);
-        }
-        self.db.bound_memory();
-        self.progress = Some(self.context.reporter.progress(files.len()));
-        let mut results = Vec::with_capacity(files.len());
-        for (number, batch) in files.chunks(BATCH).enumerate() {
-            if number > 0 {
-                self.db.drop_large();
-            }
+        self.progress = Some(self.context.reporter.progress(all.len()));
+        let mut results = Vec::with_capacity(all.len());
+        for batch in all.chunks(size) {
             results.extend(work(self, batch));
+            self.db.drop_unused();
         }
         self.progress = None;
         results
@@ -126,38 +106,15 @@ impl Session<'_> {
 
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        let is_traced = self.is_traced;
-        let work = |db: &Database, target: &Target| {
-            let begun = Instant::now();
-            (check(db, *target, is_traced), begun.elapsed())
-        };
-        let results = self.timings.measure(&CHECKING, || self.guarded(targets, work));
-        let given_up =
-            |(result, target): (Result<(CheckedTarget, Duration), Box<Diagnostic>>, &Target)| match result {
-                Ok((checked, time)) => {
-                    let (db, name) = (&self.db, target.name(&self.db));
-                    self.timings.add_path(|| format!("{name} ({})", target.file(db).path(db)), time);
-                    checked
-                }
-                Err(problem) => given_up(&self.db, *target, *problem),
-            };
-        results.into_iter().zip(targets).map(given_up).collect()
+        self.each(targets, |asking, target| asking.check(*target))
     }
 
-    /// Works on each of these drawings, on all cores. The order of the results is that of the drawings.
-    pub fn each<R: Send>(
-        &self,
-        files: &[SourceFile],
-        work: impl Fn(&Asking<'_>, &SourceFile) -> R + Sync,
-    ) -> Vec<R> {
+    /// Works on each of these, on all cores. The order of the results is that of the items.
+    pub fn each<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Asking<'_>, &T) -> R + Sync) -> Vec<R> {
         let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
-        let progress = self.progress.as_ref();
-        let work = |db: &Database, file: &SourceFile| {
-            let result = work(&Asking { db, is_traced, limit, watchdog }, file);
-            progress.inspect(|progress| progress.advance());
-            result
-        };
-        self.timings.measure(&CHECKING, || self.spread(files, work))
+        let timings = &self.timings;
+        let work = |db: &Database, item: &T| work(&Asking { db, is_traced, limit, watchdog, timings }, item);
+        self.timings.measure(&CHECKING, || self.spread(items, work))
     }
 
     fn limit(&self) -> Duration {
@@ -197,10 +154,11 @@ impl Session<'_> {
             return items.iter().map(|item| work(&self.db, item)).collect();
         };
         let db = self.db.clone();
-        let progress = self.progress.is_none().then(|| self.context.reporter.progress(items.len()));
+        let own = self.progress.is_none().then(|| self.context.reporter.progress(items.len()));
+        let progress = self.progress.as_ref().or(own.as_ref());
         let work = |db: &mut Database, item| {
             let result = work(db, item);
-            progress.as_ref().inspect(|progress| progress.advance());
+            progress.inspect(|progress| progress.advance());
             result
         };
         workers.work(|| items.par_iter().with_max_len(IN_A_ROW).map_with(db, work).collect())
@@ -234,7 +192,9 @@ impl Asking<'_> {
     pub fn check(&self, target: Target) -> CheckedTarget {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
         let _watched = watchdog.begin(self.db);
-        let checked = self.db.guarded(self.limit, || check(self.db, target, self.is_traced));
+        let work = || self.db.guarded(self.limit, || check(self.db, target, self.is_traced));
+        let name = || format!("{} ({})", target.name(self.db), target.file(self.db).path(self.db));
+        let checked = self.timings.measure_path(name, work);
         checked.unwrap_or_else(|problem| given_up(self.db, target, *problem))
     }
 }
@@ -269,15 +229,15 @@ fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
     if reached.has_errors() {
         return None;
     }
-    let root = brief(db, reached.root?)?;
-    let has_probes = |brief: &Brief| brief.has_probes;
+    let root = signature(db, reached.root?)?;
+    let mut signatures = reached.reached.iter().filter_map(|reached| signature(db, reached.instance));
     Some(Emitted {
         path: root.name.as_str().into(),
         suffix: root.output_suffix.as_str().into(),
-        has_probes: reached.reached.iter().filter_map(|reached| brief(db, reached.instance)).any(has_probes),
+        has_probes: signatures.any(|signature| signature.has_probes),
     })
 }
 
-fn brief<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db Brief> {
-    summary(db, instance).brief.as_ref()
+fn signature<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db PathSignature> {
+    summary(db, instance).signature.as_ref()
 }

@@ -2,10 +2,10 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
-use pathbuild_db::{Db, QProject, Role, Settings, SourceFile, check_file, path_names, q_project};
+use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_path::PathName;
+use pathbuild_path::{PathName, QProject};
 
 use crate::args::QProjectArgs;
 use crate::context::Context;

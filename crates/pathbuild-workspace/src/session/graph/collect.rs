@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Closure, Database, Destination, Instance, Role, Target, closure, path};
+use pathbuild_db::{Closure, Database, Destination, Instance, Role, Target, closure, path_index, summary};
 use pathbuild_diagnostic::Code;
 use pathbuild_path::{Bindings, PathName};
 
@@ -83,13 +83,14 @@ fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
 }
 
 fn node(db: &Database, instance: Instance<'_>) -> Node {
-    let name = instance.raw(db).map(|raw| raw.name.clone());
+    let index = path_index(db, instance.file(db), instance.name(db)).as_ref();
+    let name = index.map(|index| index.header.name.clone());
     Node {
         name: name.unwrap_or_else(|| PathName::new(instance.name(db).folded(db))),
         file: instance.file(db).path(db).clone(),
         bindings: instance.bindings(db).clone(),
         is_example: false,
-        is_sound: path(db, instance).path.is_some(),
+        is_sound: summary(db, instance).signature.is_some(),
     }
 }
 

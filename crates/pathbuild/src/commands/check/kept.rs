@@ -6,7 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::drawings::check_library;
+use super::drawings::check_drawings;
 use super::since::Changed;
 use super::{leave, question};
 use crate::args::CheckArgs;
@@ -39,12 +39,13 @@ pub(super) fn check(
     let files: Vec<SourceFile> =
         session.db().files(open.iter().map(|index| drawings[*index].clone()).collect());
     let mut made = Vec::new();
-    let checked = check_library(session, &files, args.all_bindings);
+    let checked = session.settled(|session| check_drawings(session, &files, args.all_bindings));
     for ((result, traces), index) in checked.into_iter().zip(open) {
         made.push(new(drawings[index].as_str(), traces, &result));
         results[index] = Some(result);
     }
-    let q_projects = q_projects(session, keeper, &drawings, &mut made);
+    let (q_projects, made_of_pairs) = session.settled(|session| q_projects(session, keeper, &drawings));
+    made.extend(made_of_pairs);
     if let Some(keeper) = keeper {
         let asked = drawings.iter().map(|drawing| drawing.as_str());
         let asked: Vec<&str> = asked.chain(q_projects.iter().map(|(of, _)| &**of)).collect();
@@ -109,9 +110,8 @@ fn q_projects(
     session: &Session<'_>,
     keeper: Option<&Keeper>,
     drawings: &[Utf8PathBuf],
-    made: &mut Vec<Made>,
-) -> Vec<(Box<str>, Vec<Diagnostic>)> {
-    let mut found = Vec::new();
+) -> (Vec<(Box<str>, Vec<Diagnostic>)>, Vec<Made>) {
+    let (mut found, mut made) = (Vec::new(), Vec::new());
     let (mut open, mut names): (Vec<Pair>, Vec<Box<str>>) = (Vec::new(), Vec::new());
     for [drawing, q_project] in q_project_pairs(drawings.iter()) {
         let of: Box<str> = format!("{drawing}\0{q_project}").into();
@@ -128,5 +128,5 @@ fn q_projects(
         made.push(new(&of, vec![trace], &result));
         found.push((of, result.diagnostics));
     }
-    found
+    (found, made)
 }

@@ -8,11 +8,10 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::Diagnostic;
 
 pub(super) use drawings::check_drawings;
 
-use self::drawings::{Asked, check_library, check_paths};
+use self::drawings::{Asked, check_paths};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -27,14 +26,11 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         return context.nothing_named("check");
     }
     if context.keeps_results() || args.changed_since.is_some() {
-        let mut session = Session::traced(context);
-        if args.timings {
-            session.timings().switch_on();
-        }
+        let mut session = session(Session::traced(context), args);
         if let Some(found) = session.timings().measure(&FINDING, || session.directories_only(&args.inputs)) {
             let checked = kept::check(context, &mut session, args, found);
             let status = match checked {
-                Ok(checked) => finish(context, args, &session, checked, begun),
+                Ok(checked) => finish(context, args, &mut session, checked, begun),
                 Err(reason) => context.usage(&reason),
             };
             leave(session);
@@ -46,16 +42,22 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
             );
         }
     }
-    let mut session = Session::new(context);
+    let mut session = session(Session::new(context), args);
+    session.prefetch(&args.inputs);
+    let checked = session.settled(|session| {
+        let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
+        check(session, wanted, args.all_bindings)
+    });
+    let status = finish(context, args, &mut session, checked, begun);
+    leave(session);
+    status
+}
+
+fn session<'a>(session: Session<'a>, args: &CheckArgs) -> Session<'a> {
     if args.timings {
         session.timings().switch_on();
     }
-    session.rehearse(&args.inputs, |session| rehearse(session, args));
-    let wanted = session.timings().measure(&FINDING, || session.wanted(&args.inputs));
-    let checked = check(&mut session, wanted, args.all_bindings);
-    let status = finish(context, args, &session, checked, begun);
-    leave(session);
-    status
+    session
 }
 
 /// The run is over: to take a million values apart would take longer than to end.
@@ -71,7 +73,7 @@ pub(super) fn question(args: &CheckArgs) -> String {
 fn finish(
     context: &Context,
     args: &CheckArgs,
-    session: &Session<'_>,
+    session: &mut Session<'_>,
     mut checked: Checked,
     begun: Instant,
 ) -> ExitStatus {
@@ -91,10 +93,10 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     session.know_names(&wanted.listings);
     leave(wanted.listings);
     let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
-    let single = single_paths(wanted.paths, &whole);
-    let mut found = check_library(session, &whole, with_all_values);
-    found.extend(check_paths(session, &single, with_all_values));
-    let files = whole.iter().copied().chain(single.iter().map(|asked| asked.file));
+    let mut asked: Vec<Asked> = whole.iter().map(|file| Asked { file: *file, names: None }).collect();
+    asked.extend(single_paths(wanted.paths, &whole));
+    let found = check_paths(session, &asked, with_all_values);
+    let files = asked.iter().map(|asked| asked.file);
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
     checked.files.reserve(found.len());
     for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
@@ -106,27 +108,17 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     checked
 }
 
-/// Asks what a check of a single drawing or path will ask; nothing where there is an error.
-fn rehearse(session: &Session<'_>, args: &CheckArgs) -> Option<()> {
-    let wanted = session.wanted(&args.inputs);
-    let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
-    let mut found = check_drawings(session, &whole, args.all_bindings);
-    found.extend(check_paths(session, &single_paths(wanted.paths, &whole), args.all_bindings));
-    let diagnostics = found.iter().flat_map(|(result, _)| &result.diagnostics);
-    (!diagnostics.chain(&wanted.problems).any(Diagnostic::is_error)).then_some(())
-}
-
 /// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.
-fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked<'static>> {
+fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked> {
     if paths.is_empty() {
         return Vec::new();
     }
     let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
-    let mut single: Vec<Asked<'static>> = Vec::new();
+    let mut single: Vec<Asked> = Vec::new();
     for WantedPath { file, name } in paths.into_iter().filter(|path| !is_whole.contains(&path.file)) {
         match single.iter_mut().find(|asked| asked.file == file) {
-            Some(asked) => asked.names.to_mut().push(name),
-            None => single.push(Asked { file, names: vec![name].into() }),
+            Some(asked) => asked.names.get_or_insert_default().push(name),
+            None => single.push(Asked { file, names: Some(vec![name]) }),
         }
     }
     single

@@ -1,7 +1,6 @@
 //! Making the files of one path, and writing, comparing or printing them. It runs on many threads and prints nothing.
 
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
@@ -12,7 +11,6 @@ use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
 use super::compare;
-use super::follower::Follower;
 use super::job::Job;
 use crate::args::EmitArgs;
 use pathbuild_workspace::posting::Poster;
@@ -102,8 +100,6 @@ impl Task {
 pub(super) struct Means<'a> {
     pub(super) writing: Writing,
     pub(super) poster: Option<&'a Poster>,
-    /// Whether a native program is read back while it is being written: where there is no other to be made meanwhile.
-    pub(super) is_followed: bool,
 }
 
 /// What a job becomes: no files where something keeps one of them from being written.
@@ -112,44 +108,12 @@ pub(super) struct Made {
     /// What is known of its program.
     pub(super) delivered: Delivered,
     pub(super) outputs: Vec<Output>,
-    /// What native files must be the same as.
-    unread: Option<Unread>,
 }
 
-/// What is needed to read native files back.
-struct Unread {
-    program: Arc<Program>,
-    /// Where it comes from.
-    drawing: Utf8PathBuf,
-    path: Box<str>,
-    /// What tells whether the first of them is all right, where it was followed.
-    followed: Option<JoinHandle<bool>>,
-}
-
-impl Made {
-    /// The same once its native files have been read back and compared with the program. (spec/90-gcode-import.md, "verify")
-    pub(super) fn read_back(mut self) -> Self {
-        let Some(Unread { program, drawing, path, followed }) = self.unread.take() else { return self };
-        let is_first_right = followed.is_some_and(|reading| reading.join().is_ok_and(|is_right| is_right));
-        let read_back =
-            |output: &Output| output.kind.read_back(&String::from_utf8_lossy(&output.text), &program).err();
-        let mut rest = self.outputs.iter().skip(usize::from(is_first_right));
-        if let Some(problem) = rest.find_map(read_back) {
-            self.delivered.problems.push(problem.in_file(&drawing).in_path(&path));
-            self.outputs.clear();
-        }
-        self
-    }
-}
-
-/// That of each path of a job, if all have one.
-pub(super) fn programs(db: &Database, job: &Job) -> Option<Vec<Arc<Program>>> {
-    job.targets.iter().map(|target| program(db, *target).clone()).collect()
-}
-
-/// The files of a job; native ones must be [read back](Made::read_back) before anybody uses them.
+/// The files of a job. Native files have been read back and compared with the program. (spec/90-gcode-import.md, "verify")
 pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
-    let Some(programs) = programs(db, job) else { return Made::default() };
+    let programs = job.targets.iter().map(|target| program(db, *target).clone());
+    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return Made::default() };
     let mut delivered = Delivered::default();
     let mut time = Total::default();
     for program in &programs {
@@ -158,25 +122,11 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
         time.time += sum.time;
     }
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
-    let follower = match (means.poster, programs.as_slice()) {
-        (None, [program]) if means.is_followed => Follower::begin(program.clone()),
-        _ => None,
-    };
-    let outputs =
-        outputs(db, job, &programs, means, &mut delivered, follower.as_ref()).unwrap_or_else(|problems| {
-            delivered.problems.extend(problems);
-            Vec::new()
-        });
-    let unread = match (means.poster, programs.as_slice()) {
-        (None, [program]) => Some(Unread {
-            program: program.clone(),
-            drawing: job.drawing(db).path(db).clone(),
-            path: job.path.clone(),
-            followed: follower.map(Follower::end),
-        }),
-        _ => None,
-    };
-    Made { delivered, outputs, unread }
+    let outputs = outputs(db, job, &programs, means, &mut delivered).unwrap_or_else(|problems| {
+        delivered.problems.extend(problems);
+        Vec::new()
+    });
+    Made { delivered, outputs }
 }
 
 /// Writes, compares or prints what a job becomes.
@@ -235,15 +185,12 @@ fn outputs(
     programs: &[Arc<Program>],
     means: &Means<'_>,
     delivered: &mut Delivered,
-    follower: Option<&Follower>,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let drawing = job.drawing(db).path(db);
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
     match (means.poster, programs) {
         (Some(poster), programs) => posted(job, programs, poster, at, delivered).map(|output| vec![output]),
-        (None, [program]) => {
-            native(job, program, means, at, delivered, follower).map_err(|problem| vec![*problem])
-        }
+        (None, [program]) => native(job, program, means, at, delivered).map_err(|problem| vec![*problem]),
         // Paths are joined through a post only.
         (None, _) => Ok(Vec::new()),
     }
@@ -255,7 +202,6 @@ fn native(
     means: &Means<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
-    follower: Option<&Follower>,
 ) -> Result<Vec<Output>, Box<Diagnostic>> {
     let correction = means.writing.options.correction;
     let count = correction.count(program);
@@ -264,17 +210,12 @@ fn native(
     }
     delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
     let provenance = job.provenance.to_string();
-    // The program itself comes first.
-    let output = |(number, (kind, path)): (usize, &(OutputKind, Utf8PathBuf))| {
-        let mut follow = |part: &str| {
-            if let Some(follower) = follower.filter(|_| number == 0) {
-                follower.take(part);
-            }
-        };
-        let text = kind.text(program, &provenance, &means.writing, &mut follow);
-        Output { kind: *kind, path: path.clone(), text: text.into_bytes() }
+    let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
+        let text = kind.text(program, &provenance, &means.writing);
+        kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
+        Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
     };
-    Ok(job.files.iter().enumerate().map(output).collect())
+    job.files.iter().map(output).collect()
 }
 
 /// What the post makes of programs; it reads that back itself.

@@ -1,17 +1,15 @@
 //! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
 
-mod ahead;
 mod asked;
-mod behind;
 mod compare;
 mod configured;
 mod deliver;
 mod deps;
-mod follower;
 mod job;
 mod kept;
 mod options;
 mod stale;
+mod write_queue;
 
 use std::collections::HashMap;
 
@@ -24,13 +22,12 @@ use crate::exit::ExitStatus;
 use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
 use pathbuild_workspace::session::{CheckedTarget, Session};
 
-use ahead::Ahead;
 use asked::Asked;
-use behind::deliver_all;
 pub(in crate::commands) use configured::Configured;
 use deliver::{Delivered, Means, State, Task};
-use job::Maker;
+use job::{Job, Maker};
 use kept::{Memory, Run};
+use write_queue::deliver_all;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
@@ -73,37 +70,11 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
     if memory.is_some() {
         session.note_traces();
     }
-    let means = Means { writing: options::writing(context), poster, is_followed: false };
-    let ahead = session.rehearse(&args.inputs, |session| {
-        let maker = Maker { context, session, poster };
-        args.join.is_none().then(|| Ahead::make(&maker, args, &means)).flatten()
-    });
-    let mut diagnostics = Vec::new();
-    let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
-    let Some(asked) = ask(context, &session, &args.inputs, &mut diagnostics) else {
-        return context.usage(NOTHING_TO_EMIT);
-    };
-    let task = Task::new(args);
-    if task == Task::Print && args.join.is_none() && asked.targets.len() > 1 {
-        return context.usage("`-o -` takes one path: it would be several programs");
-    }
-    let checked = session.check(&asked.targets);
-    if let Some(refusal) = options::missing(context, task, &checked) {
-        return context.usage(&refusal);
-    }
-    diagnostics.extend(found(&session, &checked));
-    let maker = Maker { context, session: &session, poster };
-    let jobs = match &args.join {
-        Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
-        None => maker.jobs(&checked, &mut diagnostics),
-    };
-    if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
-        return context.usage("`-o -` takes one program: this path has Z-probes and becomes several files");
-    }
-    let made = ahead.and_then(|ahead| ahead.finish(&session, &jobs, task, &means));
-    let delivered = match made {
-        Some(delivered) => vec![delivered],
-        None => deliver_all(&session, &jobs, task, &means),
+    session.prefetch(&args.inputs);
+    let made = session.settled(|session| make(context, session, args, poster));
+    let Made { asked, checked, jobs, delivered, mut diagnostics } = match made {
+        Ok(made) => made,
+        Err(refusal) => return context.usage(&refusal),
     };
     let is_current = show_all(context, &delivered, &mut diagnostics);
     if let Some(file) = &args.deps {
@@ -113,13 +84,57 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
     let (stale, looked) = stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale);
     diagnostics.extend(stale);
     if let Some(memory) = memory {
-        let covered = &asked.covered;
+        let (task, covered) = (Task::new(args), &asked.covered);
         memory.keep(
             &session,
             &Run { task, covered, checked, jobs, delivered, diagnostics: &diagnostics, looked },
         );
     }
     conclude(context, session, diagnostics, is_current)
+}
+
+/// What came of a run.
+struct Made {
+    asked: Asked,
+    checked: Vec<CheckedTarget>,
+    jobs: Vec<Job>,
+    delivered: Vec<Delivered>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// Makes the programs, and writes, compares or prints them.
+///
+/// # Errors
+/// Why the arguments make no sense.
+fn make(
+    context: &Context,
+    session: &mut Session<'_>,
+    args: &EmitArgs,
+    poster: Option<&Poster>,
+) -> Result<Made, Box<str>> {
+    let task = Task::new(args);
+    let mut diagnostics = Vec::new();
+    let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
+    let asked = ask(context, session, &args.inputs, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
+    if task == Task::Print && args.join.is_none() && asked.targets.len() > 1 {
+        return Err("`-o -` takes one path: it would be several programs".into());
+    }
+    let checked = session.check(&asked.targets);
+    if let Some(refusal) = options::missing(context, task, &checked) {
+        return Err(refusal.into());
+    }
+    diagnostics.extend(found(session, &checked));
+    let maker = Maker { context, session, poster };
+    let jobs = match &args.join {
+        Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
+        None => maker.jobs(&checked, &mut diagnostics),
+    };
+    if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
+        return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
+    }
+    let means = Means { writing: options::writing(context), poster };
+    let delivered = deliver_all(session, &jobs, task, &means);
+    Ok(Made { asked, checked, jobs, delivered, diagnostics })
 }
 
 /// Says what was found; the status of the run.
@@ -165,24 +180,26 @@ pub(in crate::commands) type Owners = HashMap<String, Target>;
 /// drawings.
 pub(in crate::commands) fn write(
     context: &Context,
-    session: &Session<'_>,
+    session: &mut Session<'_>,
     poster: Option<&Poster>,
     targets: &[Target],
     owners: &mut Owners,
 ) -> Vec<Diagnostic> {
-    let checked = session.check(targets);
-    let task = Task::Write { force: false };
-    if let Some(refusal) = options::missing(context, task, &checked) {
-        _ = context.usage(&refusal);
-        return Vec::new();
-    }
-    let mut diagnostics = Vec::new();
-    let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
-    jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-    let means = Means { writing: options::writing(context), poster, is_followed: false };
-    let delivered = deliver_all(session, &jobs, task, &means);
-    show_all(context, &delivered, &mut diagnostics);
-    diagnostics
+    session.settled(|session| {
+        let checked = session.check(targets);
+        let task = Task::Write { force: false };
+        if let Some(refusal) = options::missing(context, task, &checked) {
+            _ = context.usage(&refusal);
+            return Vec::new();
+        }
+        let mut diagnostics = Vec::new();
+        let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
+        jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
+        let means = Means { writing: options::writing(context), poster };
+        let delivered = deliver_all(session, &jobs, task, &means);
+        show_all(context, &delivered, &mut diagnostics);
+        diagnostics
+    })
 }
 
 const NOTHING_TO_EMIT: &str = "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml";

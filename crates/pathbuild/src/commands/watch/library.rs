@@ -71,6 +71,11 @@ impl<'a> Library<'a> {
         &self.session
     }
 
+    /// The same, for writing programs.
+    pub(super) fn session_mut(&mut self) -> &mut Session<'a> {
+        &mut self.session
+    }
+
     /// How many drawings and paths there are.
     pub(super) fn counts(&self) -> (usize, usize) {
         (self.drawings.len(), self.drawings.values().map(|result| result.names.len()).sum())
@@ -205,7 +210,7 @@ impl<'a> Library<'a> {
 
     /// Checks drawings, and remembers what they were made from.
     fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Update) {
-        let results = check_drawings(&self.session, &asked, false);
+        let results = self.session.settled(|session| check_drawings(session, &asked, false));
         for (file, (result, traces)) in asked.iter().zip(results) {
             self.reverse.set(*file, traces);
             update.now.extend_from_slice(&result.diagnostics);
@@ -230,7 +235,8 @@ impl<'a> Library<'a> {
         let open = pairs.iter().filter(|pair| pair.iter().any(|path| asked.contains(path)));
         let open: Vec<[Utf8PathBuf; 2]> = open.cloned().collect();
         let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
-        for (pair, found) in open.into_iter().zip(self.session.judge_q_projects(&files)) {
+        let found = self.session.settled(|session| session.judge_q_projects(&files));
+        for (pair, found) in open.into_iter().zip(found) {
             update.now.extend_from_slice(&found);
             update.before.extend(self.q_projects.insert(pair, found).into_iter().flatten());
         }

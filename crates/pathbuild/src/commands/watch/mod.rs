@@ -32,7 +32,7 @@ pub enum Ended {
 
 /// Runs the command.
 pub fn run(context: &Context, args: &WatchArgs) -> Ended {
-    let session = Session::watching(context);
+    let session = Session::traced(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return Ended::With(context.nothing_named("watch"));
     }
@@ -58,7 +58,7 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
     let begun = Instant::now();
     let mut library = Library::new(context, session, &args.inputs);
     let update = library.begin();
-    let written = writer.begin(library.session(), &update.asked);
+    let written = writer.begin(library.session_mut(), &update.asked);
     show::begun(context, &library, update, written, begun.elapsed());
     let mut revision = 0;
     loop {
@@ -76,7 +76,7 @@ pub fn run(context: &Context, args: &WatchArgs) -> Ended {
                 let mut written = Vec::new();
                 while library.is_behind() {
                     let portion = library.ask_portion(&mut update);
-                    written.extend(writer.write(library.session(), &portion));
+                    written.extend(writer.write(library.session_mut(), &portion));
                     // What is still open may be something else by now.
                     if watcher.has_news(library.session()) {
                         break;

@@ -55,7 +55,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes the targets among all paths; what is wrong with them as programs, and targets that mean none.
-    pub(super) fn begin(&mut self, session: &Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
+    pub(super) fn begin(&mut self, session: &mut Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
         let mut configured = Configured::new(&self.context.settings);
         let mut problems = self.write_some(session, all, &mut configured);
         problems.extend(configured.unmet().filter(|_| self.is_on));
@@ -63,13 +63,13 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes the targets among the paths of drawings that were asked again; what is wrong with them as programs.
-    pub(super) fn write(&mut self, session: &Session<'_>, asked: &[SourceFile]) -> Vec<Diagnostic> {
+    pub(super) fn write(&mut self, session: &mut Session<'_>, asked: &[SourceFile]) -> Vec<Diagnostic> {
         self.write_some(session, asked, &mut Configured::new(&self.context.settings))
     }
 
     fn write_some(
         &mut self,
-        session: &Session<'_>,
+        session: &mut Session<'_>,
         files: &[SourceFile],
         configured: &mut Configured<'_>,
     ) -> Vec<Diagnostic> {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use pathbuild_path::{Path, Walked};
 use pathbuild_toolpath::{Parts, Program, fold};
 
+use super::closures::closure;
 use super::embedding::{Outcome, embeds};
 use super::instance::{Instance, chains, path};
-use super::reach::closure;
-use crate::database::Db;
+use crate::db::Db;
 use crate::inputs::Target;
 use crate::settings::Settings;
 
@@ -43,12 +43,12 @@ impl<'db> Parts for Embedded<'db> {
     }
 
     fn embedded(&self, id: Instance<'db>, segment: usize) -> Option<Instance<'db>> {
-        embeds(self.db, id).iter().find(|embedding| embedding.segment == segment).and_then(|embedding| {
-            match &embedding.outcome {
-                Outcome::Found { child, .. } => Some(*child),
-                _ => None,
-            }
-        })
+        let embedded = embeds(self.db, id);
+        let place = embedded.binary_search_by_key(&segment, |embedding| embedding.segment).ok()?;
+        match &embedded[place].outcome {
+            Outcome::Found { child, .. } => Some(*child),
+            _ => None,
+        }
     }
 
     fn checkpoint(&self) {

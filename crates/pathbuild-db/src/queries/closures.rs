@@ -7,15 +7,16 @@ use std::slice;
 
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{Bindings, PathName};
+use pathbuild_path::{Bindings, PathName, PathSignature};
 use pathbuild_toolpath::FoldOptions;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::brief::{Brief, head, summary};
 use super::embedding::{Embedding, Outcome, embeds};
-use super::instance::{Instance, path};
-use super::raw::{NameKey, raw_path};
-use crate::database::Db;
+use super::index::{NameKey, path_index};
+use super::instance::{Instance, path, summary};
+use super::raw::raw_path;
+use super::summary::PathSummary;
+use crate::db::Db;
 use crate::inputs::{Role, SourceFile, Target};
 use crate::settings::{Limits, Settings};
 
@@ -59,6 +60,9 @@ const DEEPEST: u32 = 10;
 #[salsa::tracked]
 pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     let Some((root, missing)) = root(db, target) else { return Closure::default() };
+    if let Some(closure) = lone(db, target, root) {
+        return closure;
+    }
     let mut walk = Walk::new(db, target.role(db));
     if missing.is_empty() {
         walk.visit(root, 0);
@@ -76,17 +80,27 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     }
 }
 
+/// The closure of a checked path that embeds nothing and has no findings, as nearly all are.
+fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Closure<'db>> {
+    let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
+    let is_lone = *target.role(db) == Role::Checked && own.is_clean() && !own.has_subpaths();
+    let is_within = own.moves <= limits.moves && limits.paths > 0;
+    let reached = vec![Reached { instance: root, depth: 0 }];
+    let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
+    (is_lone && is_within).then(closure)
+}
+
 /// A target's path with its values, and what is wrong with the values that it has not; `None` when the file has no such path.
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
-    let head = head(db, file, name)?;
+    let index = path_index(db, file, name).as_ref()?;
     let bindings = match target.role(db) {
         Role::Emitted => Bindings::default(),
-        Role::Checked => Bindings::check_values(&head.definitions),
+        Role::Checked => index.examples.clone(),
         Role::CheckedWith(bindings) => bindings.clone(),
     };
-    let missing = if head.is_sound && !bindings.cover(&head.definitions) {
+    let missing = if index.header.is_sound && !bindings.cover(&index.header.definitions) {
         raw_path(db, file, name)?.missing_values(&bindings)
     } else {
         Vec::new()
@@ -102,14 +116,9 @@ impl Closure<'_> {
 
     /// The files that it was made from.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
-        let mut files: Vec<SourceFile> = Vec::new();
-        for reached in &self.reached {
-            let file = reached.instance.file(db);
-            if !files.contains(&file) {
-                files.push(file);
-            }
-        }
-        files
+        let mut seen = FxHashSet::default();
+        let files = self.reached.iter().map(|reached| reached.instance.file(db));
+        files.filter(|file| seen.insert(*file)).collect()
     }
 }
 
@@ -175,19 +184,19 @@ impl<'db> Walk<'db> {
         has_errors
     }
 
-    /// The stages of one path: each is gone into only when those before found no error.
+    /// The stages of one path: a stage runs only when earlier stages found no error.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, &summary.problems);
-        let Some(brief) = &summary.brief else { return true };
-        let sweep_problems = self.sweep_problems(instance, brief, depth);
+        let Some(signature) = &summary.signature else { return true };
+        let sweep_problems = self.sweep_problems(summary, signature, depth);
         has_errors |= self.report_all(instance, &sweep_problems);
         if has_errors {
             return true;
         }
-        has_errors |= self.report_all(instance, &brief.walk_problems);
+        has_errors |= self.report_all(instance, &summary.walk_problems);
         for embedding in embeds(self.db, instance) {
-            has_errors |= self.visit_embedding(instance, brief, embedding, depth);
+            has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);
         }
         has_errors
     }
@@ -195,22 +204,21 @@ impl<'db> Walk<'db> {
     /// What is wrong with S of a path in its role. Where nobody says S or F and it is needed, that is noted.
     fn sweep_problems(
         &mut self,
-        instance: Instance<'db>,
-        brief: &'db Brief,
+        summary: &'db PathSummary,
+        signature: &PathSignature,
         depth: u32,
     ) -> Cow<'db, [Diagnostic]> {
-        if self.is_emitted && brief.needs_feed && self.options.feed.is_none() {
+        if self.is_emitted && signature.needs_feed && self.options.feed.is_none() {
             self.miss(MissingOption::Feed);
         }
         if !self.is_emitted || depth > 0 {
-            return Cow::Borrowed(&brief.sweep_problems);
+            return Cow::Borrowed(&summary.sweep_problems);
         }
-        let Some(path) = &path(self.db, instance).path else { return Cow::default() };
-        let Some(height) = path.emitted_sweep_height(self.options.sweep_height) else {
+        let Some(height) = signature.sweep_height.or(self.options.sweep_height) else {
             self.miss(MissingOption::SweepHeight);
             return Cow::default();
         };
-        Cow::Owned(path.check_sweep_height(height))
+        Cow::Owned(signature.sweep_limits.check(height))
     }
 
     fn miss(&mut self, option: MissingOption) {
@@ -222,13 +230,13 @@ impl<'db> Walk<'db> {
     fn visit_embedding(
         &mut self,
         instance: Instance<'db>,
-        outer: &Brief,
+        outer: &PathName,
         embedding: &Embedding<'db>,
         depth: u32,
     ) -> bool {
         self.report_all(instance, &embedding.warnings);
         let origin = &embedding.origin;
-        let frame = Frame { instance, name: outer.name.clone(), point: origin.point };
+        let frame = Frame { instance, name: outer.clone(), point: origin.point };
         match &embedding.outcome {
             Outcome::Refused(problem) => self.report_all(instance, slice::from_ref(problem)),
             _ if depth >= DEEPEST => {
@@ -250,7 +258,7 @@ impl<'db> Walk<'db> {
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
                         .with("name", self.name_of(*child))
                         .with("file", child.file(self.db).path(self.db).as_str())
-                        .in_path(outer.name.as_str());
+                        .in_path(outer.as_str());
                     self.report_all(instance, &[origin.at(problem)]);
                 }
                 misfits || has_errors
@@ -290,8 +298,8 @@ impl<'db> Walk<'db> {
 
     fn name_of(&self, instance: Instance<'db>) -> String {
         let name = instance.name(self.db);
-        let head = head(self.db, instance.file(self.db), name);
-        head.map_or_else(|| name.folded(self.db).to_owned(), |head| head.name.to_string())
+        let index = path_index(self.db, instance.file(self.db), name).as_ref();
+        index.map_or_else(|| name.folded(self.db).to_owned(), |index| index.header.name.to_string())
     }
 
     /// Reports what is found in a path, each once; whether there are errors.
@@ -348,7 +356,7 @@ impl<'db> Walk<'db> {
         if let Some(moves) = known.get(&instance) {
             return *moves;
         }
-        let own = summary(self.db, instance).brief.as_ref().map_or(0, |brief| brief.moves);
+        let own = summary(self.db, instance).moves;
         let embedded = embeds(self.db, instance).iter().filter_map(|embedding| match &embedding.outcome {
             Outcome::Found { child, .. } => Some(*child),
             _ => None,

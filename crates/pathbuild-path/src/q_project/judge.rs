@@ -4,78 +4,60 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
-use pathbuild_path::approx::{coincide, near};
-use pathbuild_path::{
-    Bindings, Letter, Path, PathName, ProxyLine, Segment, SegmentKind, Subpath, SubpathName, parse_number,
-};
 
-use super::{Component, proxy_lines};
-use crate::database::Db;
-use crate::inputs::SourceFile;
-use crate::queries::instance::{Instance, path};
-use crate::queries::raw::{NameKey, file_diagnostics, path_names, raw_path};
-use crate::settings::Settings;
+use super::Component;
+use crate::approx::{coincide, near};
+use crate::letter::Letter;
+use crate::name::PathName;
+use crate::number::parse_number;
+use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
+use crate::read::ProxyLine;
 
 /// A distance in mm by which lengths may differ, as those of embedded paths may.
 const LENGTH_TOLERANCE: f64 = 0.001;
 
-/// What the proxy lines of a drawing and its Q-project say against each other.
-#[salsa::tracked]
-pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
-    let mut judge = Judge { component: Component::new(db, drawing), q_project, found: Vec::new() };
-    judge.proxies();
-    if let Some(paths) = sound_paths(db, q_project) {
-        judge.embeddings(&paths);
-    }
-    judge.found
+/// What a component and its Q-project say against each other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct QProjectFindings {
+    /// PB517, in the component's drawing.
+    pub in_component: Vec<Diagnostic>,
+    /// PB515 and PB516, in the Q-project.
+    pub in_q_project: Vec<Diagnostic>,
 }
 
-/// The paths of a Q-project with example values; `None` where one has errors, so that it is not known what it embeds.
-fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<&Path>> {
-    let is_readable = !file_diagnostics(db, file).iter().any(Diagnostic::is_error);
-    let sound = |name: &PathName| {
-        let key = NameKey::of(db, name);
-        let values = Bindings::check_values(&raw_path(db, file, key)?.definitions);
-        path(db, Instance::new(db, file, key, values)).path.as_ref()
-    };
-    is_readable.then(|| path_names(db, file).iter().map(sound).collect())?
+/// Holds the Q-project of a component against it. `paths`: those of the Q-project, if none of them has errors; else it is not known what it
+/// embeds. `drawing`: the file name of the component.
+pub fn judge_q_project(component: &Component<'_>, drawing: &str, paths: Option<&[Path]>) -> QProjectFindings {
+    let judge = Judge { component, drawing };
+    let in_q_project = paths.map(|paths| judge.embeddings(paths)).unwrap_or_default();
+    QProjectFindings { in_component: judge.proxies(), in_q_project }
 }
 
-struct Judge<'db> {
-    component: Component<'db>,
-    q_project: SourceFile,
-    found: Vec<Diagnostic>,
+struct Judge<'a> {
+    component: &'a Component<'a>,
+    drawing: &'a str,
 }
 
 /// What two texts say differently: the letter or variable, and both values.
 type Difference = (String, Value, Value, Option<TextFault>);
 
-impl<'db> Judge<'db> {
+impl<'a> Judge<'a> {
     /// PB517.
-    fn proxies(&mut self) {
-        let proxies = proxy_lines(self.component.db, self.component.file).iter();
-        let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| self.at_proxy(proxy, problem));
-        self.found = proxies.flat_map(of_proxy).collect();
-    }
-
-    fn at_proxy(&self, proxy: &ProxyLine, problem: Diagnostic) -> Diagnostic {
-        let mut problem = proxy.origin.at(problem).in_file(self.component.file.path(self.component.db));
-        problem.place.element = None;
-        problem.locate(proxy.position.line, proxy.position.handle);
-        problem
+    fn proxies(&self) -> Vec<Diagnostic> {
+        let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| at_proxy(proxy, problem));
+        self.component.proxies.iter().flat_map(of_proxy).collect()
     }
 
     /// PB517, without a place.
     fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
-        let language = Settings::get(self.component.db).language(self.component.db);
         let written = proxy.text().piece(Letter::Embed);
         let written = written.map(|piece| (proxy.text().value(piece), proxy.text().fault(piece)));
         let Some((written, fault)) = written.filter(|(written, _)| !written.contains('=')) else {
             return Vec::new();
         };
-        let known = |name: &PathName| self.component.names.contains(name);
-        let Some(name) = proxy.name(language).filter(known) else {
-            let names: Value = self.component.names.iter().map(PathName::as_str).collect();
+        let known = |name: PathName| self.component.raw(&name).map(|raw| (name, raw));
+        let Some((name, raw)) = proxy.name(self.component.language).and_then(known) else {
+            let names: Value = self.component.names().map(PathName::as_str).collect();
             let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).with("name", written);
             return vec![problem.with("names", names).with_text(fault)];
         };
@@ -83,8 +65,8 @@ impl<'db> Judge<'db> {
             let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).with("name", name.as_str());
             return vec![problem.with("other", other.as_str()).with_text(fault)];
         }
-        let Some(path) = self.component.path(&name, Some(proxy)) else { return Vec::new() };
-        let differences = differences_from_path(proxy, path).into_iter();
+        let Some(path) = self.component.path(raw, Some(proxy)) else { return Vec::new() };
+        let differences = differences_from_path(proxy, &path).into_iter();
         let mut problems: Vec<Diagnostic> =
             differences.map(|it| differing(&messages::PROXY_VALUE_DIFFERS, it, &name)).collect();
         let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
@@ -96,20 +78,19 @@ impl<'db> Judge<'db> {
     }
 
     /// The path whose start and end a proxy line joins, where that is another than the one it names, which it does not join.
-    fn other(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'db PathName> {
+    fn other(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
         let (start, end) = (proxy.curve.start(), proxy.curve.end());
-        let is_joined = |name: &&PathName| {
-            let ends =
-                self.component.raw(name).and_then(|raw| Some((raw.start.as_ref()?.at, raw.end.as_ref()?.at)));
+        let joined = self.component.paths.iter().filter(|raw| {
+            let ends = raw.start.as_ref().zip(raw.end.as_ref()).map(|(from, to)| (from.at, to.at));
             ends.is_some_and(|(from, to)| {
                 coincide(from, start) && coincide(to, end) || coincide(from, end) && coincide(to, start)
             })
-        };
-        let joined: Vec<&PathName> = self.component.names.iter().filter(is_joined).collect();
+        });
+        let joined: Vec<&PathName> = joined.map(|raw| &raw.name).collect();
         if joined.contains(&named) { None } else { joined.first().copied() }
     }
 
-    fn embeddings(&mut self, paths: &[&Path]) {
+    fn embeddings(&self, paths: &[Path]) -> Vec<Diagnostic> {
         let mut embedded: BTreeMap<&PathName, Vec<(&Path, &Segment, &Subpath)>> = BTreeMap::new();
         for path in paths {
             for segment in &path.segments {
@@ -120,36 +101,38 @@ impl<'db> Judge<'db> {
                 }
             }
         }
-        for name in self.component.names {
-            match embedded.get(name) {
-                None => {
-                    let problem = self.named(Diagnostic::new(&messages::LACKS_PATH), name);
-                    self.found.push(problem.in_file(self.q_project.path(self.component.db)));
-                }
-                Some(segments) => {
-                    for (path, segment, subpath) in segments {
-                        self.embedding(name, path, segment, subpath);
-                    }
-                }
+        let of_name = |name: &PathName| match embedded.get(name) {
+            None => {
+                let problem = Diagnostic::new(&messages::LACKS_PATH).with("name", name.as_str());
+                vec![problem.with("drawing", self.drawing)]
             }
-        }
+            Some(segments) => {
+                let of_segment = |&(path, segment, subpath): &(&Path, &Segment, &Subpath)| {
+                    self.embedding(name, path, segment, subpath)
+                };
+                segments.iter().flat_map(of_segment).collect()
+            }
+        };
+        self.component.names().flat_map(of_name).collect()
     }
 
     /// PB516 where a subpath agrees with no proxy line of its path. Proxy lines that are wrong themselves are not compared with.
-    fn embedding(&mut self, name: &PathName, path: &Path, segment: &Segment, subpath: &Subpath) {
-        let proxies = self.component.proxies.get(name).into_iter().flatten();
+    fn embedding(
+        &self,
+        name: &PathName,
+        path: &Path,
+        segment: &Segment,
+        subpath: &Subpath,
+    ) -> Vec<Diagnostic> {
+        let proxies = self.component.proxies(name).iter();
         let right = proxies.filter(|proxy| self.problems(proxy).is_empty());
         let mut compared: Vec<Vec<Diagnostic>> =
             right.map(|proxy| self.differences(name, proxy, path, subpath)).collect();
         if compared.iter().any(Vec::is_empty) || compared.is_empty() {
-            return;
+            return Vec::new();
         }
-        let place = |problem: Diagnostic| {
-            let problem = path.origin(segment).at(problem.in_path(path.name.as_str()));
-            problem.in_file(self.q_project.path(self.component.db))
-        };
-        let placed: Vec<Diagnostic> = compared.swap_remove(0).into_iter().map(place).collect();
-        self.found.extend(placed);
+        let place = |problem: Diagnostic| path.origin(segment).at(problem.in_path(path.name.as_str()));
+        compared.swap_remove(0).into_iter().map(place).collect()
     }
 
     /// What a subpath of a path of the Q-project says that a proxy line does not.
@@ -168,16 +151,15 @@ impl<'db> Judge<'db> {
             let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).with("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }
-        problems.into_iter().map(|problem| problem.with("drawing", self.drawing())).collect()
+        problems.into_iter().map(|problem| problem.with("drawing", self.drawing)).collect()
     }
+}
 
-    fn named(&self, problem: Diagnostic, name: &PathName) -> Diagnostic {
-        problem.with("name", name.as_str()).with("drawing", self.drawing())
-    }
-
-    fn drawing(&self) -> &'db str {
-        self.component.file.path(self.component.db).file_name().unwrap_or_default()
-    }
+fn at_proxy(proxy: &ProxyLine, problem: Diagnostic) -> Diagnostic {
+    let mut problem = proxy.origin.at(problem);
+    problem.place.element = None;
+    problem.locate(proxy.position.line, proxy.position.handle);
+    problem
 }
 
 fn differing(

@@ -1,5 +1,5 @@
-//! A single drawing or path is worked on while its directory is being listed, by a guess of where paths are. With one thread it is not, and all
-//! that comes of it must be the same.
+//! The drawings that a single drawing or path most likely needs are read while directories are listed. With any number of threads, and however the
+//! project is named, all that comes of it must be the same.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -57,15 +57,15 @@ fn outcome(library: &str, command: &str, threads: u32, input: &str) -> Outcome {
 #[track_caller]
 fn only_outcome(library: &str, input: &str) -> (Outcome, Outcome) {
     let both = |command: &str| {
-        let ahead = outcome(library, command, 2, input);
-        assert_eq!(ahead, outcome(library, command, 1, input), "{command} {input}");
-        ahead
+        let parallel = outcome(library, command, 2, input);
+        assert_eq!(parallel, outcome(library, command, 1, input), "{command} {input}");
+        parallel
     };
     (both("emit"), both("check"))
 }
 
 #[test]
-fn a_right_guess() {
+fn a_project_that_is_found_by_file_names() {
     for input in ["8001.1P.dxf", "./8001.1P.dxf", "8001.1P", "8001.1p", "8001"] {
         let ((status, _, _, files), (checked, ..)) = only_outcome(LIBRARY, input);
         let is_known = input != "8001";

@@ -1,10 +1,10 @@
 //! What a Q-project is to embed.
 
-use pathbuild_path::{Letter, Path, PathName, ProxyLine, RawPath};
-
 use super::{Component, values};
-use crate::database::Db;
-use crate::inputs::SourceFile;
+use crate::letter::Letter;
+use crate::path::Path;
+use crate::raw::RawPath;
+use crate::read::ProxyLine;
 
 /// A Q-project that is to be drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,12 +24,10 @@ pub struct QProjectLine {
     pub text: String,
 }
 
-/// The Q-project of a drawing: each path as its first proxy line says, else with its own values. Paths with errors are left out.
-#[salsa::tracked]
-pub fn q_project(db: &dyn Db, drawing: SourceFile) -> QProject {
-    let component = Component::new(db, drawing);
-    let planned: Vec<(&Path, QProjectLine)> =
-        component.names.iter().filter_map(|name| line(&component, name)).collect();
+/// The Q-project of a component: each path as its first proxy line says, else with its own values. Paths with errors are left out.
+pub fn plan_q_project(component: &Component<'_>) -> QProject {
+    let planned: Vec<(Path, QProjectLine)> =
+        component.paths.iter().filter_map(|raw| line(component, raw)).collect();
     let Some((first, _)) = planned.first() else { return QProject::default() };
     let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
     let material = first.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
@@ -37,11 +35,11 @@ pub fn q_project(db: &dyn Db, drawing: SourceFile) -> QProject {
     QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
 }
 
-fn line<'db>(component: &Component<'db>, name: &PathName) -> Option<(&'db Path, QProjectLine)> {
-    let raw = component.raw(name)?;
-    let proxy = component.proxies.get(name).and_then(|proxies| proxies.first().copied());
-    let path = component.path(name, proxy)?;
-    Some((path, QProjectLine { length: (path.end - path.start).norm(), text: text(raw, path, proxy) }))
+fn line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)> {
+    let proxy = component.proxies(&raw.name).first().copied();
+    let path = component.path(raw, proxy)?;
+    let line = QProjectLine { length: (path.end - path.start).norm(), text: text(raw, &path, proxy) };
+    Some((path, line))
 }
 
 /// The text of a proxy line, and what it leaves open.

@@ -1,11 +1,11 @@
-//! Making the files of many paths on all cores, and writing those that are made meanwhile: a file that replaces another waits for the disk, and the
-//! cores need not.
+//! Making the files of many paths on all cores, and writing those that are made meanwhile: a file that replaces another waits for the disk, and
+//! the cores need not.
 
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, SendError, sync_channel};
 use std::thread::{self, Builder};
 
-use pathbuild_db::{Database, Db};
+use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 
 use super::deliver::{Delivered, Made, Means, Output, Task, finish, make};
@@ -14,25 +14,22 @@ use pathbuild_workspace::session::Session;
 
 /// Does jobs. Nothing of a path is written when something keeps one of its files from being written.
 pub(super) fn deliver_all(
-    session: &Session<'_>,
+    session: &mut Session<'_>,
     jobs: &[Job],
     task: Task,
     means: &Means<'_>,
 ) -> Vec<Delivered> {
-    let at_once = |db: &Database, job: &Job| {
-        let Made { mut delivered, outputs, .. } = make(db, job, means).read_back();
-        finish(db.system(), outputs, task, means.poster, &mut delivered);
-        delivered
-    };
-    let delivered = match task {
-        Task::Write { .. } if jobs.len() > 1 => write_behind(session, jobs, task, means),
-        _ => session.guarded(jobs, at_once),
-    };
-    let delivered = delivered.into_iter().zip(jobs);
-    delivered
-        .map(|(delivered, job)| delivered.unwrap_or_else(|problem| job.given_up(session, *problem)))
-        .collect()
+    session.in_batches(jobs, BATCH, |session, jobs| {
+        let delivered = write_behind(session, jobs, task, means).into_iter().zip(jobs);
+        let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &Job)| {
+            delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
+        };
+        delivered.map(given_up).collect()
+    })
 }
+
+/// So many jobs are done before the paths that they were made from are dropped.
+const BATCH: usize = 256;
 
 /// How many jobs may wait for being written. Their texts are in memory meanwhile.
 const BEHIND: usize = 32;
@@ -60,7 +57,7 @@ fn write_behind(
     let (mut made, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = session.guarded(&numbered, |db, (index, job)| {
-            let Made { mut delivered, outputs, .. } = make(db, job, means).read_back();
+            let Made { mut delivered, outputs } = make(db, job, means);
             // Where the system has no thread left, nobody receives it.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 delivered.add(finished(outputs));

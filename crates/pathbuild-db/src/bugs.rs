@@ -1,0 +1,22 @@
+//! Panics: bugs that one drawing shows must not keep the others from being compiled.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files as messages;
+
+/// Does some work that asks no queries.
+///
+/// # Errors
+/// PB006 when it panicked; without a place.
+pub(crate) fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| Box::new(internal_error(&*payload)))
+}
+
+/// PB006 for a panic.
+pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
+    let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+    Diagnostic::new(&messages::INTERNAL).with("reason", reason)
+}

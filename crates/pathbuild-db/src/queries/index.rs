@@ -1,0 +1,170 @@
+//! What is known of a drawing without keeping it: the names of its paths, and what other paths and a check ask of each.
+
+use std::sync::Arc;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{Bindings, PathHeader, PathName, RawFile, RawPath};
+
+use super::hints::LayerEnds;
+use super::reading::{Fingerprint, entities, read, read_entities};
+use super::summary::PathSummary;
+use crate::bugs::catch_bugs;
+use crate::db::Db;
+use crate::inputs::SourceFile;
+use crate::settings::{Reading, Settings};
+
+/// A drawing in short. It has no positions: an edit that shifts lines and handles leaves it as it was, and ends here.
+#[derive(Clone, Debug, Default)]
+pub struct FileIndex {
+    /// In order of first appearance.
+    names: Vec<PathName>,
+    /// In order of name: a drawing may have as many paths as it has layers.
+    paths: Vec<Arc<PathIndex>>,
+    diagnostics: Vec<Diagnostic>,
+    content: Content,
+}
+
+/// The bytes that an index was made from. Not compared: other bytes may say the same.
+#[derive(Clone, Debug, Default)]
+struct Content {
+    fingerprint: Option<Fingerprint>,
+    /// Where the settings ask for it.
+    hash: Option<[u8; 32]>,
+}
+
+/// A path in short.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathIndex {
+    /// The path before its variables have values.
+    pub header: PathHeader,
+    /// Example values for its variables.
+    pub examples: Bindings,
+    /// What comes of the path with the example values.
+    pub summary: PathSummary,
+}
+
+/// A path's name without regard to case, as a key.
+#[salsa::interned(debug)]
+pub struct NameKey<'db> {
+    /// Upper case.
+    #[returns(deref)]
+    pub folded: Box<str>,
+}
+
+/// Reads a drawing, keeps what others ask of it, and drops the rest.
+#[salsa::tracked]
+pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
+    let settings = Settings::get(db);
+    let (reading, language) = (settings.reading(db), settings.language(db));
+    let index = read(db, file, |bytes, drawing| {
+        let read = catch_bugs(|| {
+            read_entities(bytes, drawing, reading, &|layer| language.path_pattern.is_layer(layer));
+            pathbuild_path::raw_file(drawing, language)
+        });
+        let content = Content::of(bytes, reading);
+        match read {
+            Ok(raw) => {
+                let read_all = || entities(bytes, reading, &|_| true);
+                FileIndex::new(db, raw, &LayerEnds::new(&read_all), content)
+            }
+            Err(bug) => FileIndex::failed(*bug, content),
+        }
+    });
+    let mut index = index.unwrap_or_else(|problem| FileIndex::failed(*problem, Content::default()));
+    for diagnostic in &mut index.diagnostics {
+        diagnostic.file = Some(file.path(db).clone());
+    }
+    index
+}
+
+/// A path of a drawing in short: unchanged by edits of other paths in the drawing.
+#[salsa::tracked]
+pub fn path_index<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<PathIndex>> {
+    file_index(db, file).path(&name.name(db)).cloned()
+}
+
+/// The names of a drawing's paths, in order of first appearance.
+pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
+    &file_index(db, file).names
+}
+
+/// The hash of the bytes that a drawing was indexed by; `None` where it could not be read, or the settings do not ask for hashes.
+pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
+    file_index(db, file).content.hash
+}
+
+impl FileIndex {
+    fn new(db: &dyn Db, raw: RawFile, ends: &LayerEnds<'_>, content: Content) -> Self {
+        let names = raw.paths.iter().map(|(raw, _)| raw.name.clone()).collect();
+        let path = |(raw, _): (RawPath, _)| Arc::new(PathIndex::new(db, &raw, ends));
+        let mut paths: Vec<Arc<PathIndex>> = raw.paths.into_iter().map(path).collect();
+        paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
+        Self { names, paths, diagnostics: raw.diagnostics, content }
+    }
+
+    /// A drawing of which nothing is known.
+    fn failed(problem: Diagnostic, content: Content) -> Self {
+        Self { diagnostics: vec![problem], content, ..Self::default() }
+    }
+
+    /// The names of its paths, in order of first appearance.
+    pub fn names(&self) -> &[PathName] {
+        &self.names
+    }
+
+    /// One of its paths.
+    pub fn path(&self, name: &PathName) -> Option<&Arc<PathIndex>> {
+        let place = self.paths.binary_search_by(|path| path.header.name.cmp(name)).ok()?;
+        Some(&self.paths[place])
+    }
+
+    /// All of its paths, in order of name.
+    pub fn paths(&self) -> impl Iterator<Item = &PathIndex> {
+        self.paths.iter().map(|path| &**path)
+    }
+
+    /// What is wrong with the drawing as a whole.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// The bytes that it was made from; `None` where there are none.
+    pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
+        self.content.fingerprint
+    }
+}
+
+impl PartialEq for FileIndex {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { names, paths, diagnostics, content: _ } = self;
+        *names == other.names && *paths == other.paths && *diagnostics == other.diagnostics
+    }
+}
+
+impl Content {
+    fn of(bytes: &[u8], reading: &Reading) -> Self {
+        let hash = || *blake3::hash(bytes).as_bytes();
+        Self { fingerprint: Some(Fingerprint::of(bytes)), hash: reading.is_hashed.then(hash) }
+    }
+}
+
+impl PathIndex {
+    fn new(db: &dyn Db, raw: &RawPath, ends: &LayerEnds<'_>) -> Self {
+        let header = PathHeader::of(raw);
+        let examples = Bindings::check_values(&header.definitions);
+        let summary = PathSummary::new(db, raw, &examples, ends);
+        Self { header, examples, summary }
+    }
+}
+
+impl<'db> NameKey<'db> {
+    /// The key of a name.
+    pub fn of(db: &'db dyn Db, name: &PathName) -> Self {
+        Self::new(db, name.folded().into_boxed_str())
+    }
+
+    /// The name.
+    pub(super) fn name(self, db: &dyn Db) -> PathName {
+        PathName::new(self.folded(db))
+    }
+}

@@ -1,0 +1,238 @@
+//! What is wrong with what a path embeds. The order of errors: spec/80-diagnostics.md.
+
+use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
+use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TextFault, Value};
+use regex::Regex;
+
+use super::near::near_names;
+use super::restriction::Restriction;
+use super::signature::{PathHeader, PathSignature, SubpathCall};
+use crate::approx::{at_least, near};
+use crate::definition::Definition;
+use crate::letter::Letter;
+use crate::name::{PathName, PathPattern};
+use crate::path::{SubpathName, SubpathValue};
+
+/// Judges the subpath segments of one path. All diagnostics name the path and the place of the segment.
+#[derive(Debug)]
+pub struct Judge<'a> {
+    outer: &'a PathSignature,
+    pattern: &'a PathPattern,
+    rule: Rule<'a>,
+}
+
+/// What names of embedded paths must match.
+#[derive(Debug)]
+enum Rule<'a> {
+    /// E of the path; `None` where it is no regular expression, which nothing matches.
+    Own(&'a str, Option<Regex>),
+    /// `--restrict`: the first restriction that concerns the path.
+    Restriction(&'a Regex),
+    /// No rule.
+    Any,
+}
+
+/// A distance in mm by which a segment and the path it embeds may differ.
+const CHORD_TOLERANCE: f64 = 0.001;
+
+impl<'a> Judge<'a> {
+    /// Judges what a path embeds, by its E, else by these restrictions.
+    pub fn new(outer: &'a PathSignature, restrictions: &'a [Restriction], pattern: &'a PathPattern) -> Self {
+        let restriction = || restrictions.iter().find(|rule| rule.concerns(&outer.name));
+        let rule = match &outer.embeds_only {
+            Some(own) => Rule::Own(own, Regex::new(own).ok()),
+            None => restriction().map_or(Rule::Any, |rule| Rule::Restriction(rule.child())),
+        };
+        Self { outer, pattern, rule }
+    }
+
+    /// PB502 as a warning where there is more than a name behind `>`.
+    pub fn warnings(&self, call: &SubpathCall) -> Vec<Diagnostic> {
+        let SubpathName::Found { name, has_more: Some(value) } = &call.subpath.name else {
+            return Vec::new();
+        };
+        let warning = Diagnostic::new(&messages::MORE_THAN_NAME).with("value", &**value);
+        let mut warning = self.at_name(call, warning.with("name", name.as_str()));
+        warning.severity = Severity::Warning;
+        vec![warning]
+    }
+
+    /// The path that a segment names.
+    ///
+    /// # Errors
+    /// PB501, PB502 and PB507: the segment names no path, or a path that may not be embedded.
+    pub fn name<'c>(&self, call: &'c SubpathCall) -> Result<&'c PathName, Box<Diagnostic>> {
+        let problem = match &call.subpath.name {
+            SubpathName::Missing { text } => {
+                self.at(call, Diagnostic::new(&messages::MISSING_NAME), text.as_ref())
+            }
+            SubpathName::Invalid { value } => {
+                let problem = Diagnostic::new(&messages::INVALID_NAME).with("value", &**value);
+                self.at_name(call, problem.with("pattern", self.pattern.as_str()))
+            }
+            SubpathName::Found { name, .. } => match self.broken_rule(name) {
+                None => return Ok(name),
+                Some(rule) => {
+                    let problem = Diagnostic::new(&messages::FORBIDDEN).with("name", name.as_str());
+                    self.at_name(call, problem.with("rule", rule))
+                }
+            },
+        };
+        Err(Box::new(problem))
+    }
+
+    /// The rule that keeps the path from embedding one of this name.
+    fn broken_rule(&self, name: &PathName) -> Option<&str> {
+        let (rule, is_kept) = match &self.rule {
+            Rule::Own(rule, pattern) => (*rule, pattern.as_ref().is_some_and(|it| name.is_match(it))),
+            Rule::Restriction(child) => (child.as_str(), name.is_match(child)),
+            Rule::Any => return None,
+        };
+        (!is_kept).then_some(rule)
+    }
+
+    /// PB503: no file defines the path. `known` are the paths of the files that were searched.
+    pub fn not_found(
+        &self,
+        call: &SubpathCall,
+        name: &PathName,
+        directories: Value,
+        files: Value,
+        known: Vec<PathName>,
+    ) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::NOT_FOUND)
+            .with("name", name.as_str())
+            .with("directories", directories)
+            .with("files", files);
+        let near = near_names(name, known);
+        if near.is_empty() {
+            return self.at_name(call, problem);
+        }
+        let near = near.iter().map(PathName::as_str).collect();
+        self.at_name(call, problem.note(&messages::NEAR_NAMES, vec![("names", near)]))
+    }
+
+    /// PB504: two files define the path.
+    pub fn defined_twice(
+        &self,
+        call: &SubpathCall,
+        name: &PathName,
+        first: &str,
+        second: &str,
+    ) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::DEFINED_TWICE).with("name", name.as_str());
+        self.at_name(call, problem.with("first", first).with("second", second))
+    }
+
+    /// PB302 to PB304: what is wrong with the values that a segment gives the variables of the embedded path. A path whose drawing has errors
+    /// is not asked for its variables.
+    pub fn binding_problems(&self, call: &SubpathCall, inner: &PathHeader) -> Vec<Diagnostic> {
+        if !inner.is_sound {
+            return Vec::new();
+        }
+        let values = &call.subpath.values;
+        let wrong = values.iter().filter_map(|given| self.wrong_value(call, given, inner));
+        let is_given = |known: &Definition| values.iter().any(|given| given.variable == Some(known.name));
+        let missing = inner.definitions.iter().filter(|known| !is_given(known));
+        let missing = missing.map(|definition| {
+            let problem = Diagnostic::new(&variables::MISSING_VALUE).with("variable", definition.name);
+            self.at_name(call, problem.with("definition", definition.to_string()))
+        });
+        wrong.chain(missing).collect()
+    }
+
+    fn wrong_value(
+        &self,
+        call: &SubpathCall,
+        given: &SubpathValue,
+        inner: &PathHeader,
+    ) -> Option<Diagnostic> {
+        let definition = inner.definitions.iter().find(|known| Some(known.name) == given.variable);
+        let problem = match definition {
+            None => {
+                let known = inner.definitions.iter().map(|known| known.name.to_string()).collect::<Value>();
+                Diagnostic::new(&variables::VALUE_WITHOUT_DEFINITION).with("known", known)
+            }
+            Some(definition) if !definition.allows(&given.value) => {
+                Diagnostic::new(&variables::VALUE_NOT_ALLOWED)
+                    .with("value", &*given.value)
+                    .with("definition", definition.to_string())
+            }
+            Some(_) => return None,
+        };
+        let variable = given.variable.map(String::from).unwrap_or_default();
+        let problem = problem.with("variable", variable).with("name", inner.name.as_str());
+        Some(self.at(call, problem, Some(&given.text)))
+    }
+
+    /// PB201, PB505, PB506, PB510: what of M, T, O and the size differs between a segment and the path it embeds.
+    pub fn misfits(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
+        let subpath = &call.subpath;
+        let mut problems: Vec<Diagnostic> = self.material(call, inner).into_iter().collect();
+        for (letter, here, there) in
+            [(Letter::T, subpath.thickness, inner.thickness), (Letter::O, subpath.tool, inner.tool)]
+        {
+            if !near(here, there) {
+                problems.push(self.differs(call, letter, &here.into(), &there.into(), inner));
+            }
+        }
+        if !at_least(self.outer.thickness, subpath.thickness) {
+            let problem = Diagnostic::new(&messages::T_BELOW)
+                .with("path", self.outer.thickness)
+                .with("segment", subpath.thickness);
+            problems.push(self.at(call, problem, call.fault(Letter::T)));
+        }
+        let (here, there) = ((subpath.end - subpath.start).norm(), inner.size);
+        if (here - there).abs() > CHORD_TOLERANCE {
+            let problem = Diagnostic::new(&messages::SIZE_DIFFERS)
+                .with("segment", here)
+                .with("path", there)
+                .with("name", inner.name.as_str());
+            problems.push(self.at(call, problem, None));
+        }
+        problems
+    }
+
+    fn material(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
+        let place = match (&call.subpath.material, &inner.material) {
+            (Some(here), Some(there)) => {
+                let differs = || self.differs(call, Letter::M, &(&**here).into(), &(&**there).into(), inner);
+                return (here != there).then(differs);
+            }
+            (None, None) => format!("{} / {}", self.outer.name, inner.name),
+            (None, Some(_)) => self.outer.name.to_string(),
+            (Some(_), None) => inner.name.to_string(),
+        };
+        Some(self.at(call, Diagnostic::new(&parameters::MISSING_MATERIAL).with("where", place), None))
+    }
+
+    fn differs(
+        &self,
+        call: &SubpathCall,
+        letter: Letter,
+        here: &Value,
+        there: &Value,
+        inner: &PathSignature,
+    ) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::PARAMETER_DIFFERS)
+            .with("letter", letter.as_char())
+            .with("segment", here.render(Lang::En))
+            .with("path", there.render(Lang::En))
+            .with("name", inner.name.as_str());
+        self.at(call, problem, call.fault(letter))
+    }
+
+    /// Puts a diagnostic where a segment is.
+    fn at(&self, call: &SubpathCall, diagnostic: Diagnostic, text: Option<&TextFault>) -> Diagnostic {
+        let diagnostic = call.origin.at(diagnostic.in_path(self.outer.name.as_str()));
+        match text {
+            Some(text) => diagnostic.with_text(text.clone()),
+            None => diagnostic,
+        }
+    }
+
+    /// The same with the name underlined.
+    fn at_name(&self, call: &SubpathCall, diagnostic: Diagnostic) -> Diagnostic {
+        self.at(call, diagnostic, call.fault(Letter::Embed))
+    }
+}

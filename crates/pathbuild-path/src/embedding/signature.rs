@@ -1,0 +1,123 @@
+//! What other paths see of a path.
+
+use pathbuild_diagnostic::TextFault;
+use smol_str::SmolStr;
+
+use super::sweep::SweepLimits;
+use crate::definition::Definition;
+use crate::element::Origin;
+use crate::letter::Letter;
+use crate::name::PathName;
+use crate::path::{Path, Segment, SegmentKind, Subpath};
+use crate::raw::RawPath;
+use crate::variables::Bindings;
+
+/// A path before its variables have values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathHeader {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// Whether the drawing of the path has no errors, values aside.
+    pub is_sound: bool,
+    /// The variables that it defines.
+    pub definitions: Vec<Definition>,
+}
+
+/// A path with values for its variables, as far as others depend on it: an edit that changes none of this concerns nobody else. Lengths
+/// in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathSignature {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// O.
+    pub tool: f64,
+    /// T.
+    pub thickness: f64,
+    /// S, where the path gives one.
+    pub sweep_height: Option<f64>,
+    /// What S must be above.
+    pub sweep_limits: SweepLimits,
+    /// M.
+    pub material: Option<SmolStr>,
+    /// R.
+    pub output_suffix: SmolStr,
+    /// E: what the names of embedded paths must match.
+    pub embeds_only: Option<SmolStr>,
+    /// The distance from its start to its end.
+    pub size: f64,
+    /// Whether anything in it is milled at the feed of the options.
+    pub needs_feed: bool,
+    /// Whether it has Z-probes of its own.
+    pub has_probes: bool,
+    /// Its subpath segments, in their order.
+    pub subpaths: Vec<SubpathCall>,
+}
+
+/// A subpath segment, with what messages about it show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubpathCall {
+    /// Index into [`Path::segments`].
+    pub segment: usize,
+    /// Where it is drawn.
+    pub origin: Origin,
+    /// What it says.
+    pub subpath: Subpath,
+    /// Its own text with a letter underlined, for each letter below that it gives.
+    faults: Vec<(Letter, TextFault)>,
+}
+
+/// The letters of a subpath segment that are held against the embedded path.
+const COMPARED: [Letter; 4] = [Letter::Embed, Letter::T, Letter::O, Letter::M];
+
+impl PathHeader {
+    /// The header of a path.
+    pub fn of(raw: &RawPath) -> Self {
+        Self { name: raw.name.clone(), is_sound: raw.is_sound(), definitions: raw.definitions.clone() }
+    }
+}
+
+impl PathSignature {
+    /// The signature of a path.
+    pub fn of(path: &Path) -> Self {
+        let call = |(index, segment): (usize, &Segment)| match &segment.kind {
+            SegmentKind::Subpath(subpath) => Some(SubpathCall::new(path, index, segment, subpath)),
+            _ => None,
+        };
+        Self {
+            name: path.name.clone(),
+            tool: path.tool,
+            thickness: path.thickness,
+            sweep_height: path.sweep_height,
+            sweep_limits: SweepLimits::of(path),
+            material: path.material.clone(),
+            output_suffix: path.output_suffix.clone(),
+            embeds_only: path.embeds_only.clone(),
+            size: (path.end - path.start).norm(),
+            needs_feed: path.needs_feed(),
+            has_probes: !path.probes.is_empty(),
+            subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
+        }
+    }
+}
+
+impl SubpathCall {
+    fn new(path: &Path, segment_index: usize, segment: &Segment, subpath: &Subpath) -> Self {
+        let fault = |letter| Some((letter, path.fault(subpath, letter)?));
+        Self {
+            segment: segment_index,
+            origin: path.origin(segment),
+            subpath: subpath.clone(),
+            faults: COMPARED.into_iter().filter_map(fault).collect(),
+        }
+    }
+
+    /// The values that it gives the variables of the embedded path.
+    pub fn bindings(&self) -> Bindings {
+        let values = self.subpath.values.iter();
+        Bindings::new(values.filter_map(|given| Some((given.variable?, given.value.clone()))))
+    }
+
+    pub(super) fn fault(&self, letter: Letter) -> Option<&TextFault> {
+        self.faults.iter().find(|(known, _)| *known == letter).map(|(_, fault)| fault)
+    }
+}

@@ -1,0 +1,53 @@
+//! Listing directories and reading drawings before they are needed. To list a directory of ten thousand drawings takes longer than to make the
+//! program of a project out of ten of them, so the drawings that it most likely embeds are read meanwhile.
+
+use std::collections::HashSet;
+use std::thread::Builder;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{PendingListing, SourceFile, likely_file, prefetch, search_directories};
+
+use super::Session;
+use crate::inputs::{Input, Inputs};
+
+impl Session<'_> {
+    /// Begins to list the directories that named drawings and paths need, and reads the drawings that are most likely needed.
+    pub fn prefetch(&self, inputs: &Inputs) {
+        let mut known = HashSet::new();
+        for input in inputs.iter() {
+            let Some((file, directory)) = self.likely_drawing(input) else { continue };
+            let directories = search_directories(&self.db, &directory);
+            let new: Vec<Utf8PathBuf> =
+                directories.into_iter().filter(|directory| known.insert(directory.clone())).collect();
+            self.list_ahead(&new);
+            if let Some(file) = file {
+                prefetch(&self.db, file);
+            }
+        }
+    }
+
+    /// The drawing that an argument most likely means, and the directory in which paths are looked for; `None` where no names are needed,
+    /// or a walk through directories lists them.
+    fn likely_drawing(&self, input: Input<'_>) -> Option<(Option<SourceFile>, Utf8PathBuf)> {
+        match input {
+            Input::Place(place) if Self::is_drawing(place) => {
+                let file = self.file(place);
+                let directory = file.path(&self.db).parent().unwrap_or(Utf8Path::new("")).to_owned();
+                pathbuild_db::embeds_others(&self.db, file).then_some((Some(file), directory))
+            }
+            Input::Place(_) => None,
+            Input::Name(_) if self.has_library() => None,
+            Input::Name(name) => Some((likely_file(&self.db, Utf8Path::new(""), name), Utf8PathBuf::new())),
+        }
+    }
+
+    /// Lists directories on a thread of its own. Where the system has no thread left, the queries that want the names list them.
+    fn list_ahead(&self, directories: &[Utf8PathBuf]) {
+        let pending: Vec<PendingListing> =
+            directories.iter().map(|directory| self.db.list_ahead(directory)).collect();
+        if !pending.is_empty() {
+            let list = move || pending.into_iter().for_each(PendingListing::run);
+            _ = Builder::new().name("listing".into()).spawn(list);
+        }
+    }
+}
