@@ -244,3 +244,120 @@ fn built_in_posts_are_listed_and_shown() {
     let [own, copy] = ["grbl", "copy.cbpp"].map(|post| place.run(&format!("post a.gcode --post {post}")));
     assert_eq!((own.status, own.stdout), (Some(0), copy.stdout));
 }
+
+/// Every built-in post.
+const POSTS: [&str; 8] = ["native", "grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "xpertmill"];
+
+#[test]
+fn what_any_post_wrote_is_what_the_drawing_says() {
+    let place = Place::of(LIBRARY);
+    for post in POSTS {
+        let emitted = place.run(&format!("emit 1234.1P --post {post} --out-dir {post}"));
+        assert_eq!(emitted.status, Some(0), "{emitted}");
+        let directory = std::fs::read_dir(place.path().join(post)).unwrap();
+        let names = directory.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let file = names.into_iter().find(|name| name.starts_with("1234")).unwrap();
+        for arguments in ["", "--against 1234.1P", "--cutter 2 --surface 5"] {
+            let verified = place.run(&format!("verify --dialect {post} {post}/{file} {arguments}"));
+            assert_eq!(verified.status, Some(0), "{post}: {verified}");
+            assert!(verified.stderr.contains("errors: 0, warnings: 0"), "{post} {arguments}: {verified}");
+        }
+    }
+}
+
+#[test]
+fn verify_against_finds_what_moves_the_machine_and_not_the_program() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));
+    let good = place.read("out/1234_Milling.gcode");
+    let head = good.lines().find(|line| line.starts_with("G17")).unwrap().to_owned();
+    let behind_head = |word: &str| good.replace(&head, &format!("{head}\n{word}"));
+    let place = [
+        ("a", behind_head("G0 X20 Y0 Z-9")),
+        ("b", behind_head("G43.1 Z-6")),
+        ("c", behind_head("G10 L2 P1 Z-5")),
+        ("d", behind_head("G43 H9")),
+        ("e", behind_head("G52 X3")),
+        ("f", good.replace("M3 S12000", "M4 S1")),
+        ("g", behind_head("G92 Z3")),
+        ("h", behind_head("G55")),
+        ("i", good.replace("T1", "T2")),
+        ("j", good.replace("G21 ", "")),
+        ("k", behind_head("#5221=3")),
+    ]
+    .into_iter()
+    .fold(place, |place, (name, text)| {
+        assert_ne!(text, good, "{name}");
+        place.file(&format!("{name}.nc"), text)
+    });
+    for name in ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k"] {
+        let verified = place.run(&format!("verify --dialect linuxcnc --against 1234.1P {name}.nc"));
+        assert_eq!(verified.status, Some(1), "{name}: {verified}");
+    }
+}
+
+#[test]
+fn a_header_weakens_no_check() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));
+    let good = place.read("out/1234_Milling.gcode");
+    // A narrow cutter in thin material meets nothing; the drawing's does.
+    let claims = "(pathbuild 0.1.0 3f2a-09c1 grbl O0.5 T-9)\n";
+    let plunge = good.replace("G1 F150.0 Z4.0", "G0 Z4.0\nG1 F150.0 Z4.0");
+    assert_ne!(plunge, good);
+    let place = place.file("claims.nc", format!("{claims}{plunge}"));
+    let verified = place.run("verify --against 1234.1P claims.nc --format concise");
+    assert_eq!(verified.status, Some(1), "{verified}");
+    assert!(verified.stderr.contains("PB741"), "{verified}");
+    // Without a drawing the header says dialect, cutter and material.
+    let honest = format!("(pathbuild 0.1.0 3f2a-09c1 grbl O2 T5)\n{plunge}");
+    let verified = place.file("honest.nc", honest).run("verify honest.nc --format concise");
+    assert!(verified.stderr.contains("PB741"), "{verified}");
+}
+
+#[test]
+fn verify_finds_what_breaks_cutters() {
+    let head = "G17 G21 G40 G49 G54 G80 G90 G94\nT1\n";
+    let cut = "G0 Z15\nG0 X0 Y0\nG0 X10 Y10\nG0 Z2\nG1 Z-1 F100\n";
+    let foot = "G0 Z15\nM5\nM30\n";
+    let place = Place::new()
+        .file("s0.nc", format!("{head}M3 S0\n{cut}G1 X30\n{foot}"))
+        .file("no_s.nc", format!("{head}M3\n{cut}G1 X30\n{foot}"))
+        .file("drill.nc", format!("{head}M3 S12000\n{cut}G0 Z15\nG0 X30\nG0 Z2\nG0 Z-3\nG0 Z2\n{foot}"))
+        .file("g28.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG28\n{foot}"))
+        .file("g92.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\nG92 X0 Y0 Z0\n{foot}"))
+        .file("good.nc", format!("{head}M3 S12000\n{cut}G1 X30\nG0 Z15\n{foot}"));
+    for (name, code) in
+        [("s0", "PB745"), ("no_s", "PB745"), ("drill", "PB741"), ("g28", "PB740"), ("g92", "PB774")]
+    {
+        let verified = place.run(&format!("verify --dialect linuxcnc --cutter 2 --surface 2 {name}.nc"));
+        assert_eq!(verified.status, Some(1), "{name}: {verified}");
+        assert!(verified.stderr.contains(code), "{name}: {verified}");
+    }
+    let verified = place.run("verify --dialect linuxcnc --cutter 2 --surface 2 good.nc");
+    assert!(verified.stderr.contains("errors: 0, warnings: 0"), "{verified}");
+}
+
+#[test]
+fn a_few_lines_with_huge_numbers_are_verified_at_once() {
+    let place = Place::new()
+        .file("d.gcode", "G0 X0 Y2e9\nG1 F500 Z-1\nG3 X0 Y0 I0 J-1.5\n")
+        .file("e.gcode", "G21 G90 G17\nG0 X0 Y2000000000\nG1 F500 Z-1\nG3 X0 Y0 I0 J-1.5\nM30\n")
+        .file("f.gcode", "G1 F10.0 Z-0.001\nG2 X-2.8886 Y-92233720368547758080.1787 I0.1401 J0.2718\n");
+    let begin = std::time::Instant::now();
+    for name in ["d", "e"] {
+        let verified = place.run(&format!("verify {name}.gcode --cutter 2 --surface 5 --dialect linuxcnc"));
+        assert_eq!(verified.status, Some(1), "{name}: {verified}");
+    }
+    assert!(place.run("verify f.gcode --cutter 2 --surface 5").stderr.contains("warnings"));
+    assert!(place.run("verify e.gcode --cutter 2 --surface 5").stderr.contains("PB005"));
+    assert!(begin.elapsed().as_secs() < 60);
+}
+
+#[test]
+fn ignored_feeds_are_no_error() {
+    let place = Place::new().file("if.nc", "%\nG71\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM30\n");
+    let verified = place.run("verify --dialect xpertmill --ignore-feed if.nc");
+    assert_eq!(verified.status, Some(0), "{verified}");
+    assert_eq!(place.run("import --dialect xpertmill --ignore-feed if.nc").status, Some(0));
+}

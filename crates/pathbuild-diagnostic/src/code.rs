@@ -173,6 +173,8 @@ codes! {
     770 SpindleLeftOn "spindle-left-on" Warning "PB770: a program that ends with the spindle turning";
     771 CoarseArcs "coarse-arcs" Warning "PB771: arcs in millimetres with fewer than three decimals";
     772 ProbeNotRaised "probe-not-raised" Warning "PB772: a move in the plane straight after a probe has met something";
+    773 ActiveComment "active-comment" Warning "PB773: a comment that the control obeys";
+    774 OffsetLeftOn "offset-left-on" Warning "PB774: an offset (G52, G92) that still holds at the end";
 }
 
 impl Code {

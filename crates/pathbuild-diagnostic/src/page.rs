@@ -176,4 +176,6 @@ pages! {
     SpindleLeftOn "PB770" example;
     CoarseArcs "PB771" example;
     ProbeNotRaised "PB772" example;
+    ActiveComment "PB773" example;
+    OffsetLeftOn "PB774" example;
 }

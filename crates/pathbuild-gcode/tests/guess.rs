@@ -1,6 +1,8 @@
 //! Guessing dialects.
 
-use pathbuild_gcode::dialect::Dialect::{self, Grbl, LinuxCnc, Native, Rs274, Xpertmill};
+use pathbuild_gcode::dialect::Dialect::{
+    self, Fanuc, Grbl, Haas, LinuxCnc, Marlin, Native, Rs274, Xpertmill,
+};
 use pathbuild_gcode::interpret::guess;
 
 fn guessed(text: &str) -> (Dialect, Option<u32>) {
@@ -24,7 +26,15 @@ fn what_looks_like_a_sign_is_none() {
     assert_eq!(guessed("G0 X1 (see http://example)\nM30\n"), (Rs274, None));
     assert_eq!(guessed("T5 M6\nG0 X1\nM30\n"), (Rs274, None));
     assert_eq!(guessed("(=heading=)\nG0 X1\nM30\n"), (Rs274, None));
-    assert_eq!(guessed("O1000\nG0 X1\nM30\n").1, None);
+    assert_eq!(guessed("O100 if [#1 EQ 1]\nG0 X1\nM30\n").0, LinuxCnc);
+}
+
+#[test]
+fn program_numbers_and_headers_name_a_dialect() {
+    assert_eq!(guessed("O1000\nG0 X1\nM30\n"), (Fanuc, Some(1)));
+    assert_eq!(guessed("; a remark\nM117 Hello\nG0 X1\n"), (Marlin, Some(2)));
+    assert_eq!(guessed("(pathbuild 0.1.0 3f2a-09c1 haas O2 T5)\n(=1)\nG0 X1\nM30\n"), (Haas, None));
+    assert_eq!(guessed("(pathbuild 0.1.0 3f2a-09c1)\nO1000\nM30\n"), (Fanuc, Some(2)));
 }
 
 #[test]

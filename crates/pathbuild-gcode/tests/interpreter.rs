@@ -2,8 +2,10 @@
 
 mod common;
 
-use common::{faults, spelled_out, trace, trace_with};
-use pathbuild_gcode::dialect::Dialect::{self, Grbl, LinuxCnc, Native, Rs274};
+use common::{changes, faults, faults_with, spelled_out, trace, trace_with};
+use pathbuild_gcode::dialect::Dialect::{
+    self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
+};
 use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
 
 const HEAD: &str = "G17 G21 G90 G94\n";
@@ -404,7 +406,10 @@ fn named_places_are_unknown_without_configuration() {
         run(Native, "G0 X1 Y1 Z1\nG91 G28 Z2\nG90 G0 Z5"),
         ["2 rapid to 1 1 1", "3 rapid to 1 1 3", "3 rapid to 1 1 ? Home1", "4 rapid to 1 1 5"]
     );
-    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30"), ["3 unknown-offset"]);
+    // Nothing depends on where that is until something is cut from there.
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30"), FINE);
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 X1 Y1\nG0 Z1\nG1 Z0 F9"), FINE);
+    assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 Z1\nG1 Z0 F9"), ["3 unknown-offset"]);
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG53 G0 Z0")[1], "3 rapid to 1 1 ? Machine");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG28.1\nG0 X9\nG28")[2], "5 rapid to 1 1 1 Home1");
 }
@@ -434,7 +439,7 @@ fn named_places_are_known_from_the_configuration() {
 
 #[test]
 fn machine_coordinates_go_with_absolute_straight_moves() {
-    assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words", "3 unknown-offset"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words"]);
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG53 G80\nG90"), ["3 conflicting-words"]);
 }
 
@@ -716,5 +721,118 @@ fn a_fault_says_what_and_where() {
         spelled_out(&result.problems),
         "PB734 (Some(3), Some(1)) the arc begins with the radius 6 and ends with 4: 1.998 mm more than rs274 takes \
          Some(\"G2 X10 Y0 I6 F10\")\n"
+    );
+}
+
+#[test]
+fn what_changes_beside_the_moves_is_a_step() {
+    assert_eq!(
+        changes(LinuxCnc, "G21 G90\nG43 H2\nG49\nG43.1 Z3"),
+        ["2 ToolLength(OfTool(Some(2)))", "3 ToolLength(Off)", "4 ToolLength(Other)"]
+    );
+    assert_eq!(
+        changes(LinuxCnc, "G64 P0.5\nG61\nG64\nG20 G64 P1"),
+        [
+            "1 Corners(Rounded(Some(0.5)))",
+            "2 Corners(Exact)",
+            "3 Corners(Rounded(None))",
+            "4 Corners(Rounded(Some(25.4)))"
+        ]
+    );
+    assert_eq!(
+        changes(LinuxCnc, "#5221=3\nM48\nM51 P1\nG18\nG17"),
+        ["1 Parameter", "2 Switch(480)", "3 Switch(510)", "4 Plane(Zx)", "5 Plane(Xy)"]
+    );
+    assert_eq!(
+        changes(LinuxCnc, "G10 L2 P1 X1\nG52 X0\nG52 X1\nG92 X1\nG92.1"),
+        [
+            "1 Offsets { code: 100, are_shifted: None }",
+            "2 Offsets { code: 520, are_shifted: Some(false) }",
+            "3 Offsets { code: 520, are_shifted: Some(true) }",
+            "4 Offsets { code: 920, are_shifted: Some(true) }",
+            "5 Offsets { code: 921, are_shifted: Some(false) }"
+        ]
+    );
+}
+
+#[test]
+fn g52_moves_the_zero_that_g92_has_set() {
+    assert_eq!(
+        run(LinuxCnc, "G0 X10 Y0 Z5\nG92 X0\nG52 X3\nG0 X1\nG92 X0\nG0 X1\nG52 X0\nG0 X1"),
+        ["2 rapid to 10 0 5", "5 rapid to 14 0 5", "7 rapid to 15 0 5", "9 rapid to 12 0 5"]
+    );
+}
+
+#[test]
+fn fanuc_and_haas_number_their_programs() {
+    assert_eq!(wrong(Fanuc, "O1000"), FINE);
+    assert_eq!(wrong(Haas, "O01000 (PLATE)"), FINE);
+    assert_eq!(wrong(Fanuc, "O1000\nO1001"), ["3 word-not-followed"]);
+    assert_eq!(wrong(Fanuc, "O0"), ["2 value-out-of-range"]);
+    assert_eq!(wrong(Native, "O1000"), ["2 unknown-word"]);
+}
+
+#[test]
+fn each_control_counts_a_dwell_in_its_own_units() {
+    assert_eq!(run(LinuxCnc, "G4 P2.5"), ["2 dwell 2.5"]);
+    assert_eq!(run(Fanuc, "G4 P2500"), ["2 dwell 2.5"]);
+    assert_eq!(run(Fanuc, "G4 X2.5"), ["2 dwell 2.5"]);
+    assert_eq!(run(Haas, "G4 P2500"), ["2 dwell 2.5"]);
+    assert_eq!(run(Haas, "G4 P2.5"), ["2 dwell 2.5"]);
+    assert_eq!(run(Mach3, "G4 P2.5"), ["2 dwell 2.5"]);
+    assert_eq!(trace(Marlin, "G21\nG90\nG4 P2500\nG4 S2.5"), ["3 dwell 2.5", "4 dwell 2.5"]);
+}
+
+#[test]
+fn skips_are_probes_that_need_no_answer() {
+    for dialect in [Fanuc, Haas, Mach3] {
+        assert_eq!(
+            run(dialect, "G0 X0.0 Y0.0 Z5.0\nG31 Z0.0 F40.0")[1],
+            "3 probe 40 toward=true must=false to 0 0 0"
+        );
+    }
+    assert_eq!(wrong(LinuxCnc, "G31 Z0 F40")[0], "2 unknown-word");
+}
+
+#[test]
+fn marlin_obeys_one_command_a_line() {
+    let wrong = |program: &str| faults(Marlin, &format!("G21\nG90\n{program}"));
+    assert_eq!(wrong("M3 S12000"), FINE);
+    assert_eq!(wrong("S12000"), ["3 unknown-word", "3 unused-word"]);
+    assert_eq!(wrong("G0 Z5\nG1 X1 S5 F10"), ["4 unused-word"]);
+    assert_eq!(wrong("G21 G90"), ["3 conflicting-words"]);
+    assert_eq!(wrong("G0 Z5\nX5"), ["4 unknown-word", "4 motion-not-stated"]);
+    assert_eq!(wrong("(a)"), ["3 unknown-character"]);
+    assert_eq!(wrong("M117 Hello (world) G1\nM0 Insert T2: 3 mm ; by hand\nM0 S5 Wait"), FINE);
+    assert_eq!(wrong("M2201"), ["3 unknown-word"]);
+    assert_eq!(wrong("M220 S50"), ["3 word-not-followed"]);
+}
+
+#[test]
+fn numbers_without_a_point_are_doubtful_where_they_may_count_thousandths() {
+    assert_eq!(wrong(Fanuc, "G0 X10"), ["2 doubtful-spelling"]);
+    assert_eq!(wrong(Fanuc, "G0 X10.\nG0 X0\nG1 X5.0 F100"), FINE);
+    assert_eq!(wrong(Haas, "G0 Z10"), ["2 doubtful-spelling"]);
+    assert_eq!(wrong(Mach3, "G0 Z10"), FINE);
+}
+
+#[test]
+fn linuxcnc_obeys_some_comments() {
+    assert_eq!(wrong(LinuxCnc, "(LOGOPEN,a.txt)"), ["2 active-comment"]);
+    assert_eq!(wrong(LinuxCnc, ";py,run()"), ["2 active-comment"]);
+    assert_eq!(wrong(LinuxCnc, "( probeopen , a)"), ["2 active-comment"]);
+    assert_eq!(wrong(LinuxCnc, "(drawing LOGOPEN,a)\n(LOGOPENING)\n(MSG, hello)"), FINE);
+    assert_eq!(wrong(Native, "(LOGOPEN,a.txt)"), ["2 active-comment"], "LinuxCNC runs native programs");
+    assert_eq!(wrong(Grbl, "(LOGOPEN,a.txt)"), FINE);
+}
+
+#[test]
+fn ignored_feeds_are_not_missing() {
+    let options = Options { ignore_feed: true, ..Options::default() };
+    let program = "%\nG71\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X5\nM30\n";
+    assert_eq!(faults_with(Xpertmill, program, &options), ["4 ignored-word"]);
+    assert_eq!(
+        faults_with(Xpertmill, &program.replace(" F100", ""), &Options::default()),
+        ["4 missing-feed"]
     );
 }

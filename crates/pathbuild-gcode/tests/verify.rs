@@ -160,10 +160,7 @@ fn a_program_that_cannot_be_followed_says_so() {
         problems.iter().map(|problem| (fault_text(problem), problem.severity)).collect::<Vec<_>>()
     };
     assert_eq!(said(1_000), []);
-    assert_eq!(
-        said(1_000_000),
-        [("502 rapid-in-material".to_owned(), pathbuild_diagnostic::Severity::Warning)]
-    );
+    assert_eq!(said(1_000_000), [("500 limit-reached".to_owned(), pathbuild_diagnostic::Severity::Error)]);
 }
 
 #[test]
@@ -250,9 +247,10 @@ fn the_spindle_stands_at_the_end() {
 #[test]
 fn arcs_have_three_decimals() {
     let coarse = |program: &str| coarse_arcs(program.as_bytes(), Native).is_some();
-    assert!(coarse("G21\nG2 X1.5 Y1.5 I1.5"));
+    assert!(!coarse("G21\nG2 X1.5 Y1.5 I1.5"), "numbers that fit each other exactly");
+    assert!(coarse("G21\nG2 X1.5 Y1.51 I1.5"));
     assert!(coarse("G21\nG2 X1.25 Y1.5 I1.5"));
-    assert!(!coarse("G21\nG0 X0.000\nG2 X1.5 Y1.5 I1.5"), "three where they are needed");
+    assert!(!coarse("G21\nG0 X0.000\nG2 X1.5 Y1.51 I1.5"), "three where they are needed");
     assert!(!coarse("G21\nG2 X2 Y2 I2"), "written by hand");
     assert!(!coarse("G20\nG2 X1.5 Y1.5 I1.5"), "inches");
     assert!(!coarse("G21\nG1 X1.5 Y1.5"), "no arc");
@@ -416,4 +414,59 @@ fn no_fixture_has_anything_wrong() {
         let problems = all_wrong(text.as_bytes(), 2.0);
         assert!(problems.is_empty(), "{name}: {}", spelled_out(&problems));
     }
+}
+
+#[test]
+fn a_hole_is_not_drilled_by_rapid_moves() {
+    assert_eq!(behind_slot("G0 Z10\nG0 Y20\nG0 Z5\nG0 Z-3\nG0 Z10"), ["9 rapid-plunge"]);
+    assert_eq!(behind_slot("G0 Z10\nG0 Y20\nG0 Z5\nG0 Z4.999\nG0 Z10"), FINE, "not below the surface");
+}
+
+#[test]
+fn the_spindle_has_a_speed_while_cutting() {
+    let with =
+        |spindle: &str| wrong(&format!("{spindle}\nG0 X0 Y0 Z5\nG1 Z1\nX5\nG0 Z5\nM5"), &Checks::default());
+    assert_eq!(with("M3 S12000"), FINE);
+    assert_eq!(with("S100 M3"), FINE);
+    assert_eq!(with("M3 S0"), ["4 spindle-off"]);
+    assert_eq!(with("M3"), ["4 spindle-off"]);
+    assert_eq!(with("M3\nS1"), FINE);
+    assert_eq!(with("M3 S5\nS0"), ["5 spindle-off"]);
+}
+
+#[test]
+fn it_is_said_once_until_the_spindle_is_switched_again() {
+    let cuts = "G1 Z1\nX5\nX6";
+    assert_eq!(
+        wrong(&format!("G0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}\nM5\nM3 S0\n{cuts}\nM5"), &Checks::default()),
+        ["3 spindle-off", "8 spindle-off", "13 spindle-off"]
+    );
+}
+
+#[test]
+fn the_machines_places_are_not_approached_from_depth() {
+    assert_eq!(behind_slot("G28\nG0 Z10"), ["6 rapid-in-material"]);
+    assert_eq!(behind_slot("G0 Z10\nG28"), FINE);
+    assert_eq!(behind_slot("G53 G0 Z0\nG28"), FINE, "straight up first");
+    assert_eq!(behind_slot("G53 G0 X0\nG0 Z10"), ["6 rapid-in-material"]);
+}
+
+#[test]
+fn offsets_do_not_outlast_the_program() {
+    let with = |program: &str| verify(&run(program).steps, &Checks::default());
+    let left =
+        |program: &str| with(program).iter().map(|it| (fault_text(it), it.is_error())).collect::<Vec<_>>();
+    assert_eq!(left("G92 X0 Y0 Z5\nG1 X5"), [("2 offset-left-on".to_owned(), false)]);
+    assert_eq!(left("G0 X0 Y0 Z5\nG1 X5\nG92 X0"), [("4 offset-left-on".to_owned(), true)]);
+    assert_eq!(left("G92 X0 Y0 Z5\nG1 X5\nG92.1"), []);
+    assert_eq!(left("G92 X0 Y0 Z5\nG1 X5\nG92.2"), []);
+    assert_eq!(left("G92 X0 Y0 Z5\nG92.2\nG92.3\nG1 X5"), [("4 offset-left-on".to_owned(), false)]);
+}
+
+#[test]
+fn numbers_beyond_all_measure_take_no_time() {
+    let text = "G21 G90 G17\nG0 X0 Y2000000000\nG1 F500 Z-1\nG3 X0 Y0 I0 J-1.5\nM30\n";
+    let steps = interpret(text.as_bytes(), Native, &Options::default()).steps;
+    let found = verify(&steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+    assert!(found.iter().any(|it| it.code().name() == "limit-reached"), "{}", spelled_out(&found));
 }

@@ -103,7 +103,7 @@ impl Post {
     /// The dialect in which its output is read back, if it names its own or `named` is one; and whether that is the target's own, or only
     /// understands its moves.
     pub fn reader(&self, named: Option<&str>) -> Option<(Dialect, bool)> {
-        Target::of(named.or(self.dialect())?).map(|target| (target.reader, target.is_read_exactly()))
+        Target::of(named.or(self.dialect())?).map(|target| (target.reader, true))
     }
 
     /// Writes a program.

@@ -135,7 +135,7 @@ impl Builder {
                 }
             },
             Action::Stop { .. } => self.push(Step::Stop),
-            Action::SelectTool(_) | Action::System(_) | Action::End => {}
+            Action::SelectTool(_) | Action::System(_) | Action::Change(_) | Action::End => {}
         }
     }
 

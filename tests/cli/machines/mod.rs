@@ -1,6 +1,7 @@
 //! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, LinuxCNC's own
 //! interpreter takes what is written for it and moves alike, and no rule of `verify` finds an error. (spec/85-post-processors.md)
 
+mod changes;
 #[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
 mod oracle;
 mod programs;

@@ -3,6 +3,97 @@
 //! `{dialect}` is the name of the dialect that the file is read as.
 
 messages! {
+    /// `(LOGOPEN,name)`.
+    ACTIVE_COMMENT: ActiveComment {
+        en: "{dialect} obeys this comment: {word}",
+        de: "{dialect} gehorcht diesem Kommentar: {word}",
+        help_en: "put another word in front, if it is only a remark",
+        help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
+    }
+    /// `X10` where the control may count thousandths.
+    NO_DECIMAL_POINT: DoubtfulSpelling {
+        en: "`{word}` has no decimal point: some controls of {dialect} count thousandths",
+        de: "`{word}` hat keinen Dezimalpunkt: manche Steuerungen von {dialect} zählen Tausendstel",
+        help_en: "write `{word}.`",
+        help_de: "`{word}.` schreiben",
+    }
+    /// A line that begins with a value.
+    NO_COMMAND: UnknownWord {
+        en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",
+        de: "die Zeile beginnt mit `{word}`: {dialect} gehorcht nur Zeilen, die mit G, M oder T beginnen",
+        help_en: "put the command in front",
+        help_de: "den Befehl davorsetzen",
+    }
+    /// Two commands in one line.
+    SECOND_COMMAND: ConflictingWords {
+        en: "{dialect} obeys one command a line: {first}, not {word}",
+        de: "{dialect} gehorcht einem Befehl je Zeile: {first}, nicht {word}",
+        help_en: "write {word} into a line of its own",
+        help_de: "{word} in eine eigene Zeile schreiben",
+    }
+    /// `verify --against`: a word of which the drawing's program knows nothing.
+    NOT_IN_DRAWING: MovesDiffer {
+        en: "{word} is not in the drawing's program: it may change where, how deep or how fast the tool cuts",
+        de: "{word} steht nicht im Programm der Zeichnung: es kann ändern, wo, wie tief oder wie schnell gefräst wird",
+        help_en: "remove it, or write the program again with `pathbuild emit`",
+        help_de: "das Wort entfernen, oder das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: T.
+    TOOLS_DIFFER: MovesDiffer {
+        en: "the tool is T{found}, for the drawing it is T{expected}",
+        de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
+        help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben, oder `number` in [tool.NAME] berichtigen",
+    }
+    /// `verify --against`: G43, H.
+    LENGTHS_DIFFER: MovesDiffer {
+        en: "the tool's length is not that of the tool in the spindle",
+        de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
+        help_en: "G43 H with the number that M6 put in; none in the native program",
+        help_de: "G43 H mit der Nummer, die M6 eingewechselt hat; im eigenen Programm keine",
+    }
+    /// `verify --against`: M3, S.
+    SPINDLES_DIFFER: MovesDiffer {
+        en: "the spindle runs with `{found}`, for the drawing's cutter it is `{expected}`",
+        de: "die Spindel läuft mit `{found}`, für den Fräser der Zeichnung ist es `{expected}`",
+        help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben, oder [tool.NAME] berichtigen",
+    }
+    /// `verify --against`: no dwell behind M3.
+    SPUN_UP_TOO_SHORT: MovesDiffer {
+        en: "the tool cuts less than {seconds} s after the spindle was switched on",
+        de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
+        help_en: "write the program again with `pathbuild emit`: it waits as `[machine] spin-up` says",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben: es wartet, wie `[machine] spin-up` sagt",
+    }
+    /// `G0 Z-3`, `G0 Z2`.
+    RAPID_DIP: RapidPlunge {
+        en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
+        de: "eine Eilgangbewegung hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
+        help_en: "drill with G01 and a feed",
+        help_de: "mit G01 und einem Vorschub bohren",
+    }
+    /// `G28` from below the surface.
+    HOME_FROM_DEPTH: RapidInMaterial {
+        en: "a rapid move to a place of the machine from Z {z}: the material stands up to Z {surface}",
+        de: "eine Eilgangbewegung zu einem Ort der Maschine ab Z {z}: das Material reicht bis Z {surface}",
+        help_en: "raise the tool above the material first",
+        help_de: "das Werkzeug zuerst über das Material heben",
+    }
+    /// `M3 S0`.
+    SPINDLE_WITHOUT_SPEED: SpindleOff {
+        en: "a cutting move with the spindle at speed 0",
+        de: "eine Fräsbewegung bei Spindeldrehzahl 0",
+        help_en: "write the speed with S: `M3 S12000`",
+        help_de: "die Drehzahl mit S angeben: `M3 S12000`",
+    }
+    /// G92 or G52 at the end.
+    OFFSET_LEFT_ON: OffsetLeftOn {
+        en: "{word} still holds at the end: the next program begins elsewhere",
+        de: "{word} gilt am Ende noch: das nächste Programm beginnt anderswo",
+        help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
+        help_de: "vor dem Ende G92.1 schreiben, oder G52 X0 Y0 Z0",
+    }
     /// Nothing in the file looks like a word of G-code.
     NOT_G_CODE: NotGCode {
         en: "this is no G-code: {found}",
@@ -488,11 +579,11 @@ messages! {
         help_de: "den Fräser vorher anheben, oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
     /// Kilometres of milling.
-    TOO_LARGE_TO_FOLLOW: RapidInMaterial {
-        en: "the program is too large to follow its material: rapid moves are not checked against it",
-        de: "das Programm ist zu groß, um sein Material zu verfolgen: Eilgangbewegungen werden nicht dagegen geprüft",
-        help_en: "check its parts",
-        help_de: "seine Teile prüfen",
+    TOO_LARGE_TO_FOLLOW: LimitReached {
+        en: "following the material of this program exceeds the limit of {limit} cells; not checked: rapid moves into material",
+        de: "das Material dieses Programms zu verfolgen überschreitet die Grenze von {limit} Zellen; nicht geprüft: Eilgang ins Material",
+        help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "viel zu große Zahlen berichtigen, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// Rapid down.
     RAPID_PLUNGE: RapidPlunge {

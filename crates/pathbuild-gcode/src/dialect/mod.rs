@@ -10,7 +10,7 @@ use std::fmt;
 use std::str::FromStr;
 
 pub use codes::{Acceptance, Letters, Words};
-pub use rules::{ArcRules, FeedMode, RadiusTolerance, Rules, StartMotion};
+pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
 /// The kinds of G-code that are told apart.
@@ -24,13 +24,31 @@ pub enum Dialect {
     Grbl,
     /// The import filter of XpertMILL (STEP-FOUR).
     Xpertmill,
+    /// Mach3 and Mach4, mill.
+    Mach3,
+    /// Fanuc and controls like it, mill.
+    Fanuc,
+    /// Haas mills.
+    Haas,
+    /// Marlin 2 on a mill.
+    Marlin,
     /// What pathbuild and its predecessor write (spec/60-gcode.md), with correction formulas as data (spec/70-z-probes.md).
     Native,
 }
 
 impl Dialect {
     /// Every dialect, in the order in which they are listed to a person.
-    pub const ALL: &[Self] = &[Self::Native, Self::Rs274, Self::LinuxCnc, Self::Grbl, Self::Xpertmill];
+    pub const ALL: &[Self] = &[
+        Self::Native,
+        Self::Rs274,
+        Self::LinuxCnc,
+        Self::Grbl,
+        Self::Xpertmill,
+        Self::Mach3,
+        Self::Fanuc,
+        Self::Haas,
+        Self::Marlin,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -39,6 +57,10 @@ impl Dialect {
             Self::LinuxCnc => "linuxcnc",
             Self::Grbl => "grbl",
             Self::Xpertmill => "xpertmill",
+            Self::Mach3 => "mach3",
+            Self::Fanuc => "fanuc",
+            Self::Haas => "haas",
+            Self::Marlin => "marlin",
             Self::Native => "native",
         }
     }
@@ -50,6 +72,10 @@ impl Dialect {
             Self::LinuxCnc => &rules::LINUXCNC,
             Self::Grbl => &rules::GRBL,
             Self::Xpertmill => &rules::XPERTMILL,
+            Self::Mach3 => &rules::MACH3,
+            Self::Fanuc => &rules::FANUC,
+            Self::Haas => &rules::HAAS,
+            Self::Marlin => &rules::MARLIN,
             Self::Native => &rules::NATIVE,
         }
     }

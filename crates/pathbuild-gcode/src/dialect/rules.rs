@@ -25,6 +25,38 @@ pub struct Rules {
     pub layers: bool,
     /// A motion word holds only for its own line; repeating it by coordinates alone is read with a warning.
     pub motion_is_stated: bool,
+    /// How G4 says its time.
+    pub dwell: DwellRules,
+    /// The control obeys one G, M or T word a line, the first, and every line begins with one. Other words are values of that one.
+    pub one_command: bool,
+    /// `O1234` at the beginning is the program's number.
+    pub program_numbers: bool,
+    /// A number without a decimal point counts least increments on some machines: `X10` is 0.010 mm.
+    pub least_increments: bool,
+    /// The letter that repeats a drilling cycle.
+    pub repeats: u8,
+    /// Drilling cycles lift to where they began (G98) unless the program says otherwise.
+    pub lifts_to_start: bool,
+}
+
+/// How a dialect's G4 says its time.
+#[derive(Debug)]
+pub struct DwellRules {
+    /// What P counts.
+    pub p: DwellUnit,
+    /// Letters that count seconds instead of P.
+    pub seconds: &'static [u8],
+}
+
+/// What P of G4 counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DwellUnit {
+    /// Seconds.
+    Seconds,
+    /// Milliseconds.
+    Milliseconds,
+    /// Seconds with a decimal point, milliseconds without.
+    ByPoint,
 }
 
 /// How a dialect reads arcs. (`reference/cad6_xpertmill_gcode.md`, section 5.4)
@@ -81,7 +113,23 @@ pub enum StartMotion {
     None,
 }
 
+/// How much radii may differ on the NIST's interpreter, from which Mach3 comes.
+const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 };
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
+
+/// What LinuxCNC obeys in comments, beside what it only shows.
+const ACTIVE_COMMENTS: &[&str] = &[
+    "LOG",
+    "LOGOPEN",
+    "LOGAPPEND",
+    "LOGCLOSE",
+    "PROBEOPEN",
+    "PROBECLOSE",
+    "PY",
+    "PYRUN",
+    "PYRELOAD",
+    "ABORT",
+];
 
 const BASE_SPELLING: Spelling = Spelling {
     round_comments: Style::Usual,
@@ -100,6 +148,8 @@ const BASE_SPELLING: Spelling = Spelling {
     formulas: false,
     bare_tool_number: false,
     real_time_bytes: false,
+    active_comments: &[],
+    message_codes: &[],
 };
 
 const BASE: Rules = Rules {
@@ -112,6 +162,12 @@ const BASE: Rules = Rules {
     unit_words: [200, 210],
     layers: false,
     motion_is_stated: false,
+    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
+    one_command: false,
+    program_numbers: false,
+    least_increments: false,
+    repeats: b'L',
+    lifts_to_start: false,
 };
 
 pub(super) static RS274: Rules = Rules {
@@ -126,7 +182,7 @@ pub(super) static RS274: Rules = Rules {
         }),
         ..BASE_SPELLING
     },
-    arcs: ArcRules { radius: RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 }, ..BASE.arcs },
+    arcs: ArcRules { radius: NIST_RADIUS, ..BASE.arcs },
     start_motion: StartMotion::None,
     ..BASE
 };
@@ -145,6 +201,7 @@ pub(super) static LINUXCNC: Rules = Rules {
             parameters: 5602,
             o_words: true,
         }),
+        active_comments: ACTIVE_COMMENTS,
         ..BASE_SPELLING
     },
     words: &codes::LINUXCNC,
@@ -207,8 +264,64 @@ pub(super) static NATIVE: Rules = Rules {
         semicolon_comments: Style::Usual,
         block_numbers: Some(10_000_000),
         formulas: true,
+        active_comments: ACTIVE_COMMENTS,
         ..BASE_SPELLING
     },
     words: &codes::NATIVE,
+    ..BASE
+};
+
+pub(super) static MACH3: Rules = Rules {
+    dialect: Dialect::Mach3,
+    words: &codes::MACH3,
+    arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
+    program_numbers: true,
+    lifts_to_start: true,
+    ..BASE
+};
+
+/// What Fanuc and Haas have in common.
+const ISO: Rules = Rules {
+    arcs: ArcRules { radius: RadiusTolerance::Fixed { mm: 0.02, inch: 0.02 }, axis_word: false, ..BASE.arcs },
+    start_motion: StartMotion::None,
+    program_numbers: true,
+    least_increments: true,
+    lifts_to_start: true,
+    ..BASE
+};
+
+pub(super) static FANUC: Rules = Rules {
+    dialect: Dialect::Fanuc,
+    words: &codes::FANUC,
+    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X" },
+    repeats: b'K',
+    ..ISO
+};
+
+pub(super) static HAAS: Rules = Rules {
+    dialect: Dialect::Haas,
+    words: &codes::HAAS,
+    dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"" },
+    ..ISO
+};
+
+pub(super) static MARLIN: Rules = Rules {
+    dialect: Dialect::Marlin,
+    spelling: Spelling {
+        round_comments: Style::Unknown,
+        semicolon_comments: Style::Usual,
+        percent: Percent::Refused,
+        slash: Slash::Unknown,
+        line_length: Some(LineLength::Whole(96)),
+        block_numbers: Some(u32::MAX),
+        message_codes: &[0, 1, 117, 118],
+        ..BASE_SPELLING
+    },
+    words: &codes::MARLIN,
+    arcs: ArcRules { axis_word: false, turns: true, ..BASE.arcs },
+    start_motion: StartMotion::None,
+    motion_is_stated: true,
+    dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"S" },
+    one_command: true,
     ..BASE
 };

@@ -133,6 +133,8 @@ pub(super) enum Group {
     PathControl,
     SpindleMode,
     LatheMode,
+    /// Scaling, mirroring, rotation, polar coordinates.
+    Transform,
     /// G53 goes beside a motion.
     MachineCoordinates,
     /// G4, which takes no coordinates.
@@ -173,7 +175,7 @@ impl Command {
 
     /// What a G code (times ten) does; unit words are the dialect's and looked up before.
     pub(super) fn of(code: u16) -> Self {
-        use Group::{CutterCompensation, LatheMode, PathControl, SpindleMode, ToolLength};
+        use Group::{CutterCompensation, LatheMode, PathControl, SpindleMode, ToolLength, Transform};
         let system =
             |index| WorkSystem::from_number(index).map_or(Self::NotFollowed(Group::System), Self::System);
         match code {
@@ -196,7 +198,10 @@ impl Command {
             530 => Self::MachineCoordinates,
             540 | 550 | 560 | 570 | 580 | 590 => system(u32::from(code - 540) / 10 + 1),
             591..=593 => system(u32::from(code - 591) + 7),
-            610 | 611 | 640 => Self::NoEffect(PathControl),
+            90 | 610 | 611 | 640 => Self::NoEffect(PathControl),
+            // Polar coordinates, scaling, mirroring and rotation are switched off, which they are.
+            150 | 500 | 690 => Self::NoEffect(Transform),
+            160 | 510 | 680 => Self::NotFollowed(Transform),
             70 => Self::NotFollowed(LatheMode),
             80 => Self::NoEffect(LatheMode),
             900 => Self::Incremental(false),
@@ -225,6 +230,8 @@ fn motion(code: u16) -> Option<Motion> {
         10 => Motion::Feed,
         20 => Motion::Arc { clockwise: true },
         30 => Motion::Arc { clockwise: false },
+        // G31, "skip": without an answer the program goes on.
+        310 => Motion::Probe { toward: true, must_answer: false },
         382 => Motion::Probe { toward: true, must_answer: true },
         383 => Motion::Probe { toward: true, must_answer: false },
         384 => Motion::Probe { toward: false, must_answer: true },
@@ -246,7 +253,7 @@ pub(super) fn is_cycle(code: u16) -> bool {
 }
 
 /// What a G or M code is called: `G1`, `G38.2`.
-pub(super) fn name(letter: char, code: u16) -> String {
+pub(crate) fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 => format!("{letter}{}", code / 10),
         tenth => format!("{letter}{}.{tenth}", code / 10),

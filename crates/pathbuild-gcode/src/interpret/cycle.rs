@@ -42,7 +42,7 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         let repeats = self.repeats(block);
         let axis = self.state.plane.third();
-        self.remember(coordinates[axis]);
+        self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
         if old < hole.r {
@@ -73,11 +73,13 @@ impl Interpreter<'_> {
     }
 
     fn repeats(&mut self, block: &Block<'_>) -> u32 {
-        let Some(slot) = self.words.values.take_slot(b'L') else { return 1 };
+        let letter = self.rules.repeats;
+        let Some(slot) = self.words.values.take_slot(letter) else { return 1 };
         match whole(slot.value) {
             Some(repeats) if repeats >= 1 => repeats,
             _ => {
-                self.out_of_range(block, "L", slot, "a whole number of holes, 1 or more");
+                let letter = if letter == b'L' { "L" } else { "K" };
+                self.out_of_range(block, letter, slot, "a whole number of holes, 1 or more");
                 1
             }
         }
@@ -85,12 +87,12 @@ impl Interpreter<'_> {
 
     /// Keeps R, Z, P and Q for this line and the next ones of the same cycle. R and Z are kept as heights, so that in relative mode the
     /// next line drills as deep as this one.
-    fn remember(&mut self, z: Option<Slot>) {
+    fn remember(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let shift = self.state.offsets.shift(self.state.plane.third());
         let old = self.old_height();
         let r = self.words.values.take_slot(b'R').map(|slot| self.millimetres(slot));
         let q = self.words.values.take_slot(b'Q').map(|slot| self.millimetres(slot));
-        let p = self.words.values.take(b'P');
+        let p = self.words.values.take_slot(b'P').map(|slot| self.seconds(block, slot));
         let z = z.map(|slot| self.millimetres(slot));
         let incremental = self.state.incremental;
         let kept = &mut self.state.cycle;

@@ -4,12 +4,13 @@
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 
+use super::codes;
 use super::evaluate::Parameters;
 use super::gather::{Gathered, Slot};
 use super::options::{Heights, Options};
 use super::state::State;
-use super::step::{Action, Move, Step};
-use crate::dialect::{Percent, Rules};
+use super::step::{Action, Axes, Change, Move, Pace, Step};
+use crate::dialect::{Acceptance, Percent, Rules};
 use crate::read::{At, Block, Problems, Span};
 
 /// A program's state, and what its blocks do.
@@ -20,12 +21,13 @@ pub(super) struct Interpreter<'i> {
     pub(super) words: Gathered,
     pub(super) problems: Problems,
     pub(super) parameters: Parameters,
-    each: &'i mut dyn FnMut(Step),
+    /// What the last block does.
+    pub(super) out: Vec<Step>,
     pub(super) ended: bool,
 }
 
 impl<'i> Interpreter<'i> {
-    pub(super) fn new(rules: &'static Rules, options: &'i Options, each: &'i mut dyn FnMut(Step)) -> Self {
+    pub(super) fn new(rules: &'static Rules, options: &'i Options) -> Self {
         Self {
             rules,
             options,
@@ -33,7 +35,7 @@ impl<'i> Interpreter<'i> {
             words: Gathered::default(),
             problems: Problems::default(),
             parameters: Parameters::default(),
-            each,
+            out: Vec::new(),
             ended: false,
         }
     }
@@ -45,7 +47,8 @@ impl<'i> Interpreter<'i> {
 
     /// What was wrong, when the file ends in this line.
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
-        if !self.ended && !is_framed {
+        let has_end = [20, 300].iter().any(|code| self.rules.words.m(*code) == Acceptance::Taken);
+        if !self.ended && !is_framed && has_end {
             let words = match self.rules.spelling.percent {
                 Percent::Frame => "M2, M30, %",
                 Percent::Start => "M30",
@@ -59,6 +62,7 @@ impl<'i> Interpreter<'i> {
     /// Executes a block.
     pub(super) fn block(&mut self, block: &Block<'_>) {
         for comment in block.comments {
+            self.check_active(block, comment.text);
             self.step(block, Action::Comment(block.text_of(comment.text).into()));
         }
         if let Some(o_word) = block.o_word {
@@ -69,17 +73,41 @@ impl<'i> Interpreter<'i> {
             self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
             return;
         }
-        self.set_parameters();
+        if !self.words.settings.is_empty() {
+            self.step(block, Action::Change(Change::Parameter));
+            self.set_parameters();
+        }
         self.check_conflicts(block);
         self.execute(block);
         self.report_unused(block);
     }
 
+    /// Some controls obey what a comment begins with.
+    fn check_active(&mut self, block: &Block<'_>, text: Span) {
+        let words = self.rules.spelling.active_comments;
+        if words.is_empty() {
+            return;
+        }
+        let comment = block.text_of(text);
+        let first = comment.split(',').next().unwrap_or_default().trim();
+        if let Some(word) = words.iter().find(|word| word.eq_ignore_ascii_case(first)) {
+            self.report(block, &say::ACTIVE_COMMENT, text, |d| d.with("word", *word));
+        }
+    }
+
     pub(super) fn step(&mut self, block: &Block<'_>, action: Action) {
-        (self.each)(Step { line: block.line, action });
+        self.out.push(Step { line: block.line, action });
     }
 
     pub(super) fn emit_move(&mut self, block: &Block<'_>, it: Move) {
+        let begins_lost = it.from.known != Axes::ALL && it.pace != Pace::Rapid;
+        if let Some((line, code)) = self.state.lost.filter(|_| begins_lost) {
+            let word = codes::name('G', code);
+            self.problems.add_at_line(&say::POSITION_UNKNOWN, line, |d| d.with("word", word));
+        }
+        if begins_lost || it.to.known == Axes::ALL {
+            self.state.lost = None;
+        }
         self.state.position = it.to;
         self.step(block, Action::Move(it));
     }
@@ -111,6 +139,9 @@ impl<'i> Interpreter<'i> {
     }
 
     fn execute(&mut self, block: &Block<'_>) {
+        if self.rules.program_numbers {
+            self.program_number(block);
+        }
         self.feed_mode(block);
         self.set_feed(block);
         self.set_speed(block);

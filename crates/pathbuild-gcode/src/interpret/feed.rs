@@ -7,6 +7,7 @@ use super::codes::{self, Command, FeedUnit, Group};
 use super::execute::Interpreter;
 use super::state::INCH;
 use super::step::Move;
+use super::switches::SPINDLE;
 use crate::dialect::FeedMode;
 use crate::read::{Block, Span};
 
@@ -39,7 +40,9 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn set_speed(&mut self, block: &Block<'_>) {
-        let Some(slot) = self.words.values.take_slot(b'S') else { return };
+        let belongs_elsewhere = self.rules.one_command && self.words.m_code(SPINDLE).is_none();
+        let Some(slot) = self.words.values.peek(b'S').filter(|_| !belongs_elsewhere) else { return };
+        self.words.values.take(b'S');
         if slot.value < 0.0 {
             return self.out_of_range(block, "S", slot, "0 or more");
         }
@@ -76,7 +79,9 @@ impl Interpreter<'_> {
             FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * it.length(),
             FeedUnit::InverseTime => 0.0,
         };
-        if per_minute == 0.0 && !it.is_nothing() {
+        // The layers' own feeds hold, and they are in no file.
+        let is_layers = self.rules.layers && self.options.ignore_feed;
+        if per_minute == 0.0 && !it.is_nothing() && !is_layers {
             self.report_missing_feed(block);
         }
         per_minute

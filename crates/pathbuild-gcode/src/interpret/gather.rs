@@ -110,6 +110,13 @@ impl Values {
         self.given &= !Self::COORDINATES;
     }
 
+    /// Takes a letter out of the block.
+    pub(super) fn remove(&mut self, letter: u8) -> Option<Slot> {
+        let slot = self.peek(letter);
+        self.given &= !bit(letter);
+        slot
+    }
+
     /// X, Y and Z, used from now on.
     pub(super) fn take_coordinates(&mut self) -> [Option<Slot>; 3] {
         Self::AXES.map(|axis| self.take_slot(axis))

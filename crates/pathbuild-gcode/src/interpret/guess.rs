@@ -5,6 +5,7 @@ use pathbuild_diagnostic::{Code, Word};
 
 use super::{Options, interpret_each};
 use crate::dialect::Dialect;
+use crate::provenance::Provenance;
 
 /// So much of a file is looked at, in bytes.
 const LOOKED_AT: usize = 65_536;
@@ -29,7 +30,14 @@ pub struct Evidence {
 /// Guesses the dialect of a file from signs that only one dialect has, else from which one knows its words.
 pub fn guess(text: &[u8]) -> Guess {
     let head = &text[..text.len().min(LOOKED_AT)];
-    by_sign(head).unwrap_or_else(|| by_words(head))
+    by_header(head).or_else(|| by_sign(head)).unwrap_or_else(|| by_words(head))
+}
+
+/// What pathbuild wrote names its dialect.
+fn by_header(head: &[u8]) -> Option<Guess> {
+    let (provenance, _) = Provenance::of_head(head)?;
+    let reason = &Word { en: "its header names it", de: "sein Kopf nennt es" };
+    Some(Guess { dialect: provenance.dialect?, evidence: Evidence { reason, line: None } })
 }
 
 /// A sign of a dialect: whether a line has it.
@@ -61,6 +69,20 @@ const SIGNS: &[Sign] = &[
             en: "it has a tool number without T behind M6",
             de: "es hat hinter M6 eine Werkzeugnummer ohne T",
         },
+    ),
+    (
+        Dialect::Fanuc,
+        |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
+        &Word { en: "it has a program number", de: "es hat eine Programmnummer" },
+    ),
+    (
+        Dialect::Marlin,
+        |line| {
+            [&b"M104"[..], b"M106", b"M107", b"M117", b"M400", b"M82", b"M84"]
+                .iter()
+                .any(|word| line.starts_with(word))
+        },
+        &Word { en: "it has words of Marlin", de: "es hat Wörter von Marlin" },
     ),
     (
         Dialect::LinuxCnc,

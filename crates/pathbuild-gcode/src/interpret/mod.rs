@@ -27,13 +27,16 @@ mod words;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 
+pub(crate) use codes::name as code_name;
 pub use codes::{Plane, WorkSystem};
 pub(crate) use geometry::Course;
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
-pub(crate) use program::each_move_of;
-pub use program::moves_of;
-pub use step::{Action, Arc, Axes, Coolant, Move, Named, Pace, Path, Position, Spindle, Step, Turning};
+pub use program::{each_move_of, moves_of};
+pub use step::{
+    Action, Arc, Axes, Change, Coolant, Corners, Move, Named, Pace, Path, Position, Spindle, Step,
+    ToolLength, Turning,
+};
 
 use crate::dialect::Dialect;
 use crate::read::Reader;
@@ -73,6 +76,41 @@ pub fn interpret_each(
     if is_other { vec![no_g_code(text)] } else { problems }
 }
 
+/// A program that is gone through as often as somebody asks for its steps, so that nobody has to keep them.
+pub trait Program {
+    /// Hands on every step, in order.
+    fn each(&self, take: &mut dyn FnMut(&Step));
+}
+
+impl Program for [Step] {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        self.iter().for_each(take);
+    }
+}
+
+impl Program for Vec<Step> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        self.as_slice().each(take);
+    }
+}
+
+/// A program as its text: it is interpreted again each time. What is wrong with it is for [`interpret_each`] to say.
+#[derive(Clone, Debug)]
+pub struct Text<'t> {
+    /// The file's bytes.
+    pub text: &'t [u8],
+    /// The dialect that it is in.
+    pub dialect: Dialect,
+    /// How it is interpreted.
+    pub options: Options,
+}
+
+impl Program for Text<'_> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        interpret_each(self.text, self.dialect, &self.options, &mut |step| take(&step));
+    }
+}
+
 /// Interprets a file that comes in parts of whole lines. Gives back what is wrong with it, and whether any line has a word.
 pub(crate) fn interpret_parts(
     parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
@@ -81,7 +119,7 @@ pub(crate) fn interpret_parts(
     each: &mut dyn FnMut(Step),
 ) -> (Vec<Diagnostic>, bool) {
     let rules = dialect.rules();
-    let mut interpreter = execute::Interpreter::new(rules, options, each);
+    let mut interpreter = execute::Interpreter::new(rules, options);
     let mut has_words = false;
     let mut before: Option<Reader<'static>> = None;
     for part in parts {
@@ -93,6 +131,7 @@ pub(crate) fn interpret_parts(
         while let Some(block) = reader.next_block() {
             has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
             interpreter.block(&block);
+            interpreter.out.drain(..).for_each(&mut *each);
             if interpreter.has_ended() {
                 reader.end_program();
             }

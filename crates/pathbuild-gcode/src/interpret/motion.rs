@@ -79,11 +79,11 @@ impl Interpreter<'_> {
             let [inch, mm] = self.rules.unit_words.map(|code| codes::name('G', code));
             self.report(block, &say::UNITS_NOT_STATED, span, |d| d.with("inch", inch).with("mm", mm));
         }
+        if !motion_is_stated && motion != Motion::None && self.rules.motion_is_stated {
+            let word = codes::name('G', self.state.motion_code);
+            self.report(block, &say::MOTION_NOT_STATED, span, |d| d.with("word", word));
+        }
         if self.rules.layers {
-            if !motion_is_stated && motion != Motion::None && self.rules.motion_is_stated {
-                let word = codes::name('G', self.state.motion_code);
-                self.report(block, &say::MOTION_NOT_STATED, span, |d| d.with("word", word));
-            }
             return;
         }
         if !std::mem::replace(&mut self.state.stated.distance, true) {
@@ -91,8 +91,8 @@ impl Interpreter<'_> {
                 d.with("words", "G90, G91").with("taken", "G90")
             });
         }
-        let is_arc = matches!(motion, Motion::Arc { .. });
-        if is_arc && !std::mem::replace(&mut self.state.stated.plane, true) {
+        let depends_on_plane = matches!(motion, Motion::Arc { .. }) && !self.rules.one_command;
+        if depends_on_plane && !std::mem::replace(&mut self.state.stated.plane, true) {
             self.report(block, &say::MODES_NOT_STATED, span, |d| d.with("words", "G17").with("taken", "G17"));
         }
     }
@@ -121,12 +121,14 @@ impl Interpreter<'_> {
                     to.at[axis] = at;
                     to.known = to.known.with(Axes::of(axis));
                 }
-                None => to.known = to.known.without(Axes::of(axis)),
+                None => {
+                    to.at[axis] = self.millimetres(slot);
+                    to.known = to.known.without(Axes::of(axis));
+                }
             }
         }
         if to.known != Axes::ALL {
-            let span = self.coordinates_span(block);
-            self.report(block, &say::POSITION_UNKNOWN, span, |d| d.with("word", "G53"));
+            self.state.lost = Some((block.line, 530));
         }
         to
     }

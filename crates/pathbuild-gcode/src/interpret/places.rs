@@ -2,15 +2,20 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::codes::{self, Command, Group, Origin, WorkSystem};
+use super::codes::{Command, Group, Origin, WorkSystem};
 use super::execute::{Interpreter, whole};
-use super::step::{Action, Axes, Move, Named, Pace, Path};
+use super::gather::Values;
+use super::step::{Action, Axes, Change, Move, Named, Pace, Path};
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {
     /// Executes the command of the block that takes coordinates and is no motion; whether there is one.
     pub(super) fn coordinates_taken(&mut self, block: &Block<'_>) -> bool {
         let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
+        if !matches!(command, Command::Home(_)) {
+            let are_shifted = self.are_shifted(command);
+            self.step(block, Action::Change(Change::Offsets { code, are_shifted }));
+        }
         match command {
             Command::SetOffsets => self.set_offsets(block, span),
             Command::Home(which) => self.home(block, which, code),
@@ -32,6 +37,19 @@ impl Interpreter<'_> {
             self.change_motion(block, command, code, span);
         }
         true
+    }
+
+    /// Whether G52 or G92 hold behind a command.
+    fn are_shifted(&self, command: Command) -> Option<bool> {
+        match command {
+            Command::LocalOffset => {
+                let values = Values::AXES.iter().filter_map(|axis| self.words.values.peek(*axis));
+                Some(values.into_iter().any(|slot| slot.value != 0.0))
+            }
+            Command::SetOrigin | Command::Origin(Origin::Resume) => Some(true),
+            Command::Origin(Origin::Clear | Origin::Suspend) => Some(false),
+            _ => None,
+        }
     }
 
     fn set_offsets(&mut self, block: &Block<'_>, span: Span) {
@@ -86,10 +104,7 @@ impl Interpreter<'_> {
             }
         }
         if to.known != Axes::ALL {
-            let word = codes::name('G', code);
-            self.report(block, &say::POSITION_UNKNOWN, Span::new(0, block.text.len()), |d| {
-                d.with("word", word)
-            });
+            self.state.lost = Some((block.line, code));
         }
         let named = Some(if which == 0 { Named::Home1 } else { Named::Home2 });
         self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named });

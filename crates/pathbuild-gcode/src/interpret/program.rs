@@ -20,7 +20,7 @@ pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
 }
 
 /// The same one by one.
-pub(crate) fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
+pub fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
     let height = program.start_height();
     let mut tool = Tool { position: Position::known(0.0, 0.0, height), feed: FIRST_FEED };
     let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);

@@ -13,6 +13,8 @@ pub(super) const INCH: f64 = 25.4;
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) position: Position,
+    /// The line and code (times ten) that went to a place of the machine, which is not known here.
+    pub(super) lost: Option<(u32, u16)>,
     pub(super) motion: Motion,
     /// The code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
@@ -59,12 +61,14 @@ pub(super) struct Stated {
     pub(super) distance: bool,
     pub(super) plane: bool,
     pub(super) feed_missing: bool,
+    pub(super) program_number: bool,
 }
 
 impl State {
     pub(super) fn new(rules: &Rules, offsets: Option<&MachineOffsets>) -> Self {
         Self {
             position: Position::default(),
+            lost: None,
             motion: match rules.start_motion {
                 StartMotion::Rapid => Motion::Rapid,
                 StartMotion::None => Motion::None,
@@ -82,7 +86,7 @@ impl State {
             tool: None,
             layer: 1,
             layer_speed: None,
-            retract_to_r: true,
+            retract_to_r: !rules.lifts_to_start,
             cycle: CycleState::default(),
             offsets: Offsets::new(offsets),
             stated: Stated::default(),

@@ -38,6 +38,8 @@ pub enum Action {
     Coolant(Coolant),
     /// The coordinate system from here on. Positions do not jump: they stay those of the program's first system.
     System(WorkSystem),
+    /// Something else that may change where, how deep or how fast the tool goes from here on.
+    Change(Change),
     /// A remark.
     Comment(Box<str>),
     /// M0, M60; M1 if optional: it waits for a person.
@@ -189,7 +191,7 @@ impl Pace {
 /// Places that a program calls by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
-    /// G53: coordinates of the machine.
+    /// G53: coordinates of the machine. Where its zero is not known, the numbers of the unknown axes are the machine's.
     Machine,
     /// G28.
     Home1,
@@ -227,4 +229,46 @@ pub struct Coolant {
     pub mist: bool,
     /// M8.
     pub flood: bool,
+}
+
+/// What changes beside position, spindle, tool and coordinate system. Positions in steps take account of all of it but the tool's length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// G43, G43.1, G43.2, G44, G49.
+    ToolLength(ToolLength),
+    /// G10, G52, G92 and their kin: the coordinate systems move.
+    Offsets {
+        /// Ten times the number of the G code.
+        code: u16,
+        /// Whether G52 or G92 hold from here on; `None` where the command says nothing on that.
+        are_shifted: Option<bool>,
+    },
+    /// G61, G64: how near the tool keeps to corners.
+    Corners(Corners),
+    /// An arc's plane other than XY.
+    Plane(Plane),
+    /// `#5221=...`: a parameter is set.
+    Parameter,
+    /// An M code that no other step stands for, times ten.
+    Switch(u16),
+}
+
+/// Which tool length is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolLength {
+    /// None: G49.
+    Off,
+    /// G43 H: that of the table's entry; without H that of the tool in the spindle.
+    OfTool(Option<u32>),
+    /// Another: G43.1, G43.2, G44.
+    Other,
+}
+
+/// How near the tool keeps to corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Corners {
+    /// G61: it stops there, or keeps to the path.
+    Exact,
+    /// G64: it rounds them, by so many mm at most where P says so.
+    Rounded(Option<f64>),
 }

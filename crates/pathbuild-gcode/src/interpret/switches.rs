@@ -4,7 +4,9 @@ use pathbuild_diagnostic::messages::gcode as say;
 
 use super::codes::{self, Command, Group};
 use super::execute::{Interpreter, whole};
-use super::step::{Action, Coolant, Turning};
+use super::gather::Slot;
+use super::step::{Action, Change, Coolant, Corners, ToolLength, Turning};
+use crate::dialect::DwellUnit;
 use crate::read::Block;
 
 /// M codes of the spindle, and of stops and ends.
@@ -13,7 +15,7 @@ pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
 /// M codes that change which line is run next, or what G words mean.
-const M_NOT_FOLLOWED: &[u16] = &[610, 700, 710, 720, 730, 980, 990];
+const M_NOT_FOLLOWED: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
 
 impl Interpreter<'_> {
     pub(super) fn tool(&mut self, block: &Block<'_>) {
@@ -58,7 +60,8 @@ impl Interpreter<'_> {
         if let Some(turning) = turning {
             self.state.spindle.turning = turning;
         }
-        if turning.is_some() || self.words.values.has(b'S') {
+        let says_speed = self.words.values.has(b'S') && !self.rules.one_command;
+        if turning.is_some() || says_speed {
             self.step(block, Action::Spindle(self.state.spindle));
         }
         let before = self.state.coolant;
@@ -70,22 +73,57 @@ impl Interpreter<'_> {
                 _ => {}
             }
         }
+        for index in 0..self.words.m_codes.len() {
+            let (code, _) = self.words.m_codes[index];
+            if is_other(code) {
+                self.step(block, Action::Change(Change::Switch(code)));
+            }
+        }
         if self.state.coolant != before {
             self.step(block, Action::Coolant(self.state.coolant));
         }
-        if let Some((code, span)) = self.words.m_codes.iter().find(|(code, _)| is_unfollowed(*code)).copied()
+        if let Some((code, span)) =
+            self.words.m_codes.iter().find(|(code, _)| self.is_unfollowed(*code)).copied()
         {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", codes::name('M', code)));
             self.use_all_words();
         }
     }
 
+    fn is_unfollowed(&self, m_code: u16) -> bool {
+        let is_own = self.rules.words.own_m_codes && (1000..2000).contains(&m_code);
+        M_NOT_FOLLOWED.contains(&m_code) || is_own
+    }
+
     pub(super) fn dwell(&mut self, block: &Block<'_>) {
         let Some((.., span)) = self.words.of_group(Group::Dwell) else { return };
-        match self.words.values.take_slot(b'P') {
-            Some(slot) if slot.value < 0.0 => self.out_of_range(block, "P", slot, "0 seconds or more"),
-            Some(slot) => self.step(block, Action::Dwell(slot.value)),
+        let seconds = self.rules.dwell.seconds.iter().find_map(|letter| self.words.values.remove(*letter));
+        let time = seconds.map(|slot| (slot, slot.value));
+        match time.or_else(|| self.words.values.take_slot(b'P').map(|slot| (slot, self.seconds(block, slot))))
+        {
+            Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, "0 seconds or more"),
+            Some((_, time)) => self.step(block, Action::Dwell(time)),
             None => self.report(block, &say::NEEDS, span, |d| d.with("word", "G4").with("missing", "P")),
+        }
+    }
+
+    /// The time that P says, of a dwell or a cycle.
+    pub(super) fn seconds(&self, block: &Block<'_>, p: Slot) -> f64 {
+        match self.rules.dwell.p {
+            DwellUnit::Seconds => p.value,
+            DwellUnit::ByPoint if block.slice(p.span).contains(&b'.') => p.value,
+            DwellUnit::ByPoint | DwellUnit::Milliseconds => p.value / 1000.0,
+        }
+    }
+
+    /// O: the program's number, once, before anything else.
+    pub(super) fn program_number(&mut self, block: &Block<'_>) {
+        let Some(slot) = self.words.values.take_slot(b'O') else { return };
+        if whole(slot.value).is_none_or(|number| number == 0) {
+            return self.out_of_range(block, "O", slot, "a whole number, 1 or more");
+        }
+        if std::mem::replace(&mut self.state.stated.program_number, true) {
+            self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.with("word", "O"));
         }
     }
 
@@ -94,15 +132,15 @@ impl Interpreter<'_> {
             let (command, code, span) = self.words.commands[index];
             match command {
                 Command::Plane(plane) => {
+                    if plane != self.state.plane {
+                        self.step(block, Action::Change(Change::Plane(plane)));
+                    }
                     self.state.plane = plane;
                     self.state.stated.plane = true;
                 }
                 Command::Inches(inches) => self.units(block, inches, code, span),
-                Command::NoEffect(Group::ToolLength) => self.use_tool_length_words(),
-                Command::NoEffect(Group::PathControl) => {
-                    self.words.values.take(b'P');
-                    self.words.values.take(b'Q');
-                }
+                Command::NoEffect(Group::ToolLength) => self.tool_length(block, code),
+                Command::NoEffect(Group::PathControl) => self.corners(block, code),
                 Command::Incremental(incremental) => {
                     self.state.incremental = incremental;
                     self.state.stated.distance = true;
@@ -120,14 +158,29 @@ impl Interpreter<'_> {
     }
 
     /// G43 with H and axis words: the tool's length, which the position of its tip does not depend on.
-    fn use_tool_length_words(&mut self) {
-        self.words.values.take(b'H');
+    fn tool_length(&mut self, block: &Block<'_>, code: u16) {
+        let entry = self.words.values.take(b'H');
         self.words.values.take(b'D');
+        let length = match (code, entry.map(whole)) {
+            (490, _) => ToolLength::Off,
+            (430, None) => ToolLength::OfTool(None),
+            (430, Some(Some(number))) => ToolLength::OfTool(Some(number)),
+            _ => ToolLength::Other,
+        };
+        self.step(block, Action::Change(Change::ToolLength(length)));
         if self.words.of_group(Group::Motion).is_none()
             && self.words.commands.iter().any(|(_, code, _)| *code == 431)
         {
             self.words.values.discard_coordinates();
         }
+    }
+
+    fn corners(&mut self, block: &Block<'_>, code: u16) {
+        let unit = self.state.unit;
+        let most = self.words.values.take(b'P').map(|most| most * unit);
+        self.words.values.take(b'Q');
+        let corners = if code == 640 { Corners::Rounded(most) } else { Corners::Exact };
+        self.step(block, Action::Change(Change::Corners(corners)));
     }
 
     /// Of a command that is not followed, no word is reported as unused.
@@ -143,8 +196,14 @@ impl Interpreter<'_> {
                 self.ended = true;
                 self.step(block, Action::End);
             }
-            Some((10, _)) => self.step(block, Action::Stop { optional: true }),
-            Some(_) => self.step(block, Action::Stop { optional: false }),
+            Some((code, _)) => {
+                if self.rules.one_command {
+                    // How long the control waits at most.
+                    self.words.values.take(b'S');
+                    self.words.values.take(b'P');
+                }
+                self.step(block, Action::Stop { optional: code == 10 });
+            }
             None => {}
         }
     }
@@ -156,6 +215,8 @@ impl Interpreter<'_> {
     }
 }
 
-fn is_unfollowed(m_code: u16) -> bool {
-    M_NOT_FOLLOWED.contains(&m_code) || (1000..2000).contains(&m_code)
+/// Whether an M code has no step of its own.
+fn is_other(m_code: u16) -> bool {
+    let has_step = [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code));
+    !has_step && !matches!(m_code, 30 | 40 | 50)
 }

@@ -13,6 +13,9 @@ use crate::read::{Block, Op, Span, Target, Value, Word};
 impl Interpreter<'_> {
     /// Sorts the words of a block, and gives their values.
     pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
+        if self.rules.one_command {
+            self.check_command(block);
+        }
         for (index, word) in block.words.iter().enumerate() {
             let (value, decimals) = self.value(block, word.value, word.span)?;
             match word.letter {
@@ -59,7 +62,37 @@ impl Interpreter<'_> {
         self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
     }
 
+    /// The control obeys the first word, which has to be a command, and takes the others for its values.
+    fn check_command(&mut self, block: &Block<'_>) {
+        let is_command = |word: &Word| matches!(word.letter, b'G' | b'M' | b'T');
+        if let Some(first) = block.words.first().filter(|word| !is_command(word)) {
+            let name = block.text_of(first.span).into_owned();
+            self.report(block, &say::NO_COMMAND, first.span, |d| d.with("word", name));
+        }
+        let mut commands = block.words.iter().filter(|word| is_command(word));
+        if let (Some(first), Some(second)) = (commands.next(), commands.next()) {
+            let [first, name] = [first, second].map(|word| block.text_of(word.span).into_owned());
+            self.report(block, &say::SECOND_COMMAND, second.span, |d| {
+                d.with("first", first).with("word", name)
+            });
+        }
+    }
+
+    /// `X10` is 10 mm to one machine and 0.010 mm to another of the same make.
+    fn check_point(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
+        let is_length = matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'R' | b'Q')
+            || letter == b'K' && self.rules.repeats != b'K';
+        let has_point = block.slice(slot.span).contains(&b'.');
+        if is_length && !has_point && slot.value != 0.0 {
+            let name = block.text_of(slot.span).into_owned();
+            self.report(block, &say::NO_DECIMAL_POINT, slot.span, |d| d.with("word", name));
+        }
+    }
+
     fn letter(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
+        if self.rules.least_increments {
+            self.check_point(block, letter, slot);
+        }
         if !self.rules.words.letters.contains(letter) {
             return self.report_unknown(
                 block,

@@ -9,7 +9,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{
     self, Axes, Heights, Options, Pace, each_move_of, interpret_each, interpret_parts, moves_of,
 };
-use crate::verify::{Difference, Tolerance, compare, is_near, is_same_move};
+use crate::verify::{Checks, Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
 /// Digits behind the point.
 const DECIMALS: i32 = 3;
@@ -23,6 +23,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
         return Ok(());
     }
     let exactly = Tolerance::of_decimals(DECIMALS);
+    check_rules(text)?;
     let (found, expected) = (moves(text)?, moves_of(program));
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
     match difference(&exactly) {
@@ -34,17 +35,28 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     }
 }
 
+/// The rules of `verify` that need no map of the material.
+fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
+    let mut rules = Rules::new(&Checks::default());
+    interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
+    let broken = rules.finish().into_iter().find(Diagnostic::is_error);
+    broken.map_or(Ok(()), |broken| Err(told(&broken)))
+}
+
 /// Whether a program's text, in parts of whole lines, says move by move what the program does. Where not, [`read_back`] may still find that it
 /// comes to the same.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
     let mut abreast = Abreast::new(each_move_of(program), Tolerance::of_decimals(DECIMALS));
+    let mut rules = Rules::new(&Checks::default());
     let mut each = |step: interpret::Step| {
+        rules.step(&step);
         if let Some((_, it)) = step.as_move() {
             abreast.step(&it);
         }
     };
     let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal(), &mut each);
-    !problems.iter().any(Diagnostic::is_error) && abreast.end_together()
+    let is_fine = |problems: &[Diagnostic]| !problems.iter().any(Diagnostic::is_error);
+    is_fine(&problems) && is_fine(&rules.finish()) && abreast.end_together()
 }
 
 /// Whether the text of a probing run probes where the program's probes are, in their order.

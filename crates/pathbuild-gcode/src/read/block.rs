@@ -95,6 +95,8 @@ pub enum CommentStyle {
     Bang,
     /// What stands behind `%`.
     Percent,
+    /// What stands behind M0 or M117 on controls that show it.
+    Message,
 }
 
 /// The correction formula behind a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (spec/70-z-probes.md)

@@ -3,7 +3,7 @@
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::block::{Comment, CommentStyle, Formula, Span};
+use super::block::{Comment, CommentStyle, Formula, Span, Value};
 use super::expression::Syntax;
 use super::line::{Broken, Line};
 use crate::dialect::{Spelling, Style};
@@ -63,6 +63,31 @@ impl Line<'_> {
         self.out.comments.push(Comment { style, text });
         self.at = self.bytes.len();
         Ok(())
+    }
+
+    /// Whether the words so far are those of a command whose line ends with a message.
+    pub(super) fn has_message(&self) -> bool {
+        let codes = self.spelling().message_codes;
+        let [first, rest @ ..] = self.out.words.as_slice() else { return false };
+        let is_one = |value: Value| matches!(value, Value::Number(number) if codes.iter().any(|code| f64::from(*code) == number.value));
+        !codes.is_empty()
+            && first.letter == b'M'
+            && is_one(first.value)
+            && rest.iter().all(|word| matches!(word.letter, b'S' | b'P'))
+    }
+
+    /// Takes the rest of the line, up to a semicolon, as a message, unless it is S or P with a number.
+    pub(super) fn message(&mut self) {
+        self.skip_blanks();
+        let rest = &self.bytes[self.at..];
+        let is_word = matches!(rest, [b'S' | b'P' | b's' | b'p', b'0'..=b'9' | b'.', ..]);
+        let length = memchr(b';', rest).unwrap_or(rest.len());
+        if is_word || length == 0 {
+            return;
+        }
+        let text = Span::new(self.at, self.at + length);
+        self.out.comments.push(Comment { style: CommentStyle::Message, text });
+        self.at += length;
     }
 
     fn check_comment(&mut self, style: Style, sign: &'static str, span: Span) -> Result<(), Broken> {

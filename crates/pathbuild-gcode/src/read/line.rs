@@ -80,6 +80,9 @@ impl Line<'_> {
         self.block_delete();
         loop {
             self.at = plain_words(self.bytes, self.at, &mut self.out.words);
+            if self.has_message() {
+                self.message();
+            }
             let Some(byte) = self.peek() else { return Ok(()) };
             match byte {
                 b' ' | b'\t' | b'\r' => self.at += 1,

@@ -4,10 +4,14 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
 
 use crate::dialect::Dialect;
+use crate::interpret::{Options, Path, interpret_each};
 use crate::read::{Problems, Reader, Value, Word};
 
 /// Decimals that a millimetre needs.
 const FINE: u8 = 3;
+
+/// Radii that differ by less, in mm, are one.
+const EXACT: f64 = 1e-4;
 
 /// Says where a program in millimetres has its first arc, if its centres have decimals and nothing in it has three. Numbers without any
 /// are taken as meant: somebody wrote them by hand.
@@ -32,10 +36,21 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
             }
         }
     }
-    let line = first?;
+    let line = first.filter(|_| has_rounded_arc(text, dialect))?;
     let mut problems = Problems::default();
     problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("decimals", u64::from(finest)));
     problems.into_diagnostics().pop()
+}
+
+/// Whether the radii at the ends of some arc differ: numbers that fit each other exactly were not rounded.
+fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
+    let mut is_rounded = false;
+    interpret_each(text, dialect, &Options::default(), &mut |step| {
+        let Some((_, it)) = step.as_move() else { return };
+        let Path::Arc(arc) = it.path else { return };
+        is_rounded |= libm::fabs(arc.radius(&it.from) - arc.radius(&it.to)) > EXACT;
+    });
+    is_rounded
 }
 
 fn is_inch(word: &Word) -> bool {

@@ -251,7 +251,7 @@ fn step(
 }
 
 /// Where on the longer stretch the shorter one ends.
-fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f64, Kind> {
+pub(super) fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f64, Kind> {
     let end = shorter.end();
     let share = longer.nearest(&end, shorter.length).ok_or(Kind::Place)?;
     let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
@@ -262,7 +262,7 @@ fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f6
     Ok(share)
 }
 
-fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), Kind> {
+pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), Kind> {
     match (ours.pace, theirs.pace) {
         (Pace::Rapid, Pace::Rapid) => Ok(()),
         (Pace::Feed(ours), Pace::Feed(theirs)) if libm::fabs(ours - theirs) <= tolerance.feed => Ok(()),
@@ -278,7 +278,7 @@ fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), K
 }
 
 /// Compares two stretches between their beginnings and these shares of them.
-fn check_shape(
+pub(super) fn check_shape(
     one: &Stretch,
     one_end: f64,
     other: &Stretch,

@@ -31,19 +31,27 @@ pub enum Travel {
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
 /// Reports what a machine cannot do.
-pub(super) fn check(steps: &[Step], machine: &Machine, problems: &mut Problems) {
-    let mut reach = Reach::default();
-    let mut last_feed = None;
-    for step in steps {
+pub(super) struct Limits<'m> {
+    machine: &'m Machine,
+    reach: Reach,
+    last_feed: Option<f64>,
+}
+
+impl<'m> Limits<'m> {
+    pub(super) fn new(machine: &'m Machine) -> Self {
+        Self { machine, reach: Reach::default(), last_feed: None }
+    }
+
+    pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         match &step.action {
             Action::Move(it) => {
-                if let Some(travel) = &machine.travel {
-                    reach.check(step.line, it, travel, problems);
+                if let Some(travel) = &self.machine.travel {
+                    self.reach.check(step.line, it, travel, problems);
                 }
-                check_feed(step.line, it, machine, &mut last_feed, problems);
+                check_feed(step.line, it, self.machine, &mut self.last_feed, problems);
             }
             Action::Spindle(spindle) if spindle.turning != Turning::Off => {
-                check_speed(step.line, spindle.speed, machine, problems);
+                check_speed(step.line, spindle.speed, self.machine, problems);
             }
             _ => {}
         }

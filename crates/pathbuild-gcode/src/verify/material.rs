@@ -1,48 +1,98 @@
 //! Rapid moves through material that is still there. (spec/90-gcode-import.md, "verify")
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Message, Point, Severity};
+use pathbuild_diagnostic::{Message, Point};
 
 use super::height_map::{Capsule, HeightMap};
 use super::pieces::{self, Piece};
 use super::stock::{self, Stock};
-use crate::interpret::{Axes, Move, Pace};
+use crate::interpret::{Action, Axes, Move, Pace, Program};
 use crate::read::Problems;
 
 /// Material that stands less than this above the tip, in mm, is rounding.
-const RESIDUE: f64 = 0.002;
+pub(super) const RESIDUE: f64 = 0.002;
 
-/// The most cells that are kept, and that are visited, cells that many moves visit counted as often. Where the stock's resolution gives
-/// more, it is made coarser.
+/// The most cells that are kept. Where the stock's resolution gives more, it is made coarser.
 const MOST_KEPT: f64 = 16e6;
-const MOST_VISITED: f64 = 1e9;
 
 /// Cells across the cutter that it takes to tell anything at all.
 const FEWEST_ACROSS: f64 = 4.0;
 
-/// Runs the moves over the stock and reports rapid ones that meet material.
-pub(super) fn check(moves: &[(u32, Move)], stock: &Stock, problems: &mut Problems) {
-    let Some(mut bench) = Bench::new(moves, stock) else {
-        return problems.add_at_line(
-            &say::TOO_LARGE_TO_FOLLOW,
-            moves.last().map_or(0, |(line, _)| *line),
-            |mut diagnostic| {
-                diagnostic.severity = Severity::Warning;
-                diagnostic
-            },
-        );
+/// Runs the moves over the stock and reports rapid ones that meet material. The program is gone through three times: how large a map it
+/// takes, where there is material, and what becomes of it.
+pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
+    let mut extent = Extent::default();
+    each_known_move(program, &mut |line, it| extent.add(line, it, stock));
+    let Some(resolution) = extent.resolution(stock) else {
+        let limit = stock.cells();
+        return problems.add_at_line(&say::TOO_LARGE_TO_FOLLOW, extent.line, |d| {
+            d.with("limit", limit).with("key", "verify-cells")
+        });
     };
-    for (line, it) in moves {
-        bench.lay(*line, it);
-    }
-    for (line, it) in moves {
-        if it.from.known.and(it.to.known) != Axes::ALL {
-            continue;
-        }
+    let mut bench = Bench { stock, resolution, map: HeightMap::new(resolution), dip: None };
+    each_known_move(program, &mut |line, it| bench.lay(line, it));
+    each_known_move(program, &mut |line, it| {
+        bench.dips(line, it, problems);
         match it.pace {
-            Pace::Rapid => bench.pass(*line, it, problems),
-            Pace::Feed(_) | Pace::Probe { .. } => bench.mill(*line, it),
+            Pace::Rapid => bench.pass(line, it, problems),
+            Pace::Feed(_) | Pace::Probe { .. } => bench.mill(line, it),
         }
+    });
+}
+
+/// Whether these cuts have made room for a rapid move, if all round it is material up to the highest surface.
+pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock) -> bool {
+    let Some(piece) = stock.at(line) else { return true };
+    let resolution = stock.resolution();
+    let surface = stock.highest().unwrap_or(piece.surface);
+    let mut bench = Bench { stock, resolution, map: HeightMap::new(resolution), dip: None };
+    for part in bench.parts(it) {
+        bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
+    }
+    cuts.iter().for_each(|(line, cut)| bench.mill(*line, cut));
+    let mut problems = Problems::default();
+    bench.pass(line, it, &mut problems);
+    problems.into_diagnostics().is_empty()
+}
+
+fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
+    program.each(&mut |step| match &step.action {
+        Action::Move(it) if it.from.known.and(it.to.known) == Axes::ALL => take(step.line, it),
+        _ => {}
+    });
+}
+
+/// How large the material is that a program cuts.
+#[derive(Default)]
+struct Extent {
+    /// At most the area in mm² within O of cutting moves, counted as often as they come.
+    area: f64,
+    /// The box round all of that, in X and Y.
+    sides: Option<[(f64, f64); 2]>,
+    /// The last line that cuts.
+    line: u32,
+}
+
+impl Extent {
+    fn add(&mut self, line: u32, it: &Move, stock: &Stock) {
+        let Some(piece) = cutting_piece(line, it, stock) else { return };
+        self.line = line;
+        self.area += covered_area(it, piece.cutter);
+        let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
+        for (side, extent) in sides.iter_mut().zip(it.extent()) {
+            let Some((low, high)) = extent else { continue };
+            *side = (side.0.min(low - piece.cutter), side.1.max(high + piece.cutter));
+        }
+    }
+
+    /// The side of a cell in mm; `None` if the program is too large for a map that tells anything.
+    fn resolution(&self, stock: &Stock) -> Option<f64> {
+        let in_box: f64 = self.sides.iter().flatten().map(|(low, high)| (high - low).max(0.0)).product();
+        let kept = self.area.min(in_box);
+        let resolution =
+            stock.resolution().max(libm::sqrt(self.area / stock.cells())).max(libm::sqrt(kept / MOST_KEPT));
+        let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * FEWEST_ACROSS <= cutter);
+        (is_of_use && resolution.is_finite()).then_some(resolution)
     }
 }
 
@@ -51,19 +101,11 @@ struct Bench<'s> {
     stock: &'s Stock,
     resolution: f64,
     map: HeightMap,
+    /// The last move, where it went down by rapid below the surface and nothing is known of the material there.
+    dip: Option<(u32, Move)>,
 }
 
 impl<'s> Bench<'s> {
-    /// `None` if the program is too large for a map that tells anything.
-    fn new(moves: &[(u32, Move)], stock: &'s Stock) -> Option<Self> {
-        let area: f64 = moves.iter().map(|(line, it)| covered_area(*line, it, stock)).sum();
-        let kept = area.min(box_area(moves, stock));
-        let resolution =
-            stock.resolution().max(libm::sqrt(area / MOST_VISITED)).max(libm::sqrt(kept / MOST_KEPT));
-        let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * FEWEST_ACROSS <= cutter);
-        is_of_use.then(|| Self { stock, resolution, map: HeightMap::new(resolution) })
-    }
-
     /// There is material within O of where a move cuts.
     fn lay(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };
@@ -71,6 +113,22 @@ impl<'s> Bench<'s> {
             if part.lowest() < piece.surface {
                 self.map.add(&capsule(&part, piece.cutter), piece.surface);
             }
+        }
+    }
+
+    /// Down and up again by rapid moves where nothing else is cut: a hole drilled with them.
+    fn dips(&mut self, line: u32, it: &Move, problems: &mut Problems) {
+        let stays = it.pace == Pace::Rapid && it.from.at[..2] == it.to.at[..2];
+        let (from, to) = (it.from.z(), it.to.z());
+        if let Some((dipped, down)) = self.dip.take().filter(|_| stays && to > from) {
+            problems.add_at_line(&say::RAPID_DIP, dipped, |d| d.with("z", down.to.z()));
+        }
+        let Some(piece) = self.stock.at(line).filter(|_| stays && to < from) else { return };
+        let below = to < piece.surface - RESIDUE;
+        let tip =
+            Capsule { from: [it.to.x(), it.to.y()], to: [it.to.x(), it.to.y()], radius: piece.cutter / 2.0 };
+        if below && self.map.highest_above(&tip, f64::NEG_INFINITY).is_none() {
+            self.dip = Some((line, *it));
         }
     }
 
@@ -133,21 +191,8 @@ fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::Piece> {
     (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// The area in mm² of the box round everything within O of cutting moves.
-fn box_area(moves: &[(u32, Move)], stock: &Stock) -> f64 {
-    let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];
-    for (line, it) in moves {
-        let Some(piece) = cutting_piece(*line, it, stock) else { continue };
-        for (side, extent) in sides.iter_mut().zip(it.extent()) {
-            let Some((low, high)) = extent else { continue };
-            *side = (side.0.min(low - piece.cutter), side.1.max(high + piece.cutter));
-        }
-    }
-    sides.iter().map(|(low, high)| (high - low).max(0.0)).product()
-}
-
-/// At most the area in mm² within O of a cutting move.
-fn covered_area(line: u32, it: &Move, stock: &Stock) -> f64 {
-    cutting_piece(line, it, stock)
-        .map_or(0.0, |piece| 2.0 * piece.cutter * (it.length() + 2.0 * piece.cutter))
+/// At most the area in mm² within O of a move. An arc whose ends have different radii goes as far as the larger one.
+fn covered_area(it: &Move, cutter: f64) -> f64 {
+    let widest = it.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
+    2.0 * cutter * (it.length().max(widest) + 2.0 * cutter)
 }

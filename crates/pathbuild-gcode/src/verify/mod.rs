@@ -4,6 +4,7 @@
 //! them guesses: what is not known of stock and machine is not checked, because a false alarm that stops a good program is worse
 //! than a warning that is missing.
 
+mod against;
 mod coarse;
 mod compare;
 mod height_map;
@@ -11,20 +12,24 @@ mod lines;
 mod machine;
 mod material;
 mod pieces;
+mod rapids;
 mod rules;
 mod stock;
 mod walk;
 
 use pathbuild_diagnostic::Diagnostic;
 
+pub use against::{Against, Drawn, ToolUse};
 pub use coarse::coarse_arcs;
 pub use compare::{Difference, Ends, Kind, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use lines::same_move_lines;
 pub use machine::{Machine, Travel};
+pub use rapids::rapids_into_material;
+pub use rules::Rules;
 pub use stock::{Piece, Stock};
 
-use crate::interpret::{Move, Step};
+use crate::interpret::Program;
 use crate::read::Problems;
 
 /// What a program is checked against.
@@ -37,22 +42,23 @@ pub struct Checks<'c> {
 }
 
 /// What of a program a machine cannot do, by line.
-pub fn verify_machine(steps: &[Step], machine: &Machine) -> Vec<Diagnostic> {
+pub fn verify_machine(program: &(impl Program + ?Sized), machine: &Machine) -> Vec<Diagnostic> {
     let mut problems = Problems::default();
-    machine::check(steps, machine, &mut problems);
+    let mut limits = machine::Limits::new(machine);
+    program.each(&mut |step| limits.step(step, &mut problems));
     problems.into_diagnostics()
 }
 
-/// What is wrong with what a program does, by line.
-pub fn verify(steps: &[Step], checks: &Checks<'_>) -> Vec<Diagnostic> {
-    let mut problems = Problems::default();
-    rules::check(steps, checks.stock, &mut problems);
-    if let Some(machine) = checks.machine {
-        machine::check(steps, machine, &mut problems);
-    }
+/// What is wrong with what a program does, by line. It is gone through several times.
+pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Diagnostic> {
+    let mut rules = Rules::new(checks);
+    program.each(&mut |step| rules.step(step));
+    let mut found = rules.finish();
     if let Some(stock) = checks.stock {
-        let moves: Vec<(u32, Move)> = steps.iter().filter_map(Step::as_move).collect();
-        material::check(&moves, stock, &mut problems);
+        let mut problems = Problems::default();
+        material::check(program, stock, &mut problems);
+        found.append(&mut problems.into_diagnostics());
     }
-    problems.into_diagnostics()
+    found.sort_by_key(|diagnostic| diagnostic.place.line);
+    found
 }

@@ -1,72 +1,131 @@
 //! Rules that look at where the tool is and what is switched on.
 
-use pathbuild_diagnostic::messages::gcode as say;
+use std::fmt;
 
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
+
+use super::Checks;
+use super::machine::Limits;
 use super::stock::Stock;
-use crate::interpret::{Action, Axes, Move, Pace, Position, Step, Turning};
+use crate::interpret::{Action, Axes, Change, Move, Pace, Position, Spindle, Step, Turning, code_name};
 use crate::read::Problems;
 
 /// Heights that differ by less, in mm, are one.
 const SAME_HEIGHT: f64 = 0.002;
 
-/// Reports what no machine should be asked to do.
-pub(super) fn check(steps: &[Step], stock: Option<&Stock>, problems: &mut Problems) {
-    let switches =
-        |step: &Step| matches!(step.action, Action::Spindle(spindle) if spindle.turning != Turning::Unstated);
-    let spindle = if steps.iter().any(switches) { Turning::Off } else { Turning::Unstated };
-    let mut watch = Watch {
-        stock,
-        at: Position::default(),
-        line: 0,
-        is_raised: false,
-        spindle,
-        spindle_said: false,
-        spindle_line: 0,
-        has_probed: false,
-    };
-    for step in steps {
-        watch.step(step, problems);
-    }
-    watch.end(problems);
-}
-
-struct Watch<'s> {
-    stock: Option<&'s Stock>,
+/// The rules that need no map of the material: give them every step of a program, then [`finish`](Self::finish) them. What they cost
+/// grows with the steps.
+pub struct Rules<'c> {
+    stock: Option<&'c Stock>,
+    limits: Option<Limits<'c>>,
+    problems: Problems,
     at: Position,
     /// The last line that moved.
     line: u32,
     /// The height has been known, or it has been said that it was not.
     is_raised: bool,
-    spindle: Turning,
+    spindle: Spindle,
+    /// The first cut before any word on the spindle.
+    cut_before_spindle: Option<u32>,
     /// It has been said that the spindle stands.
     spindle_said: bool,
     /// Where it was switched last.
     spindle_line: u32,
     /// The last move probed downwards.
     has_probed: bool,
+    /// It has cut.
+    has_cut: bool,
+    /// G52 or G92 hold: since when, and whether that was after the first cut.
+    shifted: Option<(u32, u16, bool)>,
 }
 
-impl Watch<'_> {
-    fn step(&mut self, step: &Step, problems: &mut Problems) {
+impl fmt::Debug for Rules<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Rules").field("line", &self.line).finish_non_exhaustive()
+    }
+}
+
+impl<'c> Rules<'c> {
+    /// The rules at the beginning of a program.
+    pub fn new(checks: &Checks<'c>) -> Self {
+        Self {
+            stock: checks.stock,
+            limits: checks.machine.map(Limits::new),
+            problems: Problems::default(),
+            at: Position::default(),
+            line: 0,
+            is_raised: false,
+            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            cut_before_spindle: None,
+            spindle_said: false,
+            spindle_line: 0,
+            has_probed: false,
+            has_cut: false,
+            shifted: None,
+        }
+    }
+
+    /// The next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        let line = step.line;
+        if let Some(limits) = &mut self.limits {
+            limits.step(step, &mut self.problems);
+        }
         match &step.action {
-            Action::Move(it) => {
-                self.line = step.line;
-                self.first_move(step.line, it, problems);
-                self.diagonal(step.line, it, problems);
-                probe(step.line, it, problems);
-                self.after_probe(step.line, it, problems);
-                self.spindle(step.line, it, problems);
-                self.at = it.to;
+            Action::Move(it) => self.moves(line, it),
+            Action::Spindle(spindle) => self.switch(line, *spindle),
+            Action::Change(Change::Offsets { code, are_shifted: Some(are_shifted) }) => {
+                self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
-            Action::Spindle(spindle) if spindle.turning != Turning::Unstated => {
-                self.spindle = spindle.turning;
-                self.spindle_said = false;
-                self.spindle_line = step.line;
-            }
-            Action::End => self.spindle = Turning::Unstated,
-            Action::ChangeTool(_) => self.tool_change(step.line, problems),
+            Action::End => self.spindle.turning = Turning::Unstated,
+            Action::ChangeTool(_) => self.tool_change(line),
             _ => {}
         }
+    }
+
+    /// Everything that was found, by line.
+    pub fn finish(mut self) -> Vec<Diagnostic> {
+        self.end();
+        self.problems.into_diagnostics()
+    }
+
+    fn moves(&mut self, line: u32, it: &Move) {
+        self.line = line;
+        self.first_move(line, it);
+        self.diagonal(line, it);
+        self.home(line, it);
+        probe(line, it, &mut self.problems);
+        self.after_probe(line, it);
+        self.cutting(line, it);
+        self.at = it.to;
+    }
+
+    /// The machine's own places are reached by a straight rapid move from where the tool is.
+    fn home(&mut self, line: u32, it: &Move) {
+        let stays = it.to.known.has(Axes::XY) && it.from.at[..2] == it.to.at[..2];
+        if it.named.is_none() || stays || !it.from.known.has(Axes::Z) {
+            return;
+        }
+        if let Some(surface) = self.surface_above(line, it.from.z()) {
+            let z = it.from.z();
+            self.problems
+                .add_at_line(&say::HOME_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        }
+    }
+
+    fn switch(&mut self, line: u32, spindle: Spindle) {
+        let before = std::mem::replace(&mut self.spindle, spindle);
+        if spindle.turning == Turning::Unstated {
+            return;
+        }
+        if let Some(line) = self.cut_before_spindle.take() {
+            self.problems.add_at_line(&say::SPINDLE_OFF, line, |d| d);
+        }
+        if before != spindle {
+            self.spindle_said = false;
+        }
+        self.spindle_line = line;
     }
 
     /// The surface that the tool's tip is below.
@@ -75,7 +134,7 @@ impl Watch<'_> {
         (z < surface - SAME_HEIGHT).then_some(surface)
     }
 
-    fn first_move(&mut self, line: u32, it: &Move, problems: &mut Problems) {
+    fn first_move(&mut self, line: u32, it: &Move) {
         if self.is_raised {
             return;
         }
@@ -83,59 +142,80 @@ impl Watch<'_> {
         let moves_in_plane = !it.to.known.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
             self.is_raised = true;
-            problems.add_at_line(&say::START_NOT_RAISED, line, |d| d);
+            self.problems.add_at_line(&say::START_NOT_RAISED, line, |d| d);
         }
     }
 
-    fn diagonal(&self, line: u32, it: &Move, problems: &mut Problems) {
+    fn diagonal(&mut self, line: u32, it: &Move) {
         let is_known = it.from.known.and(it.to.known) == Axes::ALL;
         let is_diagonal = it.from.at[..2] != it.to.at[..2] && it.to.z() < it.from.z();
         if it.pace == Pace::Rapid && is_known && is_diagonal && self.surface_above(line, it.to.z()).is_some()
         {
-            problems.add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", it.to.z()));
+            self.problems.add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", it.to.z()));
         }
     }
 
     /// Only a program that switches the spindle is asked for it: on many machines that is done by hand.
-    fn spindle(&mut self, line: u32, it: &Move, problems: &mut Problems) {
-        let is_off = self.spindle == Turning::Off;
-        if matches!(it.pace, Pace::Feed(_)) && !it.is_nothing() && is_off && !self.spindle_said {
-            self.spindle_said = true;
-            problems.add_at_line(&say::SPINDLE_OFF, line, |d| d);
+    fn cutting(&mut self, line: u32, it: &Move) {
+        if !matches!(it.pace, Pace::Feed(_)) || it.is_nothing() {
+            return;
+        }
+        self.has_cut = true;
+        let message = match self.spindle.turning {
+            Turning::Unstated => {
+                self.cut_before_spindle.get_or_insert(line);
+                return;
+            }
+            Turning::Off => &say::SPINDLE_OFF,
+            Turning::Clockwise | Turning::Counterclockwise if self.spindle.speed == 0.0 => {
+                &say::SPINDLE_WITHOUT_SPEED
+            }
+            Turning::Clockwise | Turning::Counterclockwise => return,
+        };
+        if !std::mem::replace(&mut self.spindle_said, true) {
+            self.problems.add_at_line(message, line, |d| d);
         }
     }
 
     /// What was met is still under the tool.
-    fn after_probe(&mut self, line: u32, it: &Move, problems: &mut Problems) {
+    fn after_probe(&mut self, line: u32, it: &Move) {
         let stays_in_plane = it.from.at[..2] == it.to.at[..2];
         let is_known = it.from.known.and(it.to.known).and(Axes::XY) == Axes::XY;
         if self.has_probed && is_known && !stays_in_plane {
-            problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
+            self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
         }
         self.has_probed = matches!(it.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
     }
 
-    fn tool_change(&self, line: u32, problems: &mut Problems) {
+    fn tool_change(&mut self, line: u32) {
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
             return;
         }
         if let Some(surface) = self.surface_above(line, z) {
-            problems
+            self.problems
                 .add_at_line(&say::TOOL_CHANGE_AT_DEPTH, line, |d| d.with("z", z).with("surface", surface));
         }
     }
 
-    fn end(&self, problems: &mut Problems) {
-        if !matches!(self.spindle, Turning::Off | Turning::Unstated) {
-            problems.add_at_line(&say::SPINDLE_LEFT_ON, self.spindle_line, |d| d);
+    fn end(&mut self) {
+        if !matches!(self.spindle.turning, Turning::Off | Turning::Unstated) {
+            self.problems.add_at_line(&say::SPINDLE_LEFT_ON, self.spindle_line, |d| d);
+        }
+        if let Some((line, code, is_late)) = self.shifted {
+            self.problems.add_at_line(&say::OFFSET_LEFT_ON, line, |mut diagnostic| {
+                if is_late {
+                    diagnostic.severity = Severity::Error;
+                }
+                diagnostic.with("word", code_name('G', code))
+            });
         }
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
             return;
         }
         if let Some(surface) = self.surface_above(self.line, z) {
-            problems
+            self.problems
                 .add_at_line(&say::END_NOT_RAISED, self.line, |d| d.with("z", z).with("surface", surface));
         }
     }

@@ -5,10 +5,13 @@
 
 use pathbuild_toolpath::{Comment, Program, Step as Emitted};
 
-use crate::interpret::{Action, Move, Pace, Step};
+use crate::interpret::{Action, Move, Pace, Program as Steps};
 
 /// The finest resolution that is any use, in mm: programs have three decimals.
 const FINEST: f64 = 0.01;
+
+/// Where nobody says otherwise, so many cells are visited at most.
+const MOST_VISITED: f64 = 1e9;
 
 /// Cells across the narrowest cutter, where nobody says otherwise.
 const CELLS_ACROSS: f64 = 12.0;
@@ -20,6 +23,8 @@ pub struct Stock {
     pieces: Vec<Piece>,
     /// Side of a cell of the height map, in mm.
     resolution: f64,
+    /// The most cells that are visited, cells that many moves visit counted as often.
+    cells: f64,
 }
 
 /// What holds from a line on.
@@ -41,7 +46,7 @@ impl Stock {
 
     /// Material whose surface or cutter changes; pieces are in the order of their lines.
     pub fn of_pieces(pieces: Vec<Piece>) -> Self {
-        let stock = Self { pieces, resolution: FINEST };
+        let stock = Self { pieces, resolution: FINEST, cells: MOST_VISITED };
         let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
         stock.with_resolution(resolution)
     }
@@ -58,24 +63,22 @@ impl Stock {
 
     /// The material of a program in the native dialect that comes without its drawing: where a rapid move down hands over to a cutting one
     /// is T (spec/60-gcode.md, "plunge"), one for each embedded path. `None` if there is no such place.
-    pub fn of_native_text(steps: &[Step], cutter: f64) -> Option<Self> {
+    pub fn of_native_text(program: &(impl Steps + ?Sized), cutter: f64) -> Option<Self> {
         let mut pieces = Vec::new();
         let mut section = Section { line: 0, surface: None };
         let mut before: Option<Move> = None;
-        for step in steps {
-            match &step.action {
-                Action::Comment(text) if is_subpath_border(text) => {
-                    pieces.extend(section.piece(cutter));
-                    section = Section { line: step.line, surface: None };
-                }
-                Action::Move(it) => {
-                    if let Some(last) = before.replace(*it) {
-                        section.hand_over(&last, it);
-                    }
-                }
-                _ => {}
+        program.each(&mut |step| match &step.action {
+            Action::Comment(text) if is_subpath_border(text) => {
+                pieces.extend(section.piece(cutter));
+                section = Section { line: step.line, surface: None };
             }
-        }
+            Action::Move(it) => {
+                if let Some(last) = before.replace(*it) {
+                    section.hand_over(&last, it);
+                }
+            }
+            _ => {}
+        });
         pieces.extend(section.piece(cutter));
         (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
     }
@@ -88,6 +91,18 @@ impl Stock {
     /// The same with another side of cells, in mm; one that is too fine to be of use is made coarser.
     pub fn with_resolution(self, resolution: f64) -> Self {
         Self { resolution: resolution.max(FINEST), ..self }
+    }
+
+    /// The same with another limit of the cells that are visited. (`[limits] verify-cells`)
+    pub fn with_cells(self, most: u64) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "a limit")]
+        let cells = most as f64;
+        Self { cells, ..self }
+    }
+
+    /// The most cells that are visited.
+    pub(super) fn cells(&self) -> f64 {
+        self.cells
     }
 
     /// The diameter of the narrowest cutter, in mm.

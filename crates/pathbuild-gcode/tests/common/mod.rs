@@ -14,7 +14,14 @@ pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
 
 /// The same with options.
 pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
-    interpret(program.as_bytes(), dialect, options).steps.iter().map(step_text).collect()
+    let steps = interpret(program.as_bytes(), dialect, options).steps;
+    steps.iter().filter(|step| !matches!(step.action, Action::Change(_))).map(step_text).collect()
+}
+
+/// What a program changes beside position, spindle, tool and system.
+pub(crate) fn changes(dialect: Dialect, program: &str) -> Vec<String> {
+    let steps = interpret(program.as_bytes(), dialect, &Options::default()).steps;
+    steps.iter().filter(|step| matches!(step.action, Action::Change(_))).map(step_text).collect()
 }
 
 /// What is wrong with a program: line and name of the code.
@@ -79,6 +86,7 @@ fn step_text(step: &Step) -> String {
         Action::Spindle(spindle) => format!("spindle {:?} {}", spindle.turning, spindle.speed),
         Action::Coolant(coolant) => format!("coolant mist={} flood={}", coolant.mist, coolant.flood),
         Action::System(system) => format!("system {}", system.name()),
+        Action::Change(change) => format!("{change:?}"),
         Action::Comment(text) => format!("({text})"),
         Action::Stop { optional } => format!("stop optional={optional}"),
         Action::End => "end".to_owned(),

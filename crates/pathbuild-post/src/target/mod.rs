@@ -2,7 +2,6 @@
 
 mod check;
 mod plain;
-mod table;
 
 pub(super) use check::check;
 pub(super) use plain::plain;
@@ -47,14 +46,12 @@ struct Comments {
 impl Target {
     /// The target of a dialect's name.
     pub(super) fn of(name: &str) -> Option<Self> {
-        let own = table::TARGETS.iter().find(|target| target.name == name).copied();
-        own.or_else(|| name.parse().ok().map(Self::of_dialect))
+        name.parse().ok().map(Self::of_dialect)
     }
 
     /// The names of all, for messages.
     pub(super) fn names() -> Vec<&'static str> {
-        let dialects = Dialect::ALL.iter().map(|dialect| dialect.name());
-        dialects.chain(table::TARGETS.iter().map(|target| target.name)).collect()
+        Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
     }
 
     fn of_dialect(dialect: Dialect) -> Self {
@@ -76,11 +73,6 @@ impl Target {
             line_numbers: spelling.block_numbers.is_some(),
             reader: dialect,
         }
-    }
-
-    /// Whether the reader knows the target's own rules, and not only its moves.
-    pub(super) fn is_read_exactly(&self) -> bool {
-        self.reader.name() == self.name
     }
 
     /// Whether it knows the cycle G81.

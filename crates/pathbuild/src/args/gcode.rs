@@ -6,7 +6,7 @@ use pathbuild_gcode::dialect::Dialect;
 /// How programs are read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ReadingArgs {
-    /// native, rs274, linuxcnc, grbl or xpertmill; else guessed
+    /// native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas or marlin; else guessed
     #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
     pub dialect: Option<Dialect>,
     /// `XpertMILL`: what G70 and G71 mean, inches and millimetres (din) or the other way round (table)

@@ -7,6 +7,7 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::Step;
 use pathbuild_post::{BUILT_IN, Job, Output, Remark, native_remark};
 
 use crate::args::{PostArgs, PostCommand};
@@ -84,7 +85,8 @@ fn written(
     if is_wrong {
         return Err(Vec::new());
     }
-    let output = output(&program, poster, args.output.as_deref()).map_err(|mut problems| {
+    let steps = std::mem::take(&mut program.read.steps);
+    let output = output(&program, steps, poster, args.output.as_deref()).map_err(|mut problems| {
         program.place_own(&mut problems);
         problems
     })?;
@@ -107,7 +109,12 @@ fn written(
 }
 
 /// What the post makes of a program that has no errors.
-fn output(program: &Program, poster: &Poster, to: Option<&Utf8Path>) -> Result<Output, Vec<Diagnostic>> {
+fn output(
+    program: &Program,
+    steps: Vec<Step>,
+    poster: &Poster,
+    to: Option<&Utf8Path>,
+) -> Result<Output, Vec<Diagnostic>> {
     if let Some(line) = first_open_formula(&program.text).filter(|_| program.dialect == Dialect::Native) {
         return Err(vec![Diagnostic::new(&posts::POST_UNADJUSTED).at_line(line, None)]);
     }
@@ -116,7 +123,8 @@ fn output(program: &Program, poster: &Poster, to: Option<&Utf8Path>) -> Result<O
         _ => |_| Remark::Stays,
     };
     let name = program.file.file_stem().unwrap_or_default();
-    let mut job = Job::from_steps(name, &program.read.steps, &remark)?;
+    let mut job = Job::from_steps(name, &steps, &remark)?;
+    drop(steps);
     let unknown = furnish(&mut job, poster.tools());
     let mut output = poster.write(&job, to)?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));

@@ -1,14 +1,12 @@
 //! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (spec/90-gcode-import.md)
 
-use std::borrow::Cow;
-
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Evidence, Heights, Interpretation, Options, Step, UnitCodes, guess, interpret,
+    Evidence, Heights, Interpretation, Options, Text, UnitCodes, guess, interpret, interpret_each,
 };
 use pathbuild_gcode::read::quote;
 
@@ -31,9 +29,6 @@ pub(super) struct Program {
     options: Options,
 }
 
-/// In whatever dialect, there is no formula without one of them.
-const OF_FORMULAS: &[u8] = b"[#=";
-
 impl Program {
     /// Reads a file.
     ///
@@ -44,24 +39,41 @@ impl Program {
         file: &Utf8Path,
         args: &ReadingArgs,
     ) -> Result<Self, Box<Diagnostic>> {
+        let mut program = Self::open_lazily(context, file, args)?;
+        program.read.steps = interpret(&program.text, program.dialect, &program.options).steps;
+        Ok(program)
+    }
+
+    /// Reads a file without keeping its steps: large programs are gone through again instead.
+    ///
+    /// # Errors
+    /// It cannot be read at all.
+    pub(super) fn open_lazily(
+        context: &Context,
+        file: &Utf8Path,
+        args: &ReadingArgs,
+    ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
         let text = OsSystem.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let options = options(args);
-        let mut read = interpret(&text, dialect, &options);
-        place(&mut read.problems, file, &text);
+        let mut problems = interpret_each(&text, dialect, &options, &mut |_| {});
+        place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
+        let read = Interpretation { steps: Vec::new(), problems };
         Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
     }
 
+    /// What it does, as it is written.
+    pub(super) fn written(&self) -> Text<'_> {
+        Text { text: &self.text, dialect: self.dialect, options: self.options.clone() }
+    }
+
     /// What it does at the heights that it was drawn with, where its own are corrected by formulas.
-    pub(super) fn nominal(&self) -> Cow<'_, [Step]> {
-        if !self.text.iter().any(|byte| OF_FORMULAS.contains(byte)) {
-            return Cow::Borrowed(&self.read.steps);
-        }
+    pub(super) fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
-        Cow::Owned(interpret(&self.text, self.dialect, &options).steps)
+        Text { options, ..self.written() }
     }
 
     /// Shows under diagnostics where in the file they are.

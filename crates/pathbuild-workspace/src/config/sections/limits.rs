@@ -15,6 +15,8 @@ section! {
     entities: u64 = "entities", COUNT, 2_000_000, "2_000_000";
     /// most moves of a program, with everything that it embeds
     embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000";
+    /// most cells of the material's map that `verify` visits
+    verify_cells: u64 = "verify-cells", COUNT, 1_000_000_000, "1_000_000_000";
     /// most different paths, each with its values, in a program
     embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000";
     /// most files and directories below one that is searched for drawings

@@ -7,6 +7,7 @@ use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point};
+use pathbuild_gcode::verify::rapids_into_material;
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
@@ -122,11 +123,26 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
         time.time += sum.time;
     }
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
-    let outputs = outputs(db, job, &programs, means, &mut delivered).unwrap_or_else(|problems| {
+    let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program));
+    let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, means, &mut delivered), Err);
+    let outputs = made.unwrap_or_else(|problems| {
         delivered.problems.extend(problems);
         Vec::new()
     });
     Made { delivered, outputs }
+}
+
+/// Rapid moves of a program into material, which is not written then.
+fn unsafe_moves(db: &Database, job: &Job, program: &Program) -> Option<Vec<Diagnostic>> {
+    let mut found = rapids_into_material(program);
+    found.retain(Diagnostic::is_error);
+    for problem in &mut found {
+        // The line would be the number of a step.
+        problem.place.line = None;
+        problem.file = Some(job.drawing(db).path(db).clone());
+        problem.path = Some(job.path.clone());
+    }
+    (!found.is_empty()).then_some(found)
 }
 
 /// Writes, compares or prints what a job becomes.

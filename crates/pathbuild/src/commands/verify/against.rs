@@ -5,21 +5,20 @@ use std::sync::Arc;
 use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
-use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Heights, Move, Options, interpret};
-use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_gcode::verify::{Ends, Tolerance, compare};
+use pathbuild_gcode::interpret::{self, Program as _, Text, Turning};
+use pathbuild_gcode::verify::{self, ToolUse};
 use pathbuild_path::PathName;
-use pathbuild_toolpath::{Comment, Correction, Program as Drawn, Step};
+use pathbuild_post::Spindle;
+use pathbuild_toolpath::{Comment, Program as Drawn, Step};
 
 use crate::context::Context;
 use pathbuild_workspace::Inputs;
+use pathbuild_workspace::posting::tool_table;
 use pathbuild_workspace::session::Session;
 
 /// The program of a path.
 pub(super) struct Against {
     drawn: Arc<Drawn>,
-    moves: Vec<(u32, Move)>,
 }
 
 /// Why there is none.
@@ -42,8 +41,7 @@ impl Against {
             return Err(Failure::Usage(missing(context, &checked.missing_options)));
         }
         let drawn = program(session.db(), target).clone().ok_or_else(|| Failure::Found(Vec::new()))?;
-        let moves = written(context, &drawn);
-        Ok(Self { drawn, moves })
+        Ok(Self { drawn })
     }
 
     /// O in mm.
@@ -61,32 +59,30 @@ impl Against {
         surfaces.all(|surface| surface == thickness).then_some(thickness)
     }
 
-    /// Where a program of this dialect first moves otherwise than drawn. Its steps are those at the heights before correction; programs of
-    /// other dialects have heads and feet of their own.
-    pub(super) fn difference(&self, dialect: Dialect, steps: &[interpret::Step]) -> Option<Diagnostic> {
-        let ends = if dialect == Dialect::Native { Ends::All } else { Ends::Cutting };
-        let found: Vec<(u32, Move)> = steps.iter().filter_map(interpret::Step::as_move).collect();
-        compare(&found, &self.moves, &Tolerance { ends, ..UNIT }).map(|difference| difference.diagnostic())
+    /// Everything that a program says otherwise than the drawing. Its steps are those at the heights before correction.
+    pub(super) fn differences(&self, context: &Context, program: &Text<'_>) -> Vec<Diagnostic> {
+        let drawn = verify::Drawn {
+            moves: interpret::each_move_of(&self.drawn),
+            clearance: self.drawn.start_height(),
+            tool: self.tool(context),
+            spin_up: 0.0,
+        };
+        let mut comparison = verify::Against::new(drawn, program.dialect);
+        program.each(&mut |step| comparison.step(step));
+        comparison.finish()
     }
-}
 
-/// One unit of the last printed digit: two programs may have rounded what lies between two numbers differently.
-const UNIT: Tolerance =
-    Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };
-
-/// The moves of what `emit` would write, with its lines.
-fn written(context: &Context, drawn: &Drawn) -> Vec<(u32, Move)> {
-    let options = WriteOptions {
-        lang: context.lang(),
-        charset: Charset::Ascii,
-        rapid: context.settings.general.rapid.value.unwrap_or_default(),
-        correction: Correction::default(),
-    };
-    // A line that takes the place of the provenance.
-    let header = Header { provenance: "pathbuild".to_owned() };
-    let text = native::program(drawn, &header, &options);
-    let reading = Options { heights: Heights::Nominal, ..Options::default() };
-    interpret(text.as_bytes(), Dialect::Native, &reading).moves()
+    /// The cutter as the configuration has it.
+    fn tool(&self, context: &Context) -> ToolUse {
+        let table = tool_table(context);
+        let Some(entry) = table.find(&self.drawn.path, self.drawn.tool) else { return ToolUse::default() };
+        let turning = entry.spindle.map(|spindle| match spindle {
+            Spindle::Clockwise => Turning::Clockwise,
+            Spindle::CounterClockwise => Turning::Counterclockwise,
+            Spindle::Off => Turning::Off,
+        });
+        ToolUse { number: entry.index, turning, speed: entry.speed }
+    }
 }
 
 /// The one path that an argument means.

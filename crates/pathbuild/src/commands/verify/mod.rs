@@ -4,7 +4,7 @@ mod against;
 mod machine;
 mod stock;
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::verify::{Checks, coarse_arcs, verify, verify_machine};
 
 use crate::args::VerifyArgs;
@@ -31,7 +31,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
     for file in &args.files {
-        match Program::open(context, file, &args.reading) {
+        match Program::open_lazily(context, file, &args.reading) {
             Ok(program) => diagnostics.extend(check(context, program, &wishes, against.as_ref())),
             Err(problem) => diagnostics.push(*problem),
         }
@@ -58,23 +58,45 @@ impl Wishes {
 /// Everything that is wrong with a program. Of one whose heights are corrected the material is where it was drawn: a plate that is not flat
 /// is not milled by rapid moves that follow it. The machine is asked for what it has to do.
 fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&Against>) -> Vec<Diagnostic> {
-    let drawn = program.nominal();
-    let stock = stock::stock(context, &program, &drawn, wishes, against);
+    let drawn = program.drawn();
+    let tools = stock::Tools::of(&program.written());
+    let cells = context.settings.limits.verify_cells.value;
+    let stock = stock::stock(context, &program, &tools, wishes, against).map(|stock| stock.with_cells(cells));
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
     let mut found = verify(&drawn, &Checks { stock: stock.as_ref(), machine: None });
     found.extend(coarse_arcs(&program.text, program.dialect));
     if let Some(machine) = machine::machine(context) {
-        found.extend(verify_machine(&program.read.steps, &machine));
+        found.extend(verify_machine(&program.written(), &machine));
     }
-    found.extend(stock::unknown_tools(context, &program));
-    found.extend(against.and_then(|against| against.difference(program.dialect, &drawn)));
-    drop(drawn);
+    found.extend(stock::unknown_tools(context, &program, &tools));
+    found.extend(against.map(|against| against.differences(context, &drawn)).unwrap_or_default());
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
+    if against.is_some() {
+        diagnostics.iter_mut().filter(|it| is_unsaid(it)).for_each(|it| it.severity = Severity::Error);
+    }
     diagnostics.append(&mut found);
     diagnostics
+}
+
+/// Whether a doubt is about something that the drawing's program says, or does not say at all.
+fn is_unsaid(doubt: &Diagnostic) -> bool {
+    matches!(
+        doubt.code(),
+        Code::DoubtfulSpelling
+            | Code::AfterProgramEnd
+            | Code::NoProgramEnd
+            | Code::OptionalLine
+            | Code::MachineValue
+            | Code::UnknownOffset
+            | Code::UnitsNotStated
+            | Code::ModesNotStated
+            | Code::MotionNotStated
+            | Code::StopBeforeMotion
+            | Code::ActiveComment
+    )
 }
 
 fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {

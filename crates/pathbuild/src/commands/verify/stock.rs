@@ -3,7 +3,8 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Action, Step};
+use pathbuild_gcode::interpret::{Action, Program as Steps};
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{Piece, Stock};
 
 use super::Wishes;
@@ -12,63 +13,75 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use pathbuild_workspace::posting::tool_table;
 
-/// The material that a program cuts with these steps; `None` where cutter or surface are not known.
+/// The tools of a program.
+pub(super) struct Tools {
+    /// Those that it puts in, with their lines; where it never says M6, those that it selects.
+    used: Vec<(u32, u32)>,
+}
+
+impl Tools {
+    pub(super) fn of(program: &impl Steps) -> Self {
+        let (mut selected, mut inserted) = (Vec::new(), Vec::new());
+        program.each(&mut |step| match step.action {
+            Action::ChangeTool(number) => inserted.push((step.line, number)),
+            Action::SelectTool(number) => selected.push((step.line, number)),
+            _ => {}
+        });
+        Self { used: if inserted.is_empty() { selected } else { inserted } }
+    }
+
+    /// The diameters in mm, each from a line on, by the tool table; `None` if one is not in it, or there are no tools.
+    fn cutters(&self, context: &Context) -> Option<Vec<(u32, f64)>> {
+        let table = tool_table(context);
+        let diameter = |number: u32| {
+            table.entries.iter().find(|entry| entry.index == Some(number)).map(|entry| entry.diameter)
+        };
+        let cutters: Option<Vec<(u32, f64)>> =
+            self.used.iter().map(|(line, number)| Some((*line, diameter(*number)?))).collect();
+        cutters.filter(|cutters| !cutters.is_empty())
+    }
+}
+
+/// The material that a program cuts; `None` where cutter or surface are not known.
 ///
-/// The cutter is that of the command line, else the drawing's, else that of the tool's number. The surface is that of the command line,
-/// else where a native program's plunges hand over, else the drawing's, if it has one only.
+/// The cutter is that of the command line, else the drawing's, else that of the tool's number, else the header's. The surface is that of
+/// the command line, else the drawing's, if it has one only, else where a native program's plunges hand over, else the header's.
 pub(super) fn stock(
     context: &Context,
     program: &Program,
-    steps: &[Step],
+    tools: &Tools,
     wishes: &Wishes,
     against: Option<&Against>,
 ) -> Option<Stock> {
+    let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
+    let of_header = header.as_ref().and_then(|header| header.cutter);
     let cutters = match wishes.cutter.or(against.map(Against::cutter)) {
         Some(cutter) => vec![(0, cutter)],
-        None => cutters(context, steps)?,
+        None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
     };
     let uniform = |surface: f64| {
         let pieces = cutters.iter().map(|(line, cutter)| Piece { line: *line, surface, cutter: *cutter });
         Stock::of_pieces(pieces.collect())
     };
-    match (wishes.surface, program.dialect) {
-        (Some(surface), _) => Some(uniform(surface)),
-        (None, Dialect::Native) => Stock::of_native_text(steps, cutters.first()?.1),
-        (None, _) => against.and_then(Against::surface).map(uniform),
+    if let Some(surface) = wishes.surface.or(against.and_then(Against::surface)) {
+        return Some(uniform(surface));
     }
-}
-
-/// The diameters of the tools in mm, each from a line on, by the tool table; `None` if one is not in it, or there are no tools.
-fn cutters(context: &Context, steps: &[Step]) -> Option<Vec<(u32, f64)>> {
-    let table = tool_table(context);
-    let diameter = |number: u32| {
-        table.entries.iter().find(|entry| entry.index == Some(number)).map(|entry| entry.diameter)
-    };
-    let cutters: Option<Vec<(u32, f64)>> =
-        tools(steps).map(|(line, number)| Some((line, diameter(number)?))).collect();
-    cutters.filter(|cutters| !cutters.is_empty())
-}
-
-/// The tools that a program puts in, with their lines; where it never says M6, those that it selects.
-fn tools(steps: &[Step]) -> impl Iterator<Item = (u32, u32)> {
-    let has_changes = steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_)));
-    steps.iter().filter_map(move |step| match step.action {
-        Action::ChangeTool(number) => Some((step.line, number)),
-        Action::SelectTool(number) if !has_changes => Some((step.line, number)),
-        _ => None,
-    })
+    let is_native = program.dialect == Dialect::Native;
+    let native = is_native.then(|| Stock::of_native_text(&program.drawn(), cutters.first()?.1)).flatten();
+    native.or_else(|| header.and_then(|header| header.thickness).map(uniform))
 }
 
 /// Tools that the table does not have, each once; nothing where there is no table with numbers.
-pub(super) fn unknown_tools(context: &Context, program: &Program) -> Vec<Diagnostic> {
+pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {
     let table = tool_table(context);
     let known: Vec<u32> = table.entries.iter().filter_map(|entry| entry.index).collect();
-    let is_layer = program.dialect == Dialect::Xpertmill;
+    // Layers are no tools, and the native program always says T1.
+    let is_no_tool = matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
     let mut unknown: Vec<(u32, u32)> = Vec::new();
-    for (line, number) in tools(&program.read.steps) {
-        let is_new = unknown.iter().all(|(_, met)| *met != number);
-        if is_new && !known.is_empty() && !known.contains(&number) && !is_layer {
-            unknown.push((line, number));
+    for (line, number) in &tools.used {
+        let is_new = unknown.iter().all(|(_, met)| met != number);
+        if is_new && !known.is_empty() && !known.contains(number) && !is_no_tool {
+            unknown.push((*line, *number));
         }
     }
     let warning = |(line, number)| {

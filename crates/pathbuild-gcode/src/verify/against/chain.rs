@@ -1,0 +1,120 @@
+//! The way that rapid moves go between two cuts.
+//!
+//! It is the way that the drawing says, point for point. Only on the way to where that begins, and once all is milled, a program may go to
+//! places of the machine; there the tool is at S0 or above, where nothing is in the way.
+
+use crate::interpret::{Axes, Move, Path, Position};
+
+/// The rapid moves of a program since the last cut.
+#[derive(Debug)]
+pub(super) struct Chain {
+    moves: Vec<(u32, Move)>,
+    /// It begins the program.
+    is_head: bool,
+}
+
+/// What is expected between two cuts.
+#[derive(Debug)]
+pub(super) struct Way<'w> {
+    /// Where it begins.
+    pub(super) start: Position,
+    pub(super) expected: &'w [(u32, Move)],
+    /// It ends the program.
+    pub(super) is_foot: bool,
+    /// S0.
+    pub(super) clearance: f64,
+    pub(super) slack: f64,
+}
+
+impl Chain {
+    /// The one that begins a program.
+    pub(super) fn new() -> Self {
+        Self { moves: Vec::new(), is_head: true }
+    }
+
+    /// One behind a cut.
+    pub(super) fn behind() -> Self {
+        Self { moves: Vec::new(), is_head: false }
+    }
+
+    pub(super) fn push(&mut self, line: u32, it: &Move) {
+        self.moves.push((line, *it));
+    }
+
+    /// Whether it goes as expected; where not, the move that goes elsewhere.
+    pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<(u32, Move)>> {
+        let rest = if self.is_head { self.arrived(way)? } else { &self.moves };
+        let mut found = rest.iter().filter(|(_, it)| !way.stands(it));
+        for (_, expected) in way.expected.iter().filter(|(_, it)| !way.stands(it)) {
+            let next = found.next();
+            let is_same = |(_, it): &(u32, Move)| it.named.is_none() && way.is_same(it, expected);
+            if !next.is_some_and(is_same) {
+                return Err(next.copied());
+            }
+        }
+        match found.find(|(_, it)| !(way.is_foot && way.is_harmless(it))) {
+            None => Ok(()),
+            Some(other) => Err(Some(*other)),
+        }
+    }
+
+    /// The moves behind the place where the way begins; those before it are harmless.
+    fn arrived(&self, way: &Way<'_>) -> Result<&[(u32, Move)], Option<(u32, Move)>> {
+        let begins = |(_, it): &(u32, Move)| it.to.known == Axes::ALL && way.is_near(&it.to, &way.start);
+        let Some(arrival) = self.moves.iter().position(begins) else {
+            return Err(self.moves.first().copied());
+        };
+        let (head, rest) = self.moves.split_at(arrival + 1);
+        let mut is_parked = false;
+        for (line, it) in head {
+            is_parked |= it.named.is_some();
+            // Where the tool is at first nobody knows: it is raised before it goes anywhere.
+            let is_raised = it.from.known.has(Axes::Z) || it.to.known.has(Axes::Z) || is_parked;
+            if !is_raised || !way.is_harmless(it) {
+                return Err(Some((*line, *it)));
+            }
+        }
+        Ok(rest)
+    }
+}
+
+impl Way<'_> {
+    /// On the way to the start, and behind the end: at S0 over the way's own places, or to places of the machine.
+    fn is_harmless(&self, it: &Move) -> bool {
+        let is_raised = !it.from.known.has(Axes::Z) || self.is_clear(it.from.z());
+        let stays = it.to.known.has(Axes::XY) && it.from.known.has(Axes::XY) && self.is_at(&it.from, &it.to);
+        if it.named.is_some() {
+            return is_raised || stays;
+        }
+        let is_height = !it.to.known.has(Axes::Z) || self.is_same_height(it.to.z(), self.clearance);
+        let is_place = !it.to.known.has(Axes::XY) || stays || self.is_at(&it.to, &self.start);
+        matches!(it.path, Path::Line) && (is_raised || stays) && is_height && is_place
+    }
+
+    /// Whether a move is nothing but rounding.
+    fn stands(&self, it: &Move) -> bool {
+        it.from.known.and(it.to.known) == Axes::ALL && self.is_near(&it.from, &it.to)
+    }
+
+    fn is_same(&self, found: &Move, expected: &Move) -> bool {
+        let is_known = found.from.known.and(found.to.known) == Axes::ALL;
+        is_known && self.is_near(&found.from, &expected.from) && self.is_near(&found.to, &expected.to)
+    }
+
+    fn is_same_height(&self, a: f64, b: f64) -> bool {
+        libm::fabs(a - b) <= self.slack
+    }
+
+    fn is_clear(&self, z: f64) -> bool {
+        z >= self.clearance - self.slack
+    }
+
+    /// In the plane.
+    fn is_at(&self, a: &Position, b: &Position) -> bool {
+        libm::fabs(a.x() - b.x()) <= self.slack && libm::fabs(a.y() - b.y()) <= self.slack
+    }
+
+    fn is_near(&self, a: &Position, b: &Position) -> bool {
+        self.is_at(a, b) && self.is_same_height(a.z(), b.z())
+    }
+}

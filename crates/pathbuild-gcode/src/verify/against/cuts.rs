@@ -1,0 +1,185 @@
+//! Cuts are compared move for move; the rapid moves between two of them as one way.
+
+use std::iter::Peekable;
+
+use pathbuild_diagnostic::Diagnostic;
+
+use super::chain::{Chain, Way};
+use crate::dialect::Dialect;
+use crate::interpret::{Move, Pace, Path, Position};
+use crate::verify::compare::{Difference, Ends, Kind, Tolerance, check_pace, check_shape, meet};
+use crate::verify::is_near;
+use crate::verify::walk::Stretch;
+
+/// Two roundings to the third decimal, and a unit by which an arc may be written longer lest it be a full circle.
+const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
+
+/// One unit of the last printed digit.
+const FEED: f64 = 0.001 * (1.0 + 1e-6);
+
+/// A centre is the sum of two rounded numbers, and the beginning of its arc is where the one before ended.
+const CENTRE: f64 = 3.0 * PLACE;
+
+/// How far chords may leave their arc, in mm, for a control that takes no helices; on steep ones roundings in the plane change the height.
+const CHORD: f64 = 0.03;
+
+#[derive(Debug)]
+pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
+    expected: Peekable<M>,
+    /// The share of the next expected move that is behind us.
+    done: f64,
+    /// Where the expected tool is before that.
+    at: Position,
+    chain: Chain,
+    clearance: f64,
+    tolerance: Tolerance,
+    difference: Option<Difference>,
+    /// Lines may be cut into pieces: heights that probes correct are, piece by piece.
+    may_split: bool,
+}
+
+impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
+    pub(super) fn new(expected: M, clearance: f64, dialect: Dialect) -> Self {
+        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
+        Self {
+            expected: expected.peekable(),
+            done: 0.0,
+            at: Position::known(0.0, 0.0, clearance),
+            chain: Chain::new(),
+            clearance,
+            tolerance: Tolerance { place: PLACE, feed: FEED, chord, ends: Ends::All },
+            difference: None,
+            may_split: dialect == Dialect::Native,
+        }
+    }
+
+    /// The next move of the program.
+    pub(super) fn take(&mut self, line: u32, it: &Move) {
+        if self.difference.is_some() {
+            return;
+        }
+        if it.pace == Pace::Rapid {
+            self.chain.push(line, it);
+        } else if let Err(difference) = self.rapids(Some((line, it))).and_then(|()| self.cut(line, it)) {
+            self.difference = Some(*difference);
+        }
+    }
+
+    /// What differs first.
+    pub(super) fn finish(mut self) -> Option<Diagnostic> {
+        if self.difference.is_none() {
+            self.difference = self.rapids(None).err().map(|difference| *difference);
+        }
+        let difference = self.difference.or_else(|| {
+            let expected = self.expected.next();
+            expected.map(|expected| Difference { kind: Kind::Place, found: None, expected: Some(expected) })
+        });
+        difference.map(|difference| difference.diagnostic())
+    }
+
+    /// Compares the rapid moves before this cut, or at the end, with those that are expected there.
+    fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
+        let chain = std::mem::replace(&mut self.chain, Chain::behind());
+        let start = self.at;
+        let mut expected = Vec::new();
+        if self.done == 0.0 {
+            while let Some((line, it)) = self.expected.next_if(|(_, it)| it.pace == Pace::Rapid) {
+                self.at = it.to;
+                expected.push((line, it));
+            }
+        }
+        let is_foot = cut.is_none() && self.expected.peek().is_none();
+        let at = self.place();
+        let way = Way {
+            start,
+            expected: &expected,
+            is_foot,
+            clearance: self.clearance,
+            slack: self.tolerance.place,
+        };
+        let found = cut.map(|(line, it)| (line, *it));
+        let next = self.expected.peek().copied().or_else(|| expected.last().copied());
+        let reaches = |it: &Move| is_near(&it.from.at, &at.at, 2.0 * self.tolerance.place);
+        match chain.check(&way) {
+            Err(found) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
+            Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => Ok(()),
+            Ok(()) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
+        }
+    }
+
+    /// Where the expected tool is.
+    fn place(&mut self) -> Position {
+        match self.expected.peek() {
+            Some((_, it)) if self.done > 0.0 => {
+                let stretch = Stretch { it: *it, begin: self.done, length: 0.0 };
+                let [x, y, z] = stretch.point(self.done);
+                Position::known(x, y, z)
+            }
+            _ => self.at,
+        }
+    }
+
+    fn cut(&mut self, line: u32, it: &Move) -> Result<(), Box<Difference>> {
+        let mut begin = 0.0;
+        loop {
+            let ours = Stretch { it: *it, begin, length: it.length() * (1.0 - begin) };
+            let next = self.expected.peek().copied();
+            let differs = |kind| Box::new(Difference { kind, found: Some((line, *it)), expected: next });
+            let here = self.place();
+            let slack = self.tolerance.place;
+            let stands = |stretch: &Stretch| {
+                stretch.length <= 4.0 * slack && is_near(&stretch.end(), &here.at, 3.0 * slack)
+            };
+            let Some((_, expected)) = next.filter(|(_, it)| it.pace != Pace::Rapid) else {
+                return if stands(&ours) {
+                    Ok(())
+                } else {
+                    Err(differs(next.map_or(Kind::Place, |_| Kind::Pace)))
+                };
+            };
+            let theirs =
+                Stretch { it: expected, begin: self.done, length: expected.length() * (1.0 - self.done) };
+            if ours.end_together(&theirs, slack) {
+                check_pace(it, &expected, &self.tolerance).map_err(differs)?;
+                check_shape(&ours, 1.0, &theirs, 1.0, &self.tolerance).map_err(differs)?;
+                check_centres(it, &expected).map_err(differs)?;
+                self.pass(&expected);
+                return Ok(());
+            }
+            if stands(&ours) {
+                return Ok(());
+            }
+            if stands(&theirs) {
+                self.pass(&expected);
+                continue;
+            }
+            check_pace(it, &expected, &self.tolerance).map_err(differs)?;
+            check_centres(it, &expected).map_err(differs)?;
+            let are_lines = !ours.is_arc() && !theirs.is_arc();
+            let splits = ours.length < theirs.length;
+            if are_lines && !(splits && self.may_split) {
+                return Err(differs(Kind::Place));
+            }
+            if splits {
+                self.done = meet(&ours, &theirs, &self.tolerance).map_err(differs)?;
+                return Ok(());
+            }
+            begin = meet(&theirs, &ours, &self.tolerance).map_err(differs)?;
+            self.pass(&expected);
+        }
+    }
+
+    fn pass(&mut self, expected: &Move) {
+        self.expected.next();
+        self.at = expected.to;
+        self.done = 0.0;
+    }
+}
+
+/// Two arcs turn round one centre: of a short one the places between its ends hardly tell.
+fn check_centres(found: &Move, expected: &Move) -> Result<(), Kind> {
+    let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path) else { return Ok(()) };
+    let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);
+    let turn_alike = ours.clockwise == theirs.clockwise && ours.plane == theirs.plane;
+    if are_near && turn_alike { Ok(()) } else { Err(Kind::Shape) }
+}

@@ -1,0 +1,306 @@
+//! `verify --against` finds every dangerous change of a program, and nothing in one that nobody changed. (spec/90-gcode-import.md, "verify")
+//!
+//! Programs of all cases are written by every post, then changed: words are put in before the first move and between moves, numbers are
+//! changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster, at another
+//! spindle speed, or goes anywhere else below S.
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{
+    Action, Change, Corners, Heights, Move, Options, Pace, Position, Spindle, Step, Turning, each_move_of,
+    guess, interpret, interpret_each,
+};
+use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::verify::{Against, Checks, Drawn, Rules, Stock, ToolUse, coarse_arcs};
+use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, Spindle as Turn, ToolEntry, ToolTable, load};
+use pathbuild_toolpath::{Correction, Program};
+use rayon::prelude::*;
+
+use super::programs::{Named, programs};
+use super::{say, shown, texts};
+
+/// A program as it was written.
+struct Written {
+    name: String,
+    dialect: Dialect,
+    text: String,
+}
+
+const SPEED: f64 = 12_000.0;
+
+/// So many changes are tried of each program of each post.
+const CHANGES: usize = 4;
+
+/// Numbers are changed by these.
+const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
+
+#[test]
+fn no_dangerous_change_passes_and_no_program_has_a_finding() {
+    let mut tried: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for post in BUILT_IN {
+        let results: Vec<(usize, Vec<String>)> = programs()
+            .par_iter()
+            .enumerate()
+            .map(|(seed, it)| of_program(post.name, post.language, it, seed))
+            .collect();
+        tried.insert(post.name, results.iter().map(|(count, _)| count).sum());
+        faults.extend(results.into_iter().flat_map(|(_, faults)| faults));
+    }
+    say(&format!("dangerous changes tried: {tried:?}"));
+    assert!(faults.is_empty(), "{}\n{}", faults.len(), shown(&faults));
+    assert!(tried.values().sum::<usize>() >= 5_000, "{tried:?}");
+    assert!(tried.values().all(|count| *count >= 300), "{tried:?}");
+}
+
+/// How many dangerous changes were tried, and what is wrong.
+fn of_program(post: &str, language: Language, it: &Named, seed: usize) -> (usize, Vec<String>) {
+    let written = match written(post, language, it) {
+        Ok(written) => written,
+        // Its definition writes a bare S between two paths.
+        Err(errors) if post == "marlin" && errors.iter().all(|it| it.code() == Code::PostDiffers) => {
+            return (0, Vec::new());
+        }
+        Err(errors) => return (0, vec![format!("{} {post}: {}", it.name, texts(&errors))]),
+    };
+    let found = findings(&written.text, written.dialect, &it.program);
+    if !found.is_empty() {
+        return (0, vec![format!("{} {post}: unchanged: {}", it.name, texts(&found))]);
+    }
+    let before = effects(&written.text, written.dialect, &it.program);
+    let mut dice = Dice(seed as u64 * 7919 + 1);
+    let (mut count, mut faults) = (0, Vec::new());
+    for _ in 0..CHANGES {
+        let Some((what, changed)) = change(&written, &mut dice) else { continue };
+        if effects(&changed, written.dialect, &it.program) == before {
+            continue;
+        }
+        count += 1;
+        let found = findings(&changed, written.dialect, &it.program);
+        if !found.iter().any(Diagnostic::is_error) {
+            faults.push(format!("{} {post}: {what}: {}", written.name, texts(&found)));
+        }
+    }
+    (count, faults)
+}
+
+fn written(post: &str, language: Language, it: &Named) -> Result<Written, Vec<Diagnostic>> {
+    let text = if language == Language::Native {
+        let options = WriteOptions {
+            correction: Correction::default(),
+            lang: pathbuild_diagnostic::Lang::En,
+            charset: Charset::Ascii,
+            rapid: 1000.0,
+        };
+        native::program(&it.program, &Header::default(), &options)
+    } else {
+        let tools = ToolTable { entries: vec![entry(it.program.tool)] };
+        let (job, _) =
+            Job::from_programs(&it.program.path, std::slice::from_ref(&*it.program), &tools, false);
+        let output = load(post)?.write(&job, &PostOptions::default())?;
+        String::from_utf8(output.text).unwrap()
+    };
+    let dialect = post.parse().unwrap();
+    Ok(Written { name: it.name.clone(), dialect, text })
+}
+
+fn entry(diameter: f64) -> ToolEntry {
+    ToolEntry {
+        name: "cutter".into(),
+        diameter,
+        paths: None,
+        index: Some(1),
+        spindle: Some(Turn::Clockwise),
+        speed: Some(SPEED),
+        coolant: None,
+    }
+}
+
+/// Everything that `verify --against` says.
+fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    // As the command does: a doubt about what the drawing's program does not say is an error.
+    let mut found = Vec::new();
+    let stock = Stock::uniform(program.thickness, program.tool);
+    let mut rules = Rules::new(&Checks { stock: Some(&stock), machine: None });
+    let drawn = Drawn {
+        moves: each_move_of(program),
+        clearance: program.start_height(),
+        tool: ToolUse { number: Some(1), turning: Some(Turning::Clockwise), speed: Some(SPEED) },
+        spin_up: 0.0,
+    };
+    let mut against = Against::new(drawn, dialect);
+    found.extend(interpret_each(text.as_bytes(), dialect, &options, &mut |step| {
+        rules.step(&step);
+        against.step(&step);
+    }));
+    found.iter_mut().for_each(|it| it.severity = Severity::Error);
+    found.extend(rules.finish());
+    found.extend(coarse_arcs(text.as_bytes(), dialect));
+    found.extend(against.finish());
+    found
+}
+
+/// What matters of a program: each cut with the spindle's state, and rapid moves that go below S.
+fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<(Move, Option<Spindle>)> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let mut spindle = Spindle { turning: Turning::Unstated, speed: 0.0 };
+    let low = program.start_height() - 0.05;
+    let mut effects = Vec::new();
+    for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
+        match action {
+            Action::Spindle(now) => spindle = now,
+            Action::Move(it) if it.is_nothing() => {}
+            Action::Move(it) if it.pace != Pace::Rapid => effects.push((it, Some(spindle))),
+            Action::Move(it) if it.to.z() < low || it.from.z() < low => effects.push((it, None)),
+            Action::Change(Change::Corners(Corners::Exact | Corners::Rounded(None))) => {}
+            Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most <= 0.01 => {}
+            // The tool's length, offsets and the like change the machine's coordinates, not the program's.
+            Action::Change(_) | Action::System(_) => effects.push((nothing(), Some(spindle))),
+            _ => {}
+        }
+    }
+    effects
+}
+
+fn nothing() -> Move {
+    let nowhere = Position::default();
+    Move {
+        from: nowhere,
+        to: nowhere,
+        path: pathbuild_gcode::interpret::Path::Line,
+        pace: Pace::Rapid,
+        named: None,
+    }
+}
+
+/// Words that are dangerous wherever they stand before the last cut.
+const ANYWHERE: &[&str] = &[
+    "G10 L2 P1 Z-5",
+    "G92 Z3",
+    "G52 X3",
+    "G43.1 Z-6.0",
+    "G43 H9",
+    "G55",
+    "G59",
+    "#5221=3",
+    "M48",
+    "M98 P5",
+    "G51 X2.0",
+    "G68 R10.0",
+    "G64 P2",
+    "M220 S300",
+];
+
+/// Words that are dangerous between cuts.
+const BETWEEN: &[&str] = &[
+    "G91",
+    "G20",
+    "G93",
+    "G95",
+    "M4 S1",
+    "M5",
+    "M3 S1",
+    "G0 X20.123 Y0.5 Z-9.0",
+    "G0 Z-9.0",
+    "G28",
+    "G53 G0 Z-50.0",
+    "G1 X-50.0 F100",
+    "G0 X1.234 Y5.678 Z0.5",
+];
+
+fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
+    let mut lines: Vec<String> = written.text.lines().map(str::to_owned).collect();
+    let is_move = |line: &String| {
+        let words = words(line);
+        words.iter().any(|(at, _)| matches!(line.as_bytes()[*at], b'X' | b'Y' | b'Z'))
+    };
+    let is_cut = |line: &String| {
+        is_move(line) && ["G1 ", "G01", "G2 ", "G02", "G3 ", "G03"].iter().any(|g| line.contains(g))
+    };
+    let first = lines.iter().position(is_cut)?;
+    let last = lines.iter().rposition(is_cut)?;
+    let what = match dice.below(6) {
+        0 => {
+            let at = 1 + dice.below(last);
+            let word = ANYWHERE[dice.below(ANYWHERE.len())];
+            lines.insert(at, word.to_owned());
+            format!("`{word}` put in as line {}", at + 1)
+        }
+        1 => {
+            let at = first + 1 + dice.below((last - first).max(1));
+            let word = BETWEEN[dice.below(BETWEEN.len())];
+            lines.insert(at.min(last), word.to_owned());
+            format!("`{word}` put in as line {}", at.min(last) + 1)
+        }
+        2 | 3 => {
+            let at = dice.below(lines.len());
+            let words = words(&lines[at]);
+            let &(begins, ends) = words.get(dice.below(words.len().max(1)))?;
+            let letter = lines[at].as_bytes()[begins];
+            if matches!(letter, b'N' | b'O') {
+                return None;
+            }
+            let number: f64 = lines[at][begins + 1..ends].parse().ok()?;
+            let by = STEPS[dice.below(STEPS.len())];
+            let changed = format!("{:.3}", number + by);
+            let was = lines[at].clone();
+            lines[at].replace_range(begins + 1..ends, &changed);
+            format!("`{was}` became `{}`", lines[at])
+        }
+        4 => {
+            let at = dice.below(lines.len());
+            format!("`{}` was removed", lines.remove(at))
+        }
+        _ => {
+            let at = dice.below(lines.len() - 1);
+            lines.swap(at, at + 1);
+            format!("`{}` and `{}` were swapped", lines[at + 1], lines[at])
+        }
+    };
+    Some((what, lines.join("\n") + "\n"))
+}
+
+/// Where words begin and end, outside of comments.
+fn words(line: &str) -> Vec<(usize, usize)> {
+    let bytes = line.as_bytes();
+    let (mut found, mut at) = (Vec::new(), 0);
+    while at < bytes.len() {
+        match bytes[at] {
+            b'(' => at += line[at..].find(')').unwrap_or(line.len() - at) + 1,
+            b';' | b'/' | b'%' => break,
+            letter if letter.is_ascii_uppercase() => {
+                let begins = at;
+                at += 1;
+                while at < bytes.len() && matches!(bytes[at], b'0'..=b'9' | b'.' | b'-' | b'+') {
+                    at += 1;
+                }
+                if at > begins + 1 {
+                    found.push((begins, at));
+                }
+            }
+            _ => at += 1,
+        }
+    }
+    found
+}
+
+/// A generator of numbers that are the same in every run. (Knuth's MMIX)
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, most: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(self.0 >> 33).unwrap() % most.max(1)
+    }
+}
+
+#[test]
+fn programs_that_name_their_dialect_are_read_in_it() {
+    for post in BUILT_IN {
+        let header = format!("(pathbuild 0.1.0 3f2a-09c1 {} O2 T5)\nG0 X1\n", post.name);
+        assert_eq!(guess(header.as_bytes()).dialect.name(), post.name);
+    }
+}
