@@ -32,6 +32,7 @@ mod projects;
 mod q_project;
 mod render;
 mod report;
+mod shown;
 mod since;
 mod support;
 mod usage;

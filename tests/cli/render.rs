@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use insta::assert_snapshot;
 use pathbuild::args::Format;
-use pathbuild::render::{View, render};
+use pathbuild::render::View;
 use pathbuild::report::{CheckedFile, Findings};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep};
@@ -52,6 +52,10 @@ fn findings() -> Findings {
             Diagnostic::new(&files::UNREADABLE).with("reason", "no"),
         ])
     }
+}
+
+fn render(format: Format, findings: &Findings, view: &View) -> String {
+    pathbuild::render::render(format, findings, view).as_str().to_owned()
 }
 
 fn shown(format: Format, lang: Lang) -> String {

@@ -12,6 +12,7 @@ pub mod messages;
 mod number;
 mod page;
 mod place;
+pub mod shown;
 pub mod words;
 
 pub use code::{Code, Severity};

@@ -1,7 +1,7 @@
 use std::fmt::Write;
 use std::hash::{Hash, Hasher};
 
-use crate::{Code, Number, Point};
+use crate::{Code, Number, Point, shown};
 
 /// The languages that pathbuild speaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -88,15 +88,15 @@ pub struct Word {
 }
 
 impl Value {
-    /// The value as it is put into a message.
+    /// The value as it is put into a message: on one line, and all that acts in it escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
-            Self::Text(text) => text.to_string(),
+            Self::Text(text) => shown::line(text).into_owned(),
             Self::Number(number) => number.to_string(),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
             Self::List(items) if items.is_empty() => Self::Word(&crate::words::NONE).render(lang),
-            Self::List(items) => items.join(", "),
+            Self::List(items) => shown::line(&items.join(", ")).into_owned(),
             Self::Word(word) => match lang {
                 Lang::En => word.en.to_owned(),
                 Lang::De => word.de.to_owned(),

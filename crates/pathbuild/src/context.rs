@@ -13,6 +13,7 @@ use crate::exit::ExitStatus;
 use crate::printer::{Printer, Stream, Verbosity};
 use crate::render::{View, render};
 use crate::report::{Findings, judge};
+use crate::usage;
 
 /// The surroundings of a run.
 #[derive(Debug)]
@@ -86,8 +87,7 @@ impl Context {
 
     /// Says what is wrong with the command line.
     pub fn usage(&self, reason: &str) -> ExitStatus {
-        self.printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
-        ExitStatus::Usage
+        usage::wrong(reason, &self.printer)
     }
 
     /// The view of somebody who looks at that stream.
@@ -101,6 +101,6 @@ impl Context {
     }
 
     fn show_on(&self, stream: Stream, findings: &Findings) {
-        self.printer.diagnostics(stream, render(self.format, findings, &self.view(stream)));
+        self.printer.diagnostics(stream, &render(self.format, findings, &self.view(stream)));
     }
 }

@@ -9,6 +9,10 @@
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
 //! | details: what was found, read, taken from the cache | stderr | with `-v` |
 //!
+//! Everything passes `pathbuild_diagnostic::shown` on the way: names and texts of strangers can neither move the cursor nor begin a
+//! command of a CI runner. A status line and a line of results stay one line whatever names hold; names within longer results are
+//! escaped by who puts them there. Bytes that are asked for as they are (a program, a script for the shell) are printed as they are.
+//!
 //! A closed pipe is no error: what is left of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other
 //! failure to write is kept and makes the run end with [`ExitStatus::Errors`].
 
@@ -16,10 +20,12 @@ use std::cell::RefCell;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
+use pathbuild_diagnostic::shown;
 use pathbuild_workspace::{Advance, Reporter, Silent};
 
 use crate::exit::ExitStatus;
 use crate::progress::Progress;
+use crate::render::Rendered;
 
 /// When to colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -122,12 +128,22 @@ impl Printer {
         size.map(|(width, _)| usize::from(width.0))
     }
 
-    /// Prints a result, as it is, to stdout.
+    /// Prints a result of whole lines to stdout.
     pub fn result(&self, text: impl Display) {
-        self.write(Stream::Stdout, text);
+        self.write(Stream::Stdout, &shown::lines(&text.to_string()));
     }
 
-    /// Prints a result that need not be text, as it is, to stdout.
+    /// Prints a result of one line to stdout.
+    pub fn result_line(&self, line: impl Display) {
+        self.write_line(Stream::Stdout, line);
+    }
+
+    /// Prints a result in JSON to stdout.
+    pub fn result_json(&self, json: impl Display) {
+        self.write(Stream::Stdout, &shown::json(&format!("{json}\n")));
+    }
+
+    /// Prints a result that is wanted byte for byte to stdout.
     pub fn result_bytes(&self, bytes: &[u8]) {
         let failed = &mut self.failures.borrow_mut().stdout;
         if failed.is_none() {
@@ -136,30 +152,30 @@ impl Printer {
         }
     }
 
-    /// Prints rendered diagnostics, as they are.
-    pub fn diagnostics(&self, stream: Stream, text: impl Display) {
+    /// Prints rendered diagnostics.
+    pub fn diagnostics(&self, stream: Stream, text: &Rendered) {
         if stream == Stream::Stdout || self.verbosity >= Verbosity::Quiet {
-            self.write(stream, text);
+            self.write(stream, text.as_str());
         }
     }
 
     /// Prints a line about the run.
     pub fn status(&self, line: impl Display) {
         if self.verbosity >= Verbosity::Normal {
-            self.write(Stream::Stderr, format_args!("{line}\n"));
+            self.write_line(Stream::Stderr, line);
         }
     }
 
     /// Prints a line that few want to know.
     pub fn detail(&self, line: impl Display) {
         if self.verbosity >= Verbosity::Verbose {
-            self.write(Stream::Stderr, format_args!("{line}\n"));
+            self.write_line(Stream::Stderr, line);
         }
     }
 
     /// Prints what is wrong about the way the program was called.
     pub fn usage(&self, text: impl Display) {
-        self.write(Stream::Stderr, text);
+        self.write(Stream::Stderr, &shown::lines(&text.to_string()));
     }
 
     /// Ends the output: says what could not be written, and lets that decide over the status.
@@ -167,7 +183,7 @@ impl Printer {
         let failures = self.failures.take();
         let is_serious = |error: &io::Error| error.kind() != io::ErrorKind::BrokenPipe;
         if let Some(error) = failures.stdout.filter(is_serious) {
-            self.write(Stream::Stderr, format_args!("error: cannot write to standard output: {error}\n"));
+            self.write_line(Stream::Stderr, format_args!("error: cannot write to standard output: {error}"));
             return status.max(ExitStatus::Errors);
         }
         match failures.stderr.filter(is_serious) {
@@ -176,7 +192,12 @@ impl Printer {
         }
     }
 
-    fn write(&self, stream: Stream, text: impl Display) {
+    fn write_line(&self, stream: Stream, line: impl Display) {
+        let line = format!("{}\n", shown::line(&line.to_string()));
+        self.write(stream, &shown::lines(&line));
+    }
+
+    fn write(&self, stream: Stream, text: &str) {
         let mut failures = self.failures.borrow_mut();
         match stream {
             Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text),
@@ -203,9 +224,9 @@ impl Reporter for Printer {
     }
 }
 
-fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: impl Display) {
+fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &str) {
     if failed.is_none() {
         // In one piece: standard error has no buffer, and lines of programs side by side must not mix.
-        *failed = stream.write_all(text.to_string().as_bytes()).and_then(|()| stream.flush()).err();
+        *failed = stream.write_all(text.as_bytes()).and_then(|()| stream.flush()).err();
     }
 }

@@ -135,7 +135,7 @@ impl<'a> Adjustment<'a> {
         let Some(pattern) = &self.shown else { return };
         let text = String::from_utf8_lossy(program);
         for line in text.lines().filter(|line| pattern.is_match(line)) {
-            self.context.printer.result(format_args!("{line}\n"));
+            self.context.printer.result_line(line);
         }
     }
 

@@ -19,10 +19,10 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     let place = Place::beside(directory);
     let build = Key::new(BUILD, "");
     match args.command {
-        CacheCommand::Dir => context.printer.result(format_args!("{}\n", place.directory())),
+        CacheCommand::Dir => context.printer.result_line(place.directory()),
         CacheCommand::Size => {
             let size: u64 = place.entries(&build).iter().map(|entry| entry.size).sum();
-            context.printer.result(format_args!("{size} {}\n", context.choose("bytes", "Bytes")));
+            context.printer.result_line(format_args!("{size} {}", context.choose("bytes", "Bytes")));
         }
         CacheCommand::Prune => return report(context, &place, place.prune(&build)),
         CacheCommand::Clean => {
@@ -65,7 +65,7 @@ fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
         let name = path.file_name().unwrap_or_default();
         context
             .printer
-            .result(format_args!("{name}: {state}, {size} {}\n", context.choose("bytes", "Bytes")));
+            .result_line(format_args!("{name}: {state}, {size} {}", context.choose("bytes", "Bytes")));
     }
     if is_whole { ExitStatus::Success } else { ExitStatus::Errors }
 }

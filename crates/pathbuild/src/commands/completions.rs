@@ -10,6 +10,6 @@ use crate::exit::ExitStatus;
 pub fn run(context: &Context, args: &CompletionsArgs) -> ExitStatus {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "pathbuild", &mut script);
-    context.printer.result(String::from_utf8_lossy(&script));
+    context.printer.result_bytes(&script);
     ExitStatus::Success
 }

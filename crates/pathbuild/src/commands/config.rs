@@ -9,7 +9,7 @@ use pathbuild_workspace::config::{schema, show};
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
     match args.command {
         ConfigCommand::Show { origin, .. } => context.printer.result(show(&context.settings, origin)),
-        ConfigCommand::Schema => context.printer.result(format_args!("{:#}\n", schema())),
+        ConfigCommand::Schema => context.printer.result_json(format_args!("{:#}", schema())),
     }
     ExitStatus::Success
 }

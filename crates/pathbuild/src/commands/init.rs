@@ -10,7 +10,7 @@ pub fn run(context: &Context) -> ExitStatus {
     let file = context.working_directory.join(FILE_NAME);
     match files::create(&file, &template()) {
         Ok(()) => {
-            context.printer.result(format_args!("{FILE_NAME}\n"));
+            context.printer.result_line(FILE_NAME);
             ExitStatus::Success
         }
         Err(reason) => context.fail(vec![*reason]),

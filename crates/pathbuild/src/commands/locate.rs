@@ -25,8 +25,8 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     for (file, place) in definitions(&session, args, &wanted, &mut problems) {
         let file = file.path(session.db()).as_str();
         match context.format {
-            Format::Json => context.printer.result(json(file, &place)),
-            _ => context.printer.result(line(context, file, &place)),
+            Format::Json => context.printer.result_json(json(file, &place)),
+            _ => context.printer.result_line(line(context, file, &place)),
         }
     }
     let findings = context.findings(problems);
@@ -67,7 +67,7 @@ fn line(context: &Context, file: &str, place: &PathPlace) -> String {
     let start = context.choose("start at", "Anfang bei");
     let point = place.point.map(|point| format!(", {start} ({}, {})", point.x, point.y)).unwrap_or_default();
     let layer = context.choose("layer", "Layer");
-    format!("{}  {file}{line}  {layer} {}{point}\n", place.name, place.layer)
+    format!("{}  {file}{line}  {layer} {}{point}", place.name, place.layer)
 }
 
 #[derive(Serialize)]
@@ -92,5 +92,5 @@ fn json(file: &str, place: &PathPlace) -> String {
         y: place.point.map(|point| point.y.0),
     };
     // Only maps with keys that are no text can fail to become JSON.
-    format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+    serde_json::to_string(&object).unwrap_or_default()
 }

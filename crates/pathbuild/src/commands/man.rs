@@ -16,7 +16,7 @@ pub fn run(context: &Context) -> ExitStatus {
     let mut page = Vec::new();
     // Writing into memory cannot fail.
     _ = write(&command, &mut page);
-    context.printer.result(String::from_utf8_lossy(&page));
+    context.printer.result_bytes(&page);
     ExitStatus::Success
 }
 

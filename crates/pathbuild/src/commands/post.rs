@@ -39,7 +39,7 @@ fn list(context: &Context) -> ExitStatus {
 fn show(context: &Context, name: &str) -> ExitStatus {
     match BUILT_IN.iter().find(|post| post.name == name) {
         Some(post) => {
-            context.printer.result(post.text);
+            context.printer.result_bytes(post.text.as_bytes());
             ExitStatus::Success
         }
         None => context.fail(pathbuild_post::load(name).err().unwrap_or_default()),

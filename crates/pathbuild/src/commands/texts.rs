@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use pathbuild_db::{assigned_texts, check_file};
-use pathbuild_diagnostic::{Handle, Number};
+use pathbuild_diagnostic::{Handle, Number, shown};
 use pathbuild_path::{AssignedElement, AssignedText, Curve, Position, Shape, TextCircle, Xy};
 use regex::Regex;
 use serde_json::{Value as Json, json};
@@ -38,10 +38,10 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
         };
         for text in assigned_texts(db, file).iter().filter(is_wanted) {
             let name = file.path(db).as_str();
-            context.printer.result(match context.format {
-                Format::Json => format!("{}\n", object(name, text)),
-                _ => lines(context, name, text),
-            });
+            match context.format {
+                Format::Json => context.printer.result_json(object(name, text)),
+                _ => context.printer.result(lines(context, name, text)),
+            }
         }
     }
     let findings = context.findings(problems);
@@ -53,12 +53,13 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
 fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     let TextCircle { centre, radius } = text.circle;
     let layer = context.choose("layer", "Layer");
+    let [file, of_layer] = [file, &text.layer].map(shown::line);
     let mut shown = format!("{file}:{}: {:?}\n", text.position.line, text.text);
     _ = writeln!(
         shown,
         "  {}, {layer} {}, {} {}, {} {}",
         named(text.entity.name(), text.position),
-        text.layer,
+        of_layer,
         context.choose("circle around", "Kreis um"),
         point(centre),
         context.choose("diameter", "Durchmesser"),
@@ -67,7 +68,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     for element in &text.elements {
         let AssignedElement { entity, line_type, position, shape } = element;
         let (named, geometry) = (named(entity.name(), *position), geometry(context, shape));
-        _ = writeln!(shown, "  -> {named}, {layer} {}, {line_type}, {geometry}", text.layer);
+        _ = writeln!(shown, "  -> {named}, {layer} {of_layer}, {}, {geometry}", shown::line(line_type));
     }
     if text.elements.is_empty() {
         _ = writeln!(shown, "  -> {}", context.choose("nothing (PB107)", "nichts (PB107)"));

@@ -3,6 +3,7 @@
 use camino::Utf8PathBuf;
 use pathbuild_cache::{Listings, Reason};
 use pathbuild_db::SourceFile;
+use pathbuild_diagnostic::shown;
 use serde::Serialize;
 
 use super::check::question;
@@ -34,10 +35,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     for file in files {
         let drawing = file.path(session.db());
         let answer = Answer { drawing, reasons: keeper.why(context, drawing.as_str()) };
-        context.printer.result(match context.format {
-            Format::Json => answer.json(),
-            _ => answer.text(context),
-        });
+        match context.format {
+            Format::Json => context.printer.result_json(answer.json()),
+            _ => context.printer.result(answer.text(context)),
+        }
     }
     let findings = context.findings(wanted.problems);
     context.show(&findings);
@@ -70,8 +71,8 @@ impl Answer<'_> {
             ),
             Some(reasons) => (reasons, context.choose("would be compiled again", "würde neu übersetzt")),
         };
-        let lines = lines.iter().map(|reason| format!("  {}\n", said(context, reason)));
-        format!("{}: {state}\n", self.drawing) + &lines.collect::<String>()
+        let lines = lines.iter().map(|reason| format!("  {}\n", shown::line(&said(context, reason))));
+        format!("{}: {state}\n", shown::line(self.drawing.as_str())) + &lines.collect::<String>()
     }
 
     fn json(&self) -> String {
@@ -79,7 +80,7 @@ impl Answer<'_> {
         let holds = self.reasons.as_ref().map(Vec::is_empty);
         let object = Object { file: self.drawing.as_str(), holds, reasons };
         // Only maps with keys that are no text can fail to become JSON.
-        format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+        serde_json::to_string(&object).unwrap_or_default()
     }
 }
 

@@ -2,7 +2,6 @@
 
 use pathbuild_diagnostic::Diagnostic;
 
-use super::view::one_line;
 use super::{View, place};
 use crate::report::Findings;
 
@@ -16,6 +15,5 @@ pub(super) fn line(diagnostic: &Diagnostic, view: &View) -> String {
     let severity = place::severity(diagnostic.severity, view);
     let element = place::element(diagnostic, view);
     let element = if element.is_empty() { element } else { format!(" ({element})") };
-    let line = format!("{location}{severity}[{}] {}{element}", diagnostic.code(), diagnostic.text(view.lang));
-    format!("{}\n", one_line(&line))
+    format!("{location}{severity}[{}] {}{element}\n", diagnostic.code(), diagnostic.text(view.lang))
 }

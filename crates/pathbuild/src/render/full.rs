@@ -7,9 +7,8 @@ use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
-use pathbuild_diagnostic::{Diagnostic, Severity, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, shown};
 
-use super::view::harmless;
 use super::{View, place};
 use crate::report::Findings;
 
@@ -52,16 +51,15 @@ struct Page {
 
 impl Page {
     fn new(diagnostic: &Diagnostic, view: &View) -> Self {
-        let text = |text: String| harmless(&text).into_owned();
         let source = diagnostic.text.as_ref().map(excerpt);
         Self {
-            header: text(header(diagnostic, view)),
-            message: text(diagnostic.text(view.lang)),
+            header: header(diagnostic, view),
+            message: diagnostic.text(view.lang),
             severity: diagnostic.severity,
-            help: diagnostic.help(view.lang).map(text),
-            source: source.as_ref().map(|(source, _)| Source::new(source, diagnostic)),
-            label: source.map(|(_, span)| LabeledSpan::underline(span)),
-            further: further(diagnostic, view).into_iter().map(text).collect(),
+            help: diagnostic.help(view.lang),
+            label: source.as_ref().map(|(_, span)| LabeledSpan::underline(span.clone())),
+            source: source.map(|(text, _)| Source::new(text, diagnostic)),
+            further: further(diagnostic, view),
         }
     }
 }
@@ -74,8 +72,13 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     let last = span.end.min(span.start + AROUND);
     let end = if text.len() - last <= AROUND { text.len() } else { text.ceil_char_boundary(last + AROUND) };
     let (before, after) = (if start > 0 { "…" } else { "" }, if end < text.len() { "…" } else { "" });
-    let shift = |byte: usize| byte.clamp(start, end) - start + before.len();
-    (format!("{before}{}{after}", &text[start..end]), shift(span.start)..shift(span.end))
+    let fault = span.start.clamp(start, end)..span.end.clamp(start, end);
+    let mut excerpt = format!("{before}{}", shown::framed(&text[start..fault.start]));
+    let from = excerpt.len();
+    excerpt.push_str(&shown::framed(&text[fault.clone()]));
+    let to = excerpt.len();
+    excerpt.extend([&*shown::framed(&text[fault.end..end]), after]);
+    (excerpt, from..to)
 }
 
 /// Bytes that are shown on each side of a fault, and of a fault at most.
@@ -144,20 +147,11 @@ struct Source {
 }
 
 impl Source {
-    fn new(text: &str, diagnostic: &Diagnostic) -> Self {
+    fn new(text: String, diagnostic: &Diagnostic) -> Self {
         let is_line_of_file = diagnostic.place.column.is_some();
         let line = diagnostic.place.line.filter(|_| is_line_of_file).unwrap_or(1);
-        Self { text: visible(text), lines_before: line.saturating_sub(1) as usize }
+        Self { text, lines_before: line.saturating_sub(1) as usize }
     }
-}
-
-/// The text with every harmful character replaced by one of as many bytes, so that spans stay what they are.
-fn visible(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' && c != '\t' { replacement(c) } else { c }).collect()
-}
-
-fn replacement(control: char) -> char {
-    if control.len_utf8() == 1 { '?' } else { '\u{b7}' }
 }
 
 impl SourceCode for Source {

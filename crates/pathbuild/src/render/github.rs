@@ -3,9 +3,8 @@
 //! GitHub shows ten errors and ten warnings of a step and drops the others, so those are written as plain lines of the log; errors of
 //! the whole run come first.
 
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::{Diagnostic, Severity, shown};
 
-use super::view::harmless;
 use super::{View, concise, place};
 use crate::report::Findings;
 
@@ -19,7 +18,8 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     let lines =
         [Severity::Error, Severity::Warning].into_iter().flat_map(|severity| of(severity).skip(SHOWN));
     let annotations = annotations.map(|diagnostic| annotation(diagnostic, view));
-    annotations.chain(lines.map(|diagnostic| concise::line(diagnostic, view))).collect()
+    let lines = lines.map(|diagnostic| shown::lines(&concise::line(diagnostic, view)).into_owned());
+    annotations.chain(lines).collect()
 }
 
 fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
@@ -44,7 +44,7 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
 
 /// Text after the second `::`.
 fn data(text: &str) -> String {
-    harmless(text).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    shown::lines(text).replace('%', "%25").replace('\n', "%0A")
 }
 
 /// The value of a property.

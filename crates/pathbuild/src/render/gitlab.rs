@@ -26,7 +26,7 @@ fn issue(diagnostic: &Diagnostic, fingerprint: Fingerprint, view: &View) -> Json
             Severity::Warning => "minor",
         },
         "location": {
-            "path": view.file(diagnostic).map_or_else(|| ".".to_owned(), Into::into),
+            "path": view.raw_file(diagnostic).map_or_else(|| ".".to_owned(), Into::into),
             "lines": { "begin": diagnostic.place.line.unwrap_or(1) },
         },
     })

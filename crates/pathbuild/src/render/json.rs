@@ -49,7 +49,7 @@ fn line(diagnostic: &Diagnostic, view: &View) -> String {
         severity: severity(diagnostic.severity),
         message: diagnostic.text(view.lang),
         help: view.help(diagnostic),
-        file: view.file(diagnostic).map(Into::into),
+        file: view.raw_file(diagnostic).map(Into::into),
         line: place.line,
         path: diagnostic.path.as_deref(),
         layer: place.layer.as_deref(),
@@ -67,7 +67,7 @@ fn line(diagnostic: &Diagnostic, view: &View) -> String {
 
 fn trace<'a>(diagnostic: &'a Diagnostic, view: &View) -> Vec<Step<'a>> {
     let step = |step: &'a TraceStep| Step {
-        file: view.name(&step.file).into_owned(),
+        file: view.raw_name(&step.file).into_owned(),
         path: &step.path,
         x: step.point.x.0,
         y: step.point.y.0,

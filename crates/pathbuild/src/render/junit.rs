@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, shown};
 
 use super::{View, concise};
 use crate::report::Findings;
@@ -19,7 +19,8 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
         let name = file.map_or_else(|| "pathbuild".into(), |file| view.name(file));
         _ = writeln!(text, "  <testsuite name=\"{}\"{}>", escaped(&name), totals(cases.values()));
         for (path, case) in cases {
-            write_case(&mut text, path.unwrap_or(&name), &name, case, view);
+            let path = path.map_or_else(|| name.clone(), shown::line);
+            write_case(&mut text, &path, &name, case, view);
         }
         text.push_str("  </testsuite>\n");
     }
@@ -71,7 +72,7 @@ fn write_case(text: &mut String, name: &str, file: &str, case: &Case<'_>, view: 
     text.push_str(">\n");
     if let [first, others @ ..] = &*case.errors {
         let more = if others.is_empty() { String::new() } else { format!(" (+{})", others.len()) };
-        let message = escaped(&format!("{}{more}", first.text(view.lang))).into_owned();
+        let message = escaped(&format!("{}{more}", first.text(view.lang)));
         _ = writeln!(
             text,
             "      <failure type=\"{}\" message=\"{message}\">{}</failure>",
@@ -87,7 +88,7 @@ fn write_case(text: &mut String, name: &str, file: &str, case: &Case<'_>, view: 
 
 fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
     let lines: String = diagnostics.iter().map(|diagnostic| body(diagnostic, view)).collect();
-    escaped(lines.trim_end()).into_owned()
+    escaped(lines.trim_end())
 }
 
 /// A line as in a log, and below it what to do.
@@ -99,16 +100,10 @@ fn body(diagnostic: &Diagnostic, view: &View) -> String {
     body
 }
 
-/// Text in XML 1.0, which has no way to write most control characters.
-fn escaped(text: &str) -> std::borrow::Cow<'_, str> {
-    let is_plain = |c: char| {
-        !matches!(c, '&' | '<' | '>' | '"' | '\'' | '\n' | '\t' | '\u{fffe}' | '\u{ffff}') && !c.is_control()
-    };
-    if text.chars().all(is_plain) {
-        return text.into();
-    }
+/// Text in XML 1.0, which has no way to write most control characters: none is left when what acts is escaped.
+fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
+    for c in shown::lines(text).chars() {
         match c {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
@@ -116,10 +111,8 @@ fn escaped(text: &str) -> std::borrow::Cow<'_, str> {
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&apos;"),
             '\n' => escaped.push_str("&#10;"),
-            '\t' => escaped.push_str("&#9;"),
-            c if is_plain(c) => escaped.push(c),
-            _ => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
         }
     }
-    escaped.into()
+    escaped
 }

@@ -10,20 +10,40 @@ mod place;
 mod sarif;
 mod view;
 
+use pathbuild_diagnostic::shown;
+
 use crate::args::Format;
 use crate::report::Findings;
 
 pub use view::View;
 
-/// The findings in a format. A format of graphs shows no diagnostics and falls back on [`Format::Full`].
-pub fn render(format: Format, findings: &Findings, view: &View) -> String {
-    match format {
-        Format::Concise => concise::render(findings, view),
-        Format::Json => json::render(findings, view),
-        Format::Sarif => sarif::render(findings, view),
-        Format::Github => github::render(findings, view),
-        Format::Gitlab => gitlab::render(findings, view),
-        Format::Junit => junit::render(findings, view),
-        Format::Full | Format::Dot | Format::Mermaid => full::render(findings, view),
+/// Findings as text that may be printed: only [`render`] makes it, and nothing in it acts on who shows it but colours of ours.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rendered(String);
+
+impl Rendered {
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.0
     }
+}
+
+/// The findings in a format. A format of graphs shows no diagnostics and falls back on [`Format::Full`].
+pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
+    let text = match format {
+        Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
+        Format::Json => shown::json(&json::render(findings, view)).into_owned(),
+        Format::Sarif => shown::json(&sarif::render(findings, view)).into_owned(),
+        // Lines that begin with `::` are what it is made of; it keeps all others harmless itself.
+        Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
+        Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
+        Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),
+        Format::Full | Format::Dot | Format::Mermaid if view.color => {
+            shown::colored_lines(&full::render(findings, view)).into_owned()
+        }
+        Format::Full | Format::Dot | Format::Mermaid => {
+            shown::lines(&full::render(findings, view)).into_owned()
+        }
+    };
+    Rendered(text)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Diagnostic, Severity, TraceStep, Value};
+use pathbuild_diagnostic::{Diagnostic, Severity, TraceStep, Value, shown};
 
 use super::View;
 
@@ -20,13 +20,16 @@ pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     let place = &diagnostic.place;
     let mut parts = Vec::new();
     if let Some(path) = &diagnostic.path {
-        parts.push(format!("{} {path}", view.choose("path", "Pfad")));
+        parts.push(format!("{} {}", view.choose("path", "Pfad"), shown::line(path)));
     }
     let mut words = Vec::new();
     words.extend(place.entity.map(|kind| kind.name().to_owned()));
     words.extend(place.handle.map(|handle| handle.to_string()));
     words.extend(
-        place.layer.as_deref().map(|layer| format!("{} {layer}", view.choose("on layer", "auf Layer"))),
+        place
+            .layer
+            .as_deref()
+            .map(|layer| format!("{} {}", view.choose("on layer", "auf Layer"), shown::line(layer))),
     );
     words.extend(
         place
@@ -44,7 +47,7 @@ pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
     let (by, at) = (view.choose("embedded by", "eingebettet von"), view.choose("at", "bei"));
     format!(
         "{by} {} {at} {}, {}",
-        step.path,
+        shown::line(&step.path),
         Value::from(step.point).render(view.lang),
         view.name(&step.file)
     )

@@ -73,7 +73,7 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
         "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
         "relatedLocations": diagnostic.trace.iter().map(|step| json!({
             "message": { "text": place::embedding(step, view) },
-            "physicalLocation": { "artifactLocation": artifact(&view.name(&step.file)) },
+            "physicalLocation": { "artifactLocation": artifact(&view.raw_name(&step.file)) },
         })).collect::<Vec<_>>(),
         "partialFingerprints": { "pathbuild/v1": fingerprint.to_string() },
         "properties": {
@@ -95,7 +95,7 @@ fn message(diagnostic: &Diagnostic, view: &View) -> String {
 }
 
 fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {
-    let file = view.file(diagnostic)?;
+    let file = view.raw_file(diagnostic)?;
     let mut region = json!({ "startLine": diagnostic.place.line.unwrap_or(1) });
     if let Some(column) = diagnostic.place.column {
         region["startColumn"] = json!(column);

@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 
 /// What depends on who looks: a person at a terminal of some width, or a program.
 #[derive(Clone, Debug)]
@@ -17,8 +17,16 @@ pub struct View {
 }
 
 impl View {
-    /// A file's name as it is shown: relative to the base where it lies below, always with `/`.
+    /// A file's name as people see it: relative to the base where it lies below, always with `/`, all that acts in it escaped.
     pub fn name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
+        match self.raw_name(file) {
+            Cow::Borrowed(name) => shown::line(name),
+            Cow::Owned(name) => shown::line(&name).into_owned().into(),
+        }
+    }
+
+    /// The same as it is, for formats that have an escape of their own for every character.
+    pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         let name = file.strip_prefix(&self.base).unwrap_or(file).as_str();
         if cfg!(windows) { name.replace('\\', "/").into() } else { name.into() }
     }
@@ -26,6 +34,11 @@ impl View {
     /// The name of a diagnostic's file, as it is shown.
     pub fn file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
         diagnostic.file.as_deref().map(|file| self.name(file))
+    }
+
+    /// The same as it is.
+    pub fn raw_file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
+        diagnostic.file.as_deref().map(|file| self.raw_name(file))
     }
 
     /// What to do about it, and what helps to see it, a line each.
@@ -42,15 +55,4 @@ impl View {
             Lang::De => de,
         }
     }
-}
-
-/// Text from a drawing as it may be shown on a terminal: control characters, which could move the cursor or worse, are replaced.
-pub(super) fn harmless(text: &str) -> Cow<'_, str> {
-    let is_harmful = |c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
-    if text.contains(is_harmful) { text.replace(is_harmful, "\u{fffd}").into() } else { text.into() }
-}
-
-/// The same on one line.
-pub(super) fn one_line(text: &str) -> Cow<'_, str> {
-    if text.contains(char::is_control) { text.replace(char::is_control, " ").into() } else { text.into() }
 }

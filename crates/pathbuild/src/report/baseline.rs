@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, TextFault, Value, shown};
 
 use super::{Findings, Fingerprint};
 use crate::render::View;
@@ -52,7 +52,7 @@ impl Baseline {
         {
             _ = writeln!(text, "{fingerprint} {}", description(diagnostic, view));
         }
-        text
+        shown::lines(&text).into_owned()
     }
 
     pub(super) fn compare(&self, findings: Findings) -> Compared {
@@ -101,12 +101,8 @@ fn description(diagnostic: &Diagnostic, view: &View) -> String {
     let path = diagnostic.path.as_deref().unwrap_or_default();
     let point = diagnostic.place.point.map(|point| Value::from(point).render(view.lang)).unwrap_or_default();
     let words = [&*diagnostic.code().to_string(), &file, path, &point, &diagnostic.text(view.lang)];
-    words
-        .into_iter()
-        .filter(|word| !word.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ")
-        .replace(char::is_control, " ")
+    let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
+    shown::line(&words.join(" ")).into_owned()
 }
 
 fn fingerprint(line: &str) -> Option<&str> {

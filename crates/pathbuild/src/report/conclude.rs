@@ -64,7 +64,7 @@ fn write_reports(context: &Context, reports: &[ReportFile], findings: &Findings)
     let view = plain_view(context, context.lang());
     let write = |report: &ReportFile| {
         let file = context.working_directory.join(&report.file);
-        files::replace(&file, &render(report.format, findings, &view)).err().map(|fault| *fault)
+        files::replace(&file, render(report.format, findings, &view).as_str()).err().map(|fault| *fault)
     };
     reports.iter().filter_map(write).collect()
 }

@@ -100,5 +100,9 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 
 /// Patterns are easier to read without escapes.
 fn literal(text: &str) -> String {
-    if text.contains(['\'', '\n']) { quoted(text) } else { format!("'{text}'") }
+    if text.contains('\'') || text.contains(pathbuild_diagnostic::shown::acts) {
+        quoted(text)
+    } else {
+        format!("'{text}'")
+    }
 }

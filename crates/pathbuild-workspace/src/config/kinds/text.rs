@@ -1,8 +1,8 @@
 //! Texts, names of files, and choices.
 
 use camino::Utf8PathBuf;
-use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Value, shown};
 use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -92,8 +92,12 @@ pub(in crate::config) fn texts<'v, 't>(
 
 /// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too.
 pub(in crate::config) fn quoted(text: &str) -> String {
-    let is_plain = !text.contains(['\'', '\n', '\r']) && !text.contains(char::is_control);
-    if text.contains(['\\', '"']) && is_plain { format!("'{text}'") } else { json!(text).to_string() }
+    let is_plain = !text.contains('\'') && !text.contains(shown::acts);
+    if text.contains(['\\', '"']) && is_plain {
+        format!("'{text}'")
+    } else {
+        shown::json(&json!(text).to_string()).into_owned()
+    }
 }
 
 /// Texts as a TOML list.

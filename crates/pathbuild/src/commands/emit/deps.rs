@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use camino::Utf8Path;
 use pathbuild_db::Db;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, shown};
 
 use super::deliver::cannot_write;
 use super::job::Job;
@@ -44,10 +44,10 @@ pub(super) fn write(
     written.err().map(|reason| cannot_write(file.as_str(), &reason))
 }
 
-/// A name in which nothing is taken for more than itself.
+/// A name in which nothing is taken for more than itself. There is no way to write a line feed; escaped it names a file that is not there.
 fn escaped(path: &Utf8Path) -> String {
     let mut escaped = String::with_capacity(path.as_str().len());
-    for character in path.as_str().chars() {
+    for character in shown::line(path.as_str()).chars() {
         match character {
             ' ' | '#' => escaped.extend(['\\', character]),
             '$' => escaped.push_str("$$"),

@@ -234,14 +234,14 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
             }
             State::Printed(text) => context.printer.result_bytes(text),
             State::Current => {
-                context.printer.result(format_args!("{path}: {}\n", phrase("current", "aktuell")));
+                context.printer.result_line(format_args!("{path}: {}", phrase("current", "aktuell")));
             }
             State::Outdated | State::Missing => {
                 let state = match state {
                     State::Missing => phrase("missing", "fehlt"),
                     _ => phrase("not current", "nicht aktuell"),
                 };
-                context.printer.result(format_args!("{path}: {state}\n"));
+                context.printer.result_line(format_args!("{path}: {state}"));
                 is_current = false;
             }
         }

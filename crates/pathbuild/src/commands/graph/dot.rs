@@ -9,7 +9,7 @@ pub(super) fn dot(graph: &Graph) -> String {
     let mut text = String::from("digraph pathbuild {\n  rankdir=LR;\n  node [shape=box];\n");
     for (index, node) in graph.nodes.iter().enumerate() {
         let style = if node.is_sound { "" } else { ", style=dashed" };
-        let label = format!("{}\n{}", label::path(node), node.file);
+        let label = format!("{}\n{}", label::path(node), label::file(node));
         _ = writeln!(text, "  n{index} [label={}{style}];", quoted(&label));
     }
     for (index, embedding) in graph.embeddings.iter().enumerate() {

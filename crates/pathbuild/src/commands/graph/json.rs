@@ -40,7 +40,7 @@ pub(super) fn json(graph: &Graph) -> String {
         embeddings: graph.embeddings.iter().map(|it| embedding(graph, it)).collect(),
     };
     // Only maps with keys that are no text can fail to become JSON.
-    format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+    serde_json::to_string(&object).unwrap_or_default()
 }
 
 fn path(node: &Node) -> Path<'_> {

@@ -1,6 +1,8 @@
-//! How paths with their values are written.
+//! How paths with their values are written, all that acts in them escaped.
 
-use pathbuild_diagnostic::Code;
+use std::borrow::Cow;
+
+use pathbuild_diagnostic::{Code, shown};
 use pathbuild_path::{Bindings, PathName};
 
 use pathbuild_workspace::session::{End, Graph, Node};
@@ -8,6 +10,11 @@ use pathbuild_workspace::session::{End, Graph, Node};
 /// A path with the values of its variables as a subpath's text sets them: `2051.1P :A0,5 :BX`.
 pub(super) fn path(node: &Node) -> String {
     with_values(node.name.as_str(), &node.bindings)
+}
+
+/// The drawing of a path.
+pub(super) fn file(node: &Node) -> Cow<'_, str> {
+    shown::line(node.file.as_str())
 }
 
 /// What an embedding leads to.
@@ -20,15 +27,15 @@ pub(super) fn end(graph: &Graph, end: &End) -> String {
 
 /// What is not embedded, and why: `9999.1P (PB503 path-not-found)`.
 pub(super) fn nowhere(name: Option<&PathName>, code: Code) -> String {
-    format!("{} ({code} {})", name.map_or("?", PathName::as_str), code.name())
+    format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
 }
 
 fn with_values(name: &str, bindings: &Bindings) -> String {
-    let mut label = name.to_owned();
+    let mut label = shown::line(name).into_owned();
     for (variable, value) in bindings.iter() {
         label.push_str(" :");
         label.push(variable);
-        label.push_str(value);
+        label.push_str(&shown::line(value));
     }
     label
 }

@@ -8,7 +8,7 @@ use pathbuild_workspace::session::{End, Graph};
 pub(super) fn mermaid(graph: &Graph) -> String {
     let mut text = String::from("flowchart LR\n");
     for (index, node) in graph.nodes.iter().enumerate() {
-        let label = format!("{}<br>{}", escaped(&label::path(node)), escaped(node.file.as_str()));
+        let label = format!("{}<br>{}", escaped(&label::path(node)), escaped(&label::file(node)));
         _ = writeln!(text, "  n{index}[\"{label}\"]");
     }
     for (index, embedding) in graph.embeddings.iter().enumerate() {

@@ -117,11 +117,10 @@ impl Asked {
 }
 
 fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph) -> String) {
-    let printed = match context.format {
-        Format::Dot => dot::dot(graph),
-        Format::Mermaid => mermaid::mermaid(graph),
-        Format::Json => json::json(graph),
-        _ => text(graph),
-    };
-    context.printer.result(printed);
+    match context.format {
+        Format::Dot => context.printer.result(dot::dot(graph)),
+        Format::Mermaid => context.printer.result(mermaid::mermaid(graph)),
+        Format::Json => context.printer.result_json(json::json(graph)),
+        _ => context.printer.result(text(graph)),
+    }
 }

@@ -88,6 +88,6 @@ impl Words {
         if !node.is_sound {
             remarks.push(self.errors.to_owned());
         }
-        (format!("{}  {}", label::path(node), node.file), remarks)
+        (format!("{}  {}", label::path(node), label::file(node)), remarks)
     }
 }

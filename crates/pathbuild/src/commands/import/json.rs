@@ -27,7 +27,7 @@ pub(super) fn json(facts: &Facts<'_>) -> String {
         "tool_changes": summary.tool_changes,
         "taken": taken.collect::<Vec<_>>(),
     });
-    format!("{object}\n")
+    object.to_string()
 }
 
 fn tally(tally: &Tally) -> Value {

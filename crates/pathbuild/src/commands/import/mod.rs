@@ -18,12 +18,10 @@ pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
         match Program::open(context, file, &args.reading) {
             Ok(program) => {
                 let facts = Facts::new(context, &program);
-                let shown = if context.format == Format::Json {
-                    json::json(&facts)
-                } else {
-                    text::text(context, &facts)
-                };
-                context.printer.result(shown);
+                match context.format {
+                    Format::Json => context.printer.result_json(json::json(&facts)),
+                    _ => context.printer.result(text::text(context, &facts)),
+                }
                 diagnostics.extend(program.read.problems);
             }
             Err(problem) => diagnostics.push(*problem),

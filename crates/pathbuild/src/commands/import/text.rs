@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::Number;
+use pathbuild_diagnostic::{Number, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::summary::{Extent, Used};
 
@@ -29,7 +29,12 @@ impl Say<'_> {
     fn title(&self, facts: &Facts<'_>) -> String {
         let program = facts.program;
         let lines = self.is("lines", "Zeilen");
-        let mut title = format!("{}: {} {lines}, {}", program.file, program.lines(), program.dialect);
+        let mut title = format!(
+            "{}: {} {lines}, {}",
+            shown::line(program.file.as_str()),
+            program.lines(),
+            program.dialect
+        );
         if let Some(evidence) = program.evidence {
             let reason = self.is(evidence.reason.en, evidence.reason.de);
             _ = write!(title, " ({}: {reason}", self.is("guessed", "vermutet"));

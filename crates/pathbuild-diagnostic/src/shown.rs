@@ -1,0 +1,153 @@
+//! What may be shown. Names and texts come from strangers: a file name can hold escape sequences for the terminal, a line feed and
+//! behind it a command for a CI runner, or marks that turn the order of letters round. All such characters are shown escaped, and
+//! this is the only place that knows which they are.
+//!
+//! | function | for | line feeds | characters that act |
+//! | --- | --- | --- | --- |
+//! | [`line`] | a name or a text within a line | `\n` | `\u{1b}` |
+//! | [`framed`] | a text in a frame of ours | stay | `\u{1b}` |
+//! | [`lines`] | a whole output for people | stay | `\u{1b}` |
+//! | [`colored_lines`] | the same with colours of ours | stay | `\u{1b}`, but for colours |
+//! | [`json`] | a whole output in JSON | stay | `\u001b` |
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// Whether a character does something other than being seen: control characters, line and paragraph separators, marks for the
+/// direction of writing, characters without width, and tags.
+pub fn acts(character: char) -> bool {
+    // Most characters are decided by the first comparison.
+    match character {
+        ' '..='~' => false,
+        '\0'..='\u{9f}' => true,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}' => true,
+        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => true,
+        '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e0fff}' => true,
+        _ => false,
+    }
+}
+
+/// A name or a text as it is shown within a line.
+pub fn line(text: &str) -> Cow<'_, str> {
+    escaped(text, acts, escape)
+}
+
+/// A text of several lines that is shown in a frame.
+pub fn framed(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| c != '\n' && acts(c), escape)
+}
+
+/// An output of whole lines for people. No line of it is a command for a CI runner.
+pub fn lines(text: &str) -> Cow<'_, str> {
+    harmless_lines(framed(text))
+}
+
+/// The same, with sequences that choose colours: whatever is not ours must have passed [`line`] before.
+pub fn colored_lines(text: &str) -> Cow<'_, str> {
+    let acts = |c| !matches!(c, '\n' | '\u{1b}') && acts(c);
+    let escaped = escaped(text, acts, escape);
+    let is_color = |rest: &str| {
+        rest.strip_prefix("\u{1b}[").is_some_and(|codes| {
+            codes.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';').starts_with('m')
+        })
+    };
+    if escaped.match_indices('\u{1b}').all(|(at, _)| is_color(&escaped[at..])) {
+        return harmless_lines(escaped);
+    }
+    let mut all = String::with_capacity(escaped.len() + 16);
+    for (at, character) in escaped.char_indices() {
+        if character == '\u{1b}' && !is_color(&escaped[at..]) {
+            escape(&mut all, character);
+        } else {
+            all.push(character);
+        }
+    }
+    harmless_lines(all.into()).into_owned().into()
+}
+
+/// JSON that means the same. All characters that act stand in its strings, but for line feeds between values.
+pub fn json(text: &str) -> Cow<'_, str> {
+    let escaped = escaped(
+        text,
+        |c| c != '\n' && acts(c),
+        |escaped, character| {
+            for unit in character.encode_utf16(&mut [0; 2]) {
+                _ = write!(escaped, "\\u{unit:04x}");
+            }
+        },
+    );
+    broken_up(escaped, "\\u0023")
+}
+
+fn escape(escaped: &mut String, character: char) {
+    escaped.extend(character.escape_default());
+}
+
+fn escaped(text: &str, acts: impl Fn(char) -> bool, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
+    let Some(first) = text.find(&acts) else { return text.into() };
+    let mut escaped = String::with_capacity(text.len() + 16);
+    escaped.push_str(&text[..first]);
+    for character in text[first..].chars() {
+        if acts(character) {
+            escape(&mut escaped, character);
+        } else {
+            escaped.push(character);
+        }
+    }
+    escaped.into()
+}
+
+/// GitHub's runner takes a line that begins with `::`, or holds `##[`, for a command; Azure's one with `##vso[`.
+fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
+    let text = broken_up(text, "\\u{23}");
+    if !text.contains("::") {
+        return text;
+    }
+    let mut all = String::with_capacity(text.len() + 16);
+    for line in text.split_inclusive('\n') {
+        let start = start(line);
+        match line[start..].strip_prefix("::") {
+            Some(rest) => all.extend([&line[..start], "\\u{3a}:", rest]),
+            None => all.push_str(line),
+        }
+    }
+    all.into()
+}
+
+/// Where a line begins behind blanks and colours.
+fn start(line: &str) -> usize {
+    let mut rest = line;
+    loop {
+        let trimmed = rest.trim_start();
+        match trimmed.strip_prefix("\u{1b}[").and_then(|codes| codes.split_once('m')) {
+            Some((_, behind)) => rest = behind,
+            None => return line.len() - trimmed.len(),
+        }
+    }
+}
+
+/// Breaks up what CI runners look for anywhere in a line: `##[`, and letters between.
+fn broken_up<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
+    let is_command =
+        |rest: &str| rest[2..].trim_start_matches(|c: char| c.is_ascii_alphabetic()).starts_with('[');
+    let commands: Vec<usize> = hashes(&text).filter(|at| is_command(&text[*at..])).collect();
+    if commands.is_empty() {
+        return text;
+    }
+    let mut all = String::with_capacity(text.len() + 16);
+    let mut done = 0;
+    for at in commands {
+        all.extend([&text[done..=at], hash]);
+        done = at + 2;
+    }
+    all.push_str(&text[done..]);
+    all.into()
+}
+
+/// Where `##` begins that is followed by another character.
+fn hashes(text: &str) -> impl Iterator<Item = usize> {
+    text.match_indices('#').map(|(at, _)| at).filter(|at| {
+        let rest = &text.as_bytes()[at + 1..];
+        rest.first() == Some(&b'#') && rest.get(1) != Some(&b'#')
+    })
+}

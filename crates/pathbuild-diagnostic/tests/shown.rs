@@ -1,0 +1,68 @@
+//! What may be shown: nothing that acts on who shows it.
+
+use pathbuild_diagnostic::{Lang, Value, shown};
+
+/// Every character that acts, and the first behind and before each range of them.
+#[test]
+fn what_acts_is_known() {
+    for acting in
+        "\0\u{1}\u{8}\t\n\r\u{1b}\u{1f}\u{7f}\u{80}\u{85}\u{9b}\u{9f}\u{ad}\u{61c}\u{180e}\u{200b}\u{200f}\u{2028}\u{202a}\u{202e}\u{2060}\u{2066}\u{2069}\u{206f}\u{feff}\u{fff9}\u{fffb}\u{fffe}\u{ffff}\u{e0000}\u{e0001}\u{e007f}\u{e0fff}"
+            .chars()
+    {
+        assert!(shown::acts(acting), "{acting:?}");
+        assert_eq!(shown::line(&acting.to_string()), acting.escape_default().to_string());
+    }
+    for seen in " ~\u{a0}äßØ°²→…·\u{200a}\u{2010}\u{2027}\u{202f}\u{205f}\u{2070}\u{fff8}\u{fffc}漢🦀".chars()
+    {
+        assert!(!shown::acts(seen), "{seen:?}");
+        assert_eq!(shown::line(&seen.to_string()), seen.to_string());
+    }
+    for control in (0..=0x10_ffff).filter_map(char::from_u32).filter(|character| character.is_control()) {
+        assert!(shown::acts(control), "{control:?}");
+    }
+}
+
+#[test]
+fn a_name_stays_on_its_line() {
+    assert_eq!(shown::line("d\n::add-mask::e"), "d\\n::add-mask::e");
+    assert_eq!(shown::framed("d\n\u{1b}e"), "d\n\\u{1b}e");
+}
+
+#[test]
+fn no_line_is_a_command_of_a_runner() {
+    let broken = |text: &str| shown::lines(text).into_owned();
+    assert_eq!(broken("::stop-commands::x\n"), "\\u{3a}:stop-commands::x\n");
+    assert_eq!(broken("a\n \u{3000}::x\n"), "a\n \u{3000}\\u{3a}:x\n");
+    assert_eq!(broken("a ::x\n"), "a ::x\n");
+    assert_eq!(broken("a ##[add-mask]b"), "a #\\u{23}[add-mask]b");
+    assert_eq!(broken("###vso[task]##[x]"), "##\\u{23}vso[task]#\\u{23}[x]");
+    assert_eq!(broken("## Causes\n##\n[###---] [#####]"), "## Causes\n##\n[###---] [#####]");
+    assert_eq!(broken("## [a]"), "## [a]");
+}
+
+#[test]
+fn colours_stay_and_hide_no_command() {
+    let colored = |text: &str| shown::colored_lines(text).into_owned();
+    assert_eq!(colored("\u{1b}[31;1mred\u{1b}[0m\u{1b}[m"), "\u{1b}[31;1mred\u{1b}[0m\u{1b}[m");
+    assert_eq!(colored("\u{1b}[2J\u{1b}]0;x\u{7}\u{1b}"), "\\u{1b}[2J\\u{1b}]0;x\\u{7}\\u{1b}");
+    assert_eq!(colored("\u{1b}[31m::x"), "\u{1b}[31m\\u{3a}:x");
+    assert_eq!(colored("\u{1b}[31"), "\\u{1b}[31");
+}
+
+#[test]
+fn json_means_the_same() {
+    let value = serde_json::json!({ "a": "\0\n\u{7f}\u{9b}\u{202e}\u{e0001}##[x]###[y]ä", "b": [1] });
+    for text in [value.to_string(), format!("{value:#}")] {
+        let shown = shown::json(&text);
+        assert!(!shown.contains(|character| character != '\n' && shown::acts(character)), "{shown}");
+        assert!(!shown.contains("##["), "{shown}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).expect("JSON"), value);
+    }
+}
+
+#[test]
+fn values_of_messages_are_shown_on_one_line() {
+    let list: Value = ["a\nb", "\u{1b}"].into_iter().collect();
+    assert_eq!(list.render(Lang::En), "a\\nb, \\u{1b}");
+    assert_eq!(Value::from("\r\u{9b}").render(Lang::En), "\\r\\u{9b}");
+}
