@@ -3,31 +3,36 @@
 #![expect(clippy::disallowed_methods, reason = "see above")]
 
 use std::fs;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::Write;
 
-use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::ReadError;
+use camino::Utf8Path;
+use pathbuild_db::System;
+use pathbuild_db::system::{OsSystem, ReadError};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
-/// Whether it is a file.
-pub fn is_file(file: &Utf8Path) -> bool {
-    file.as_std_path().is_file()
+/// Whether anything but a directory has that name: what cannot be read is told when it is read.
+pub fn is_there(file: &Utf8Path) -> bool {
+    file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
 
 /// The text of a file, in UTF-8.
-pub fn read(file: &Utf8Path) -> io::Result<String> {
-    fs::read_to_string(file)
+///
+/// # Errors
+/// Why it cannot be read. It must be a regular file of at most `limit` bytes.
+pub fn read(file: &Utf8Path, limit: u64) -> Result<String, Box<str>> {
+    let bytes = OsSystem.read(file, limit).map_err(|error| match error {
+        ReadError::Missing => "there is no such file".into(),
+        ReadError::IsDirectory => "it is a directory".into(),
+        ReadError::TooLarge { size } => format!("it has {size} bytes, the limit is {limit}").into(),
+        ReadError::Other(reason) => reason,
+    })?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".into())
 }
 
 /// The last bytes of a file, at most so many; `None` where there is none.
 pub fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
-    let mut open = fs::File::open(file).ok()?;
-    let size = open.metadata().ok()?.len();
-    open.seek(SeekFrom::Start(size.saturating_sub(length))).ok()?;
-    let mut tail = Vec::new();
-    open.take(length).read_to_end(&mut tail).ok()?;
-    Some(tail)
+    OsSystem.tail(file, length).ok()
 }
 
 /// Writes a file that must not be there yet.
@@ -39,21 +44,18 @@ pub fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     written.map_err(|reason| Box::new(cannot_write(file, &reason.to_string())))
 }
 
-/// Writes a file whole or not at all: beside it first, then under its name. What is no file, such as a device, is written to as it is.
+/// Writes a file whole or not at all. What is no file, such as a device or a pipe, is written to as it is: it was named.
 ///
 /// # Errors
 /// A diagnostic that says why it cannot be written.
 pub fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
-    let beside = Utf8PathBuf::from(format!("{file}.{}.tmp", std::process::id()));
-    if file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir()) {
-        return fs::write(file, text).map_err(|reason| Box::new(cannot_write(file, &reason.to_string())));
-    }
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, file));
-    written.map_err(|reason| {
-        // It may not even have been made.
-        _ = fs::remove_file(&beside);
-        Box::new(cannot_write(file, &reason.to_string()))
-    })
+    let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
+    let written = if is_stream {
+        fs::write(file, text).map_err(|reason| reason.to_string().into())
+    } else {
+        OsSystem.write(file, text.as_bytes()).map(|_| ())
+    };
+    written.map_err(|reason: Box<str>| Box::new(cannot_write(file, &reason)))
 }
 
 /// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.

@@ -2,10 +2,12 @@
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
 mod directory;
+mod open;
+mod replace;
 mod whole;
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Read, Write};
+use std::fs;
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 use std::time::SystemTime;
 
@@ -31,6 +33,21 @@ impl OsSystem {
     }
 }
 
+impl OsSystem {
+    /// The last bytes of a file, at most so many.
+    ///
+    /// # Errors
+    /// As [`read`](System::read).
+    pub fn tail(self, path: &Utf8Path, length: u64) -> Result<Vec<u8>, ReadError> {
+        let mut file = open::open(path)?;
+        let size = open::regular_size(&file)?;
+        file.seek(SeekFrom::Start(size.saturating_sub(length)))?;
+        let mut tail = Vec::new();
+        file.take(length).read_to_end(&mut tail)?;
+        Ok(tail)
+    }
+}
+
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         let mut room = Vec::new();
@@ -45,13 +62,13 @@ impl System for OsSystem {
         limit: u64,
         room: &'r mut Vec<u8>,
     ) -> Result<&'r [u8], ReadError> {
-        let length = whole::read(&File::open(path)?, limit, room)?;
+        let length = whole::read(&open::open(path)?, limit, room)?;
         Ok(&room[..length])
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        let file = File::open(path)?;
-        whole::regular_size(&file)?;
+        let file = open::open(path)?;
+        open::regular_size(&file)?;
         let mut bytes = Vec::new();
         file.take(length as u64).read_to_end(&mut bytes)?;
         Ok(bytes)
@@ -87,11 +104,7 @@ impl System for OsSystem {
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
-        if fs::read(path).is_ok_and(|present| present == bytes) {
-            return Ok(Written::Unchanged);
-        }
-        write_beside(path, bytes).map_err(|error| reason(&error))?;
-        Ok(Written::Changed)
+        replace::replace(path, bytes).map_err(|error| reason(&error))
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
@@ -115,39 +128,6 @@ impl From<io::Error> for ReadError {
             _ => Self::Other(reason(&error)),
         }
     }
-}
-
-/// Writes a temporary file in the same directory and renames it, so that nobody ever sees half a program.
-fn write_beside(path: &Utf8Path, bytes: &[u8]) -> io::Result<()> {
-    if let Some(parent) = path.parent().filter(|parent| !parent.as_str().is_empty()) {
-        fs::create_dir_all(parent)?;
-    }
-    if fs::metadata(path).is_ok_and(|data| data.is_dir()) {
-        return Err(io::Error::new(ErrorKind::IsADirectory, "a directory has that name"));
-    }
-    let (temporary, mut file) = temporary(path)?;
-    let written = file.write_all(bytes).and_then(|()| file.flush());
-    drop(file);
-    let renamed = written.and_then(|()| fs::rename(&temporary, path));
-    if renamed.is_err() {
-        // Best effort: the error that is reported is the one that came first.
-        _ = fs::remove_file(&temporary);
-    }
-    renamed
-}
-
-/// A new file beside `path`, under a name that no other run of the program has taken.
-fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
-    let name = path.file_name().unwrap_or("output");
-    for attempt in 0..1000_u32 {
-        let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
-        match OpenOptions::new().write(true).create_new(true).open(&candidate) {
-            Ok(file) => return Ok((candidate, file)),
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Err(io::Error::new(ErrorKind::AlreadyExists, "too many temporary files beside it"))
 }
 
 /// The system's words without the number that follows them.

@@ -10,7 +10,7 @@ pub const FILE_NAME: &str = "pathbuild.toml";
 
 /// The configuration of a directory: in it, or in the nearest directory above.
 pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
-    directory.ancestors().map(|directory| directory.join(FILE_NAME)).find(|file| files::is_file(file))
+    directory.ancestors().map(|directory| directory.join(FILE_NAME)).find(|file| files::is_there(file))
 }
 
 /// Arguments that lie under another configuration than the one of the run.

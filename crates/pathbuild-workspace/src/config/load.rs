@@ -28,8 +28,11 @@ pub fn load(given: &Overrides, inputs: &Inputs, working_directory: &Utf8Path) ->
     (Settings { file, ..options.over(configured).resolve() }, diagnostics)
 }
 
+/// Bytes of a configuration. What limits everything else is written in it, so this one is fixed.
+const LARGEST: u64 = 4 << 20;
+
 fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
-    match files::read(file) {
+    match files::read(file, LARGEST) {
         Ok(text) => {
             let (options, faults) = parse(file, &text);
             diagnostics.extend(faults);
@@ -37,9 +40,7 @@ fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
         }
         Err(reason) => {
             diagnostics.push(
-                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE)
-                    .in_file(file)
-                    .with("reason", reason.to_string()),
+                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file).with("reason", &*reason),
             );
             Options::default()
         }

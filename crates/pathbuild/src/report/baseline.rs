@@ -29,17 +29,13 @@ pub(super) struct Compared {
 }
 
 impl Baseline {
-    /// Reads a file.
+    /// Reads a file of at most `limit` bytes.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn read(file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
-        let text = files::read(file).map_err(|reason| {
-            vec![
-                Diagnostic::new(&messages::BASELINE_UNREADABLE)
-                    .in_file(file)
-                    .with("reason", reason.to_string()),
-            ]
+    pub fn read(file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
+        let text = files::read(file, limit).map_err(|reason| {
+            vec![Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", &*reason)]
         })?;
         Self::parse(file, &text)
     }

@@ -30,7 +30,10 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitSt
         Some(file) if args.update_baseline => {
             update(context, &context.working_directory.join(file), &findings)
         }
-        Some(file) => match Baseline::read(&context.working_directory.join(file)) {
+        Some(file) => match Baseline::read(
+            &context.working_directory.join(file),
+            context.settings.limits.file_size.value,
+        ) {
             Ok(baseline) => deliver(context, args, &baseline.compare(findings), checked.time),
             Err(faults) => context.refuse(faults),
         },

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{self, ErrorKind};
 
+use super::open::{not_regular, regular_size};
 use crate::system::ReadError;
 
 /// Most drawings have less.
@@ -33,22 +34,6 @@ pub(super) fn read(file: &File, limit: u64, room: &mut Vec<u8>) -> Result<usize,
         length = fill(file, room, length)?;
     }
     if length as u64 > limit { Err(ReadError::TooLarge { size: length as u64 }) } else { Ok(length) }
-}
-
-/// The size of a regular file. Pipes and devices are refused: reading them may never end.
-pub(super) fn regular_size(file: &File) -> Result<u64, ReadError> {
-    let data = file.metadata()?;
-    if data.is_dir() {
-        return Err(ReadError::IsDirectory);
-    }
-    if !data.is_file() {
-        return Err(not_regular());
-    }
-    Ok(data.len())
-}
-
-fn not_regular() -> ReadError {
-    ReadError::Other("it is not a regular file".into())
 }
 
 /// Reads on from where `room` is filled to, until there is no more, or no more room; how far it is filled then.

@@ -1,0 +1,59 @@
+//! Opening what may be read: regular files, nothing else. A pipe would be waited for, a device has no end.
+
+use std::fs::File;
+use std::io;
+
+use camino::Utf8Path;
+
+use crate::system::ReadError;
+
+/// Opens a file for reading. What is no regular file is opened at most for a moment, and never waited for.
+///
+/// # Errors
+/// When there is none, or it cannot be opened.
+pub(super) fn open(path: &Utf8Path) -> Result<File, ReadError> {
+    open_at_once(path).map_err(|error| {
+        // A socket cannot be opened at all: say what it is rather than what the system says.
+        match path.as_std_path().metadata() {
+            Ok(data) if !data.is_file() && !data.is_dir() => not_regular(),
+            _ => error.into(),
+        }
+    })
+}
+
+/// The size of a regular file.
+///
+/// # Errors
+/// When it is something else.
+pub(super) fn regular_size(file: &File) -> Result<u64, ReadError> {
+    let data = file.metadata()?;
+    if data.is_dir() {
+        return Err(ReadError::IsDirectory);
+    }
+    if !data.is_file() {
+        return Err(not_regular());
+    }
+    Ok(data.len())
+}
+
+pub(super) fn not_regular() -> ReadError {
+    ReadError::Other(NOT_REGULAR.into())
+}
+
+/// What is said of pipes, sockets and devices.
+pub(super) const NOT_REGULAR: &str = "it is not a regular file";
+
+/// Without `NONBLOCK`, opening a pipe waits for whoever writes into it.
+#[cfg(unix)]
+fn open_at_once(path: &Utf8Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags};
+
+    let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    Ok(rustix::fs::open(path.as_str(), flags, Mode::empty())?.into())
+}
+
+#[cfg(not(unix))]
+#[expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
+fn open_at_once(path: &Utf8Path) -> io::Result<File> {
+    File::open(path)
+}

@@ -1,0 +1,120 @@
+//! Writing a file whole or not at all: a temporary file beside it takes its name.
+//!
+//! Who writes a temporary file holds a lock on it. A run that was killed holds none any more: what it left is removed by the next run
+//! that writes in that directory.
+
+#![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
+
+use std::collections::HashSet;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Read, Write};
+use std::ops::ControlFlow;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::{directory, open, readable};
+use crate::system::{EntryKind, Written};
+
+/// Gives a file these bytes, if it has others.
+///
+/// # Errors
+/// When it cannot be written, or is a pipe, socket or device; nothing is left under the name that was not there before.
+pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
+    let parent = path.parent().unwrap_or(Utf8Path::new(""));
+    remove_debris(parent);
+    match path.as_std_path().metadata() {
+        Ok(data) if data.is_dir() => {
+            return Err(io::Error::new(ErrorKind::IsADirectory, "a directory has that name"));
+        }
+        Ok(data) if !data.is_file() => return Err(io::Error::other(open::NOT_REGULAR)),
+        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => return Ok(Written::Unchanged),
+        _ => {}
+    }
+    if !parent.as_str().is_empty() {
+        fs::create_dir_all(parent)?;
+    }
+    let (temporary, mut file) = temporary(path)?;
+    let written = file.write_all(bytes).and_then(|()| file.flush());
+    // The lock is held until the name is the file's own.
+    let renamed = written.and_then(|()| fs::rename(&temporary, path));
+    if renamed.is_err() {
+        // Best effort: the error that is reported is the one that came first.
+        _ = fs::remove_file(&temporary);
+    }
+    renamed.map(|()| Written::Changed)
+}
+
+/// Whether a file has just these bytes, looked at piece by piece.
+fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
+    let Ok(mut file) = open::open(path) else { return false };
+    let mut piece = [0; 1 << 15];
+    let mut rest = bytes;
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return rest.is_empty(),
+            Ok(length) => match rest.split_at_checked(length) {
+                Some((expected, behind)) if *expected == piece[..length] => rest = behind,
+                _ => return false,
+            },
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(_) => return false,
+        }
+    }
+}
+
+/// A new file beside `path`, locked, under a name that no other run of the program has taken.
+fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
+    let name = path.file_name().unwrap_or("output");
+    for attempt in 0..1000_u32 {
+        let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
+        match OpenOptions::new().write(true).create_new(true).open(&candidate) {
+            Ok(file) => match file.try_lock() {
+                // Another run took it for debris between these two lines, and removes it.
+                Err(TryLockError::WouldBlock) => {}
+                // Where there are no locks nothing is taken for debris.
+                Err(TryLockError::Error(_)) => return Ok((candidate, file)),
+                // It may be removed already.
+                Ok(()) if candidate.as_std_path().symlink_metadata().is_err() => {}
+                Ok(()) => return Ok((candidate, file)),
+            },
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(io::Error::new(ErrorKind::AlreadyExists, "too many temporary files beside it"))
+}
+
+/// Removes the temporary files of runs that are gone, once a run in each directory.
+fn remove_debris(directory: &Utf8Path) {
+    static DONE: LazyLock<Mutex<HashSet<Utf8PathBuf>>> = LazyLock::new(Mutex::default);
+    if !DONE.lock().unwrap_or_else(PoisonError::into_inner).insert(directory.to_owned()) {
+        return;
+    }
+    let mut found = Vec::new();
+    // A directory that cannot be listed has no debris that could be removed.
+    _ = directory::each_entry(readable(directory), |entry| {
+        if entry.kind == EntryKind::File && entry.is_exact && is_temporary(entry.name) {
+            found.push(directory.join(entry.name));
+        }
+        ControlFlow::Continue(())
+    });
+    for debris in found {
+        let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
+        let is_left = || open::open(&debris).ok().filter(|file| file.try_lock().is_ok());
+        if let Some(_locked) = is_regular.then(is_left).flatten() {
+            // What cannot be removed harms nobody.
+            _ = fs::remove_file(&debris);
+        }
+    }
+}
+
+/// `.NAME.123-0.tmp`
+fn is_temporary(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.strip_prefix('.')
+        .and_then(|name| name.strip_suffix(".tmp"))
+        .and_then(|name| name.rsplit_once('.'))
+        .and_then(|(name, numbers)| numbers.split_once('-').filter(|_| !name.is_empty()))
+        .is_some_and(|(process, attempt)| number(process) && number(attempt))
+}
