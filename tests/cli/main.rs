@@ -34,6 +34,7 @@ mod render;
 mod report;
 mod shown;
 mod since;
+mod strangers;
 mod support;
 mod usage;
 mod watch;

@@ -251,3 +251,27 @@ fn what_cannot_be_watched_is_wrong_usage() {
         .run("watch --emit");
     assert_eq!(run.status, Some(2), "{run}");
 }
+
+/// Editors write a configuration in pieces, or remove it first.
+#[test]
+fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    for wrong in [
+        "feed = \n",
+        "[emit]\ntargets = 5\n",
+        "post = \"nowhere.toml\"\nfeed = 150\nlibrary = [\"library\"]\n",
+    ] {
+        watch.write("pathbuild.toml", wrong);
+        let said = watch.until("put right");
+        assert!(said.iter().any(|line| line.contains("error[PB")), "{said:#?}");
+        watch.write("pathbuild.toml", CONFIGURATION);
+        watch.until("watching ");
+    }
+    fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
+    watch.until("put right");
+    watch.write("pathbuild.toml", CONFIGURATION);
+    watch.until("watching ");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    watch.until("1001.dxf: changed");
+}

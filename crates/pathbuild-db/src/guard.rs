@@ -28,6 +28,17 @@ impl Underway {
 }
 
 impl Database {
+    /// Forgets that work was given up which has ended: what is asked next is not meant.
+    pub fn forget_given_up(&self) {
+        // Salsa does so whenever a query ends that no other asked for.
+        self.attach(|_| ());
+    }
+
+    /// Gives up the work here, between two queries, if it has taken too long.
+    pub fn give_up_if_late(&self) {
+        self.unwind_if_revision_cancelled();
+    }
+
     /// Work that begins now on this handle.
     pub fn underway(&self) -> Underway {
         Underway { begun: Instant::now(), token: self.cancellation_token() }

@@ -49,6 +49,9 @@ pub fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
 /// # Errors
 /// A diagnostic that says why it cannot be written.
 pub fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+    if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
+        return Err(Box::new(cannot_write(file, "there is no such directory")));
+    }
     let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
     let written = if is_stream {
         fs::write(file, text).map_err(|reason| reason.to_string().into())
@@ -60,6 +63,11 @@ pub fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
 
 /// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.
 pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
+    unreadable_by(file, error, limit, "file-size")
+}
+
+/// Why a file cannot be read, of which the limit has this key.
+pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'static str) -> Diagnostic {
     let diagnostic = match error {
         ReadError::Missing => Diagnostic::new(&files::MISSING),
         ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
@@ -67,7 +75,7 @@ pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic 
         ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
             .with("what", format!("the file's size of {size} bytes"))
             .with("limit", format!("{limit} bytes"))
-            .with("key", "file-size"),
+            .with("key", key),
     };
     diagnostic.in_file(file)
 }

@@ -10,6 +10,7 @@ pub mod progress;
 pub mod render;
 pub mod report;
 mod usage;
+mod watching;
 
 use std::ffi::OsString;
 
@@ -21,9 +22,8 @@ use std::rc::Rc;
 pub use context::Context;
 pub use exit::ExitStatus;
 
-use args::{Cli, Command, CommonArgs, CompatArgs, WatchArgs};
+use args::{Cli, Command, CommonArgs, CompatArgs};
 use commands::compat::{self, Translated};
-use commands::watch::Ended;
 use printer::{ColorChoice, Printer};
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
@@ -60,9 +60,9 @@ fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
 
 fn execute(cli: &Cli) -> ExitStatus {
     if let Command::Watch(args) = &cli.command {
-        return watch(cli, args);
+        return watching::run(cli, args);
     }
-    let (context, faults) = context(cli);
+    let (context, faults) = context_of(cli);
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {
@@ -71,25 +71,8 @@ fn execute(cli: &Cli) -> ExitStatus {
     context.printer.finish(status)
 }
 
-/// Watches, from the beginning again whenever the configuration changes.
-fn watch(cli: &Cli, args: &WatchArgs) -> ExitStatus {
-    loop {
-        let (context, faults) = context(cli);
-        if !faults.is_empty() {
-            return context.printer.finish(context.refuse(faults));
-        }
-        match commands::watch::run(&context, args) {
-            Ended::With(status) => return context.printer.finish(status),
-            Ended::ConfigurationChanged => context.printer.status(context.choose(
-                "the configuration or its post changed",
-                "die Konfiguration oder ihr Postprozessor wurde geändert",
-            )),
-        }
-    }
-}
-
 /// The surroundings, and what is wrong with the configuration.
-fn context(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
+fn context_of(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
     let working_directory = working_directory();
     let (settings, faults) = config::load(&common.overrides(), &command.inputs(), &working_directory);
     let printer = Rc::new(Printer::new(common.verbosity(), common.color.unwrap_or_default()));

@@ -49,10 +49,10 @@ fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
 
 /// A text that is no TOML gives its faults only, since what can still be read of it may lack half of a table.
 fn parse(file: &Utf8Path, text: &str) -> (Options, Vec<Diagnostic>) {
-    let source = Source { file, text };
+    let source = Source::new(file, text);
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        let mut faults: Vec<_> = errors.iter().map(|error| syntax_fault(error, source)).collect();
+        let mut faults: Vec<_> = errors.iter().map(|error| syntax_fault(error, &source)).collect();
         // What follows on the same line only follows from it.
         faults.dedup_by_key(|fault| fault.place.line);
         return (Options::default(), faults);
@@ -63,7 +63,7 @@ fn parse(file: &Utf8Path, text: &str) -> (Options, Vec<Diagnostic>) {
     (options, reader.finish())
 }
 
-fn syntax_fault(error: &toml::de::Error, source: Source<'_>) -> Diagnostic {
+fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     let reason = error.message().lines().next().unwrap_or_default();
     source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", reason)
 }

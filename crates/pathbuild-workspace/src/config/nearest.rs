@@ -1,12 +1,24 @@
 /// The known name that is nearest to a misspelt one, if one is near: at most a third of its letters differ.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // All that is known is shorter: two thirds of such a name would be others.
+    if name.len() > LONGEST {
+        return None;
+    }
     let name: Vec<char> = name.to_lowercase().chars().collect();
+    let most = name.len().div_ceil(3);
     let near = |candidate: &'a str| {
+        // A letter more or less is one that differs.
+        if candidate.chars().count().abs_diff(name.len()) > most {
+            return None;
+        }
         let distance = distance(&name, &candidate.to_lowercase().chars().collect::<Vec<_>>());
-        (distance <= name.len().div_ceil(3)).then_some((distance, candidate))
+        (distance <= most).then_some((distance, candidate))
     };
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }
+
+/// Bytes of a name that may be a known one misspelt.
+const LONGEST: usize = 200;
 
 /// How many letters must be changed, put in, left out or swapped with their neighbour (optimal string alignment).
 fn distance(a: &[char], b: &[char]) -> usize {

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -53,7 +54,7 @@ impl<'a> Reader<'a> {
     /// Reads what a key of the table that is being read holds.
     pub(super) fn within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
         let table = std::mem::take(&mut self.key);
-        self.key = format!("{table}.{name}");
+        self.key = format!("{table}.{}", short(name));
         let value = read(self);
         self.key = table;
         value
@@ -98,6 +99,15 @@ impl<'a> Reader<'a> {
     pub(super) fn finish(self) -> Vec<Diagnostic> {
         self.diagnostics
     }
+}
+
+/// A name as messages say it: one of many kilobytes is said by its beginning.
+fn short(name: &str) -> Cow<'_, str> {
+    const MOST: usize = 100;
+    if name.len() <= MOST {
+        return name.into();
+    }
+    format!("{}…", &name[..name.floor_char_boundary(MOST)]).into()
 }
 
 /// Keys of earlier versions, and those that replace them.
@@ -148,7 +158,7 @@ impl<'a> Table<'_, '_, 'a> {
 
     fn report_unknown(&mut self) {
         for key in self.content.keys().filter(|key| !self.known.contains(&&**key.get_ref())) {
-            self.reader.key = format!("{}{}", self.prefix, key.get_ref());
+            self.reader.key = format!("{}{}", self.prefix, short(key.get_ref()));
             let replaced = REPLACED.iter().find(|(old, _)| old == key.get_ref());
             if let Some((_, new)) = replaced.filter(|(_, new)| self.known.contains(new)) {
                 let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).with("new", *new);

@@ -3,33 +3,55 @@ use std::ops::Range;
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
-/// A text file, and how a byte of it becomes a line and column.
-#[derive(Clone, Copy, Debug)]
+/// A text file, and how a byte of it becomes a line and column. What is asked once for each fault takes no time that grows with the file.
+#[derive(Clone, Debug)]
 pub(super) struct Source<'a> {
-    pub(super) file: &'a Utf8Path,
-    pub(super) text: &'a str,
+    file: &'a Utf8Path,
+    text: &'a str,
+    /// Where each line begins.
+    lines: Vec<usize>,
+    /// How many characters begin before each block of bytes.
+    characters: Vec<usize>,
 }
 
+/// Bytes of which characters are counted at once.
+const BLOCK: usize = 1 << 10;
+
+/// Bytes of a line that are shown on each side of a fault.
+const AROUND: usize = 200;
+
 impl<'a> Source<'a> {
+    /// A file with this text.
+    pub(super) fn new(file: &'a Utf8Path, text: &'a str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect();
+        let counts = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
+            let count = *before;
+            *before += beginnings(block);
+            Some(count)
+        });
+        Self { file, text, lines, characters: counts.collect() }
+    }
+
     /// A diagnostic that underlines a byte range; of a range over several lines, its part in the first.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         let start = self.text.floor_char_boundary(span.start);
-        let line = self.line_around(start);
-        let column = self.text[line.start..start].chars().count() + 1;
-        let text = &self.text[line.clone()];
+        let number = self.line_index(start);
+        let begin = self.lines[number];
+        let column = self.character(start) - self.character(begin) + 1;
+        let (from, end) = (self.shown_from(begin, start), self.shown_to(start, span.end));
         Diagnostic::new(message)
             .in_file(self.file)
             .at_line(self.line_number(start), u32::try_from(column).ok())
             .with_text(TextFault::new(
-                text,
-                start - line.start..span.end.min(line.end).saturating_sub(line.start),
+                &self.text[from..end],
+                start - from..span.end.min(end).saturating_sub(from),
             ))
     }
 
     /// The line, from 1, in which a byte is.
     pub(super) fn line_number(&self, byte: usize) -> u32 {
-        let before = &self.text[..self.text.floor_char_boundary(byte)];
-        u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX)
+        u32::try_from(self.line_index(byte) + 1).unwrap_or(u32::MAX)
     }
 
     /// A byte range of the text, as it stands there.
@@ -37,9 +59,31 @@ impl<'a> Source<'a> {
         self.text.get(span).unwrap_or_default()
     }
 
-    fn line_around(&self, byte: usize) -> Range<usize> {
-        let start = self.text[..byte].rfind('\n').map_or(0, |end| end + 1);
-        let end = self.text[byte..].find(['\n', '\r']).map_or(self.text.len(), |length| byte + length);
-        start..end.max(start)
+    fn line_index(&self, byte: usize) -> usize {
+        self.lines.partition_point(|line| *line <= byte).saturating_sub(1)
     }
+
+    /// How many characters begin before a byte.
+    fn character(&self, byte: usize) -> usize {
+        let block = (byte / BLOCK).min(self.characters.len().saturating_sub(1));
+        let rest = &self.text.as_bytes()[block * BLOCK..byte];
+        self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
+    }
+
+    /// From where a line is shown that has a fault at `start`.
+    fn shown_from(&self, begin: usize, start: usize) -> usize {
+        begin.max(self.text.floor_char_boundary(start.saturating_sub(AROUND)))
+    }
+
+    /// To where, if the fault ends at `end`.
+    fn shown_to(&self, start: usize, end: usize) -> usize {
+        let most =
+            self.text.ceil_char_boundary((end.clamp(start, start + AROUND)) + AROUND).min(self.text.len());
+        self.text[start..most].find(['\n', '\r']).map_or(most, |length| start + length)
+    }
+}
+
+/// How many characters begin in these bytes.
+fn beginnings(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| (**byte as i8) >= -0x40).count()
 }

@@ -1,7 +1,7 @@
 //! Values that are more than a number or a text.
 
 use camino::{Utf8Path, Utf8PathBuf};
-use globset::{Glob, GlobBuilder, GlobMatcher};
+use globset::{GlobBuilder, GlobSet};
 use pathbuild_diagnostic::{Code, Lang, Severity};
 use pathbuild_path::LineType;
 
@@ -131,7 +131,13 @@ pub struct Restriction {
 
 /// A pattern of names: of paths, or of files relative to the configuration's directory. Case does not count.
 #[derive(Clone, Debug)]
-pub struct Pattern(GlobMatcher);
+pub struct Pattern {
+    text: Box<str>,
+    set: GlobSet,
+}
+
+/// Bytes of a glob: braces in each other need a stack of their depth.
+const LONGEST: usize = 1000;
 
 impl Pattern {
     /// Reads a glob, in which `*` does not match `/`.
@@ -139,18 +145,23 @@ impl Pattern {
     /// # Errors
     /// What is wrong with it.
     pub fn new(text: &str) -> Result<Self, String> {
+        if text.len() > LONGEST {
+            return Err(format!("it is longer than {LONGEST} bytes"));
+        }
         let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
-        glob.map(|glob| Self(glob.compile_matcher())).map_err(|error| error.kind().to_string())
+        // A set says what a matcher by itself panics of: that the expression is too large, or its braces too deep.
+        let set = glob.and_then(|glob| GlobSet::builder().add(glob).build());
+        set.map(|set| Self { text: text.into(), set }).map_err(|error| error.kind().to_string())
     }
 
     /// Whether a name matches.
     pub fn matches(&self, name: &str) -> bool {
-        self.0.is_match(name)
+        self.set.is_match(name)
     }
 
     /// The pattern as it was written.
     pub fn text(&self) -> &str {
-        Glob::glob(self.0.glob())
+        &self.text
     }
 }
 

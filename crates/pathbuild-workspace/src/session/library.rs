@@ -3,14 +3,17 @@
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use std::path::is_separator;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use ignore::WalkBuilder;
 use pathbuild_cache::{Listing, ListingKind, Listings};
-use pathbuild_db::system::{Entry, EntryKind, OsSystem};
+use pathbuild_db::System;
+use pathbuild_db::system::{Entry, EntryKind, Kind, OsSystem};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
+
+use super::ignoring::{self, Rules};
 
 /// What lies in a directory and below.
 #[derive(Debug, Default)]
@@ -33,6 +36,8 @@ const FEW: usize = 4;
 pub(super) struct Walk {
     /// How many files and directories there may be.
     pub(super) limit: u64,
+    /// How many bytes a file of rules may have.
+    pub(super) rules_limit: u64,
     /// Whether on all cores.
     pub(super) is_parallel: bool,
 }
@@ -41,7 +46,10 @@ impl Walk {
     /// Every drawing in a directory and below; .gitignore and .ignore files inside are respected. Links to directories are not followed: they
     /// could lead anywhere, and round in circles. What is found is spelt as the root is: normally, if that is.
     pub(super) fn through(self, root: &Utf8Path) -> Walked {
-        let (mut walked, count) = self.plain(root).unwrap_or_else(|HasRules| self.ruled(root));
+        let (mut walked, count) = match self.levels(root) {
+            Ok(walked) => walked,
+            Err(problem) => return Walked { problem: Some(problem), ..Walked::default() },
+        };
         if count > self.limit.saturating_add(1) {
             let problem = Some(Box::new(too_many(readable(root), self.limit)));
             return Walked { problem, ..Walked::default() };
@@ -52,14 +60,15 @@ impl Walk {
         walked
     }
 
-    /// The same as long as there are no rules, and how much was found: most libraries have none, and to look for them at each of ten thousand
-    /// entries takes longer than all the rest. Nothing more is looked for once there is more than the limit allows.
-    fn plain(self, root: &Utf8Path) -> Result<(Walked, u64), HasRules> {
+    /// The same out of order, and how much was found. Nothing more is looked for once there is more than the limit allows.
+    fn levels(self, root: &Utf8Path) -> Result<(Walked, u64), Box<Diagnostic>> {
         let mut walked = Walked::default();
-        let mut open = vec![root.to_owned()];
+        let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
         let mut count = 1;
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
-            let list = |directory: &Utf8PathBuf| Directory::list(directory, self.limit);
+            let list = |(directory, above): &(Utf8PathBuf, Option<Arc<Rules>>)| {
+                Directory::list(directory, above.clone(), self)
+            };
             let is_parallel = self.is_parallel && open.len() > FEW;
             let listed: Vec<_> = if is_parallel {
                 open.par_iter().map(list).collect()
@@ -67,16 +76,20 @@ impl Walk {
                 open.iter().map(list).collect()
             };
             let mut next = Vec::new();
-            for (directory, listed) in open.into_iter().zip(listed) {
+            for ((directory, _), listed) in open.into_iter().zip(listed) {
                 match listed? {
                     Some(listed) => {
                         count += listed.count;
                         walked.drawings.extend(listed.drawings);
-                        next.extend(listed.directories);
+                        let rules = listed.rules;
+                        next.extend(listed.directories.into_iter().map(|below| (below, rules.clone())));
                         walked.listings.insert(directory.clone(), listed.listing);
                     }
-                    // A root that is no directory is for those who know all cases.
-                    None if walked.directories.is_empty() => return Err(HasRules),
+                    // What was named may be a drawing.
+                    None if directory == *root && OsSystem.kind(root) == Kind::File => {
+                        walked.drawings.extend(is_drawing(root).then(|| root.to_owned()));
+                        continue;
+                    }
                     None => {}
                 }
                 walked.directories.push(directory);
@@ -84,34 +97,6 @@ impl Walk {
             open = next;
         }
         Ok((walked, count))
-    }
-
-    /// The same where there are rules.
-    fn ruled(self, root: &Utf8Path) -> (Walked, u64) {
-        let mut walk = WalkBuilder::new(readable(root));
-        // Only what the directory itself says counts: results must not depend on the person's global Git settings.
-        walk.hidden(true).parents(false).git_global(false).git_exclude(false).require_git(false);
-        let most = usize::try_from(self.limit).unwrap_or(usize::MAX).saturating_add(2);
-        let mut walked = Walked::default();
-        let mut count = 0;
-        let named = walk.build().filter_map(Result::ok).filter_map(|entry| {
-            let path = Utf8Path::from_path(entry.path())?;
-            let path = if root.as_str().is_empty() { path.strip_prefix(".").unwrap_or(path) } else { path };
-            // What was named may be a link itself.
-            let is_directory = entry
-                .file_type()
-                .is_some_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.depth() == 0));
-            Some((path.to_owned(), is_directory))
-        });
-        for (path, is_directory) in named.take(most) {
-            count += 1;
-            if is_directory {
-                walked.directories.push(path);
-            } else if is_drawing(&path) {
-                walked.drawings.push(path);
-            }
-        }
-        (walked, count)
     }
 }
 
@@ -125,9 +110,6 @@ pub(super) fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-/// There are files of rules that say what does not count.
-struct HasRules;
-
 /// What is in one directory.
 #[derive(Default)]
 struct Directory {
@@ -136,22 +118,37 @@ struct Directory {
     listing: Listing,
     /// The same of names that are no UTF-8: nothing can be found under their spellings.
     inexact: Listing,
-    /// How much there is, hidden things aside.
+    /// What does not count here and below, where something says so.
+    rules: Option<Arc<Rules>>,
+    /// How much there is that counts.
     count: u64,
 }
 
 impl Directory {
     /// Nothing where it cannot be listed.
-    fn list(directory: &Utf8Path, limit: u64) -> Result<Option<Self>, HasRules> {
-        let mut found = Self::default();
-        let mut has_rules = false;
-        let listed = OsSystem.each_entry(directory, |entry| {
-            has_rules = entry.is_exact && matches!(entry.name, ".gitignore" | ".ignore");
+    fn list(
+        directory: &Utf8Path,
+        above: Option<Arc<Rules>>,
+        walk: Walk,
+    ) -> Result<Option<Self>, Box<Diagnostic>> {
+        let mut found = Self { rules: above.clone(), ..Self::default() };
+        let mut has_own = false;
+        let mut listed = OsSystem.each_entry(directory, |entry| {
+            has_own = entry.is_exact && ignoring::changes_rules(entry.name, above.is_some());
             found.add(directory, entry);
-            if has_rules || found.count > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if has_own || found.count > walk.limit {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         });
-        if has_rules {
-            return Err(HasRules);
+        if has_own {
+            // Most directories have no rules of their own: those that have are listed again, by them.
+            found = Self { rules: Some(Rules::read(directory, above, walk.rules_limit)?), ..Self::default() };
+            listed = OsSystem.each_entry(directory, |entry| {
+                found.add(directory, entry);
+                if found.count > walk.limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
         }
         if listed.is_err() && found.listing.names.is_empty() && found.count == 0 {
             return Ok(None);
@@ -159,7 +156,7 @@ impl Directory {
         // Who looks for a path must not miss what was not told.
         found.listing.is_doubtful |= listed.is_err();
         found.listing.names.sort_by(by_name);
-        let drawings = found.listing.names.iter().filter(|name| !is_hidden(name));
+        let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
         found.drawings = drawings.map(|name| joined(directory, name)).collect();
         if !found.inexact.names.is_empty() {
             found.listing.is_doubtful |= found.inexact.is_doubtful;
@@ -174,11 +171,20 @@ impl Directory {
             let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
             listing.add(ListingKind::Drawings, name, kind == EntryKind::Link);
         }
-        if is_exact && !is_hidden(name) {
+        let is_directory = kind == EntryKind::Directory;
+        if is_exact && self.counts(directory, name, is_directory) {
             self.count += 1;
-            if kind == EntryKind::Directory {
+            if is_directory {
                 self.directories.push(joined(directory, name));
             }
+        }
+    }
+
+    /// Whether a name is part of the library.
+    fn counts(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
+        match &self.rules {
+            Some(rules) => !rules.exclude(&joined(directory, name), is_directory),
+            None => !is_hidden(name),
         }
     }
 }

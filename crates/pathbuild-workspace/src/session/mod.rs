@@ -3,6 +3,7 @@
 mod combinations;
 mod elsewhere;
 mod graph;
+mod ignoring;
 mod keeper;
 mod library;
 mod outputs;

@@ -169,8 +169,12 @@ impl Session<'_> {
     }
 
     fn walk(&self) -> library::Walk {
-        let limit = self.context.settings.limits.library_entries.value;
-        library::Walk { limit, is_parallel: self.context.jobs != Some(1) }
+        let limits = &self.context.settings.limits;
+        library::Walk {
+            limit: limits.library_entries.value,
+            rules_limit: limits.ignore_file_size.value,
+            is_parallel: self.context.jobs != Some(1),
+        }
     }
 
     /// What keeps the library, or without one the working directory, from being looked through.

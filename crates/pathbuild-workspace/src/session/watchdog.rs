@@ -26,6 +26,7 @@ struct State {
 /// Work that is watched until this is dropped.
 pub(super) struct Watched<'a> {
     watchdog: &'a Watchdog,
+    db: &'a Database,
     place: usize,
 }
 
@@ -38,7 +39,7 @@ impl Watchdog {
         Self(shared)
     }
 
-    pub(super) fn begin(&self, db: &Database) -> Watched<'_> {
+    pub(super) fn begin<'a>(&'a self, db: &'a Database) -> Watched<'a> {
         let mut state = self.0.state();
         let free = state.underway.iter().position(Option::is_none);
         let place = free.unwrap_or_else(|| {
@@ -46,7 +47,7 @@ impl Watchdog {
             state.underway.len() - 1
         });
         state.underway[place] = Some(db.underway());
-        Watched { watchdog: self, place }
+        Watched { watchdog: self, db, place }
     }
 }
 
@@ -60,6 +61,8 @@ impl Drop for Watchdog {
 impl Drop for Watched<'_> {
     fn drop(&mut self) {
         self.watchdog.0.state().underway[self.place] = None;
+        // It may have been given up just when it had ended.
+        self.db.forget_given_up();
     }
 }
 

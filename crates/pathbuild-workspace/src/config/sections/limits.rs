@@ -21,6 +21,8 @@ section! {
     embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000";
     /// most files and directories below one that is searched for drawings
     library_entries: u64 = "library-entries", COUNT, 200_000, "200_000";
+    /// largest .gitignore or .ignore file
+    ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#;
     /// characters: longest parameter text
     text_length: u64 = "text-length", COUNT, 65_536, "65_536";
     /// longest time for one path

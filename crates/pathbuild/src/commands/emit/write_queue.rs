@@ -58,6 +58,8 @@ fn write_behind(
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = session.guarded(&numbered, |db, (index, job)| {
             let Made { mut delivered, outputs } = make(db, job, means);
+            // Once something of a path is written, all is.
+            db.give_up_if_late();
             // Where the system has no thread left, nobody receives it.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 delivered.add(finished(outputs));

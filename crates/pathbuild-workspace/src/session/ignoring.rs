@@ -1,0 +1,90 @@
+//! What .gitignore and .ignore files in a library say does not count. Patterns mean what they mean to Git; files outside the library,
+//! such as a person's global ones, are not asked: results must not depend on who asks.
+
+use std::sync::Arc;
+
+use camino::Utf8Path;
+use ignore::Match;
+use ignore::gitignore::{Gitignore, GitignoreBuilder};
+use pathbuild_db::System;
+use pathbuild_db::system::{Kind, OsSystem, ReadError};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files as messages;
+
+use crate::files::unreadable_by;
+
+/// The rules that hold in a directory: those of its own files, and those from above.
+#[derive(Debug)]
+pub(super) struct Rules {
+    git: Gitignore,
+    own: Gitignore,
+    /// Whether a repository begins here: .gitignore files above it do not count.
+    is_repository: bool,
+    above: Option<Arc<Self>>,
+}
+
+/// Bytes of a line of such a file. Longer ones are no names, and patterns in each other would need a stack of that depth.
+const LONGEST_LINE: usize = 4096;
+
+/// Whether other rules hold in a directory in which this name is: that of a file with rules, or of a repository where there are some already.
+pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
+    matches!(name, ".gitignore" | ".ignore") || are_some && name == ".git"
+}
+
+impl Rules {
+    /// Reads the files of a directory, each of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// Why one cannot be read: then nobody knows what counts.
+    pub(super) fn read(
+        directory: &Utf8Path,
+        above: Option<Arc<Self>>,
+        limit: u64,
+    ) -> Result<Arc<Self>, Box<Diagnostic>> {
+        let read = |name| patterns(directory, name, limit);
+        let is_repository = OsSystem.kind(&directory.join(".git")) != Kind::Missing;
+        Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
+    }
+
+    /// Whether something does not count. Rules of `.ignore` files come before those of `.gitignore`, rules of a directory before those from
+    /// above. Hidden names do not count unless a rule says that they do.
+    pub(super) fn exclude(&self, path: &Utf8Path, is_directory: bool) -> bool {
+        let by_own = self.levels().map(|level| level.own.matched(path, is_directory));
+        let by_git = self.git_levels().map(|level| level.git.matched(path, is_directory));
+        match by_own.chain(by_git).find(|found| !found.is_none()) {
+            Some(Match::Ignore(_)) => true,
+            Some(_) => false,
+            None => path.file_name().is_some_and(|name| name.starts_with('.')),
+        }
+    }
+
+    fn levels(&self) -> impl Iterator<Item = &Self> {
+        std::iter::successors(Some(self), |level| level.above.as_deref())
+    }
+
+    /// Up to the directory in which the repository begins.
+    fn git_levels(&self) -> impl Iterator<Item = &Self> {
+        std::iter::successors(Some(self), |level| level.above.as_deref().filter(|_| !level.is_repository))
+    }
+}
+
+fn patterns(directory: &Utf8Path, name: &str, limit: u64) -> Result<Gitignore, Box<Diagnostic>> {
+    let file = directory.join(name);
+    let bytes = match OsSystem.read(&file, limit) {
+        Ok(bytes) => bytes,
+        Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),
+        Err(error) => return Err(Box::new(unreadable_by(&file, &error, limit, "ignore-file-size"))),
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    let mut builder = GitignoreBuilder::new(directory);
+    for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+        if line.len() > LONGEST_LINE {
+            let reason = format!("a line is longer than {LONGEST_LINE} bytes");
+            let problem = Diagnostic::new(&messages::UNREADABLE).with("reason", reason);
+            return Err(Box::new(problem.in_file(&file).at_line(number, None)));
+        }
+        // Git passes over what is no pattern, too.
+        _ = builder.add_line(None, line);
+    }
+    Ok(builder.build().unwrap_or_else(|_| Gitignore::empty()))
+}

@@ -1,0 +1,72 @@
+//! `watch` from configuration to configuration: each change of it begins anew, and one that is wrong for a moment ends nothing.
+
+use std::thread;
+use std::time::Duration;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
+
+use crate::args::{Cli, WatchArgs};
+use crate::commands::watch::{self, Ended};
+use crate::context::Context;
+use crate::context_of;
+use crate::exit::ExitStatus;
+
+/// How often a configuration that is wrong is looked at.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// Watches until nothing can be watched. What is wrong at the beginning ends the run; later it is waited for somebody who puts it right.
+pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
+    let mut has_begun = false;
+    loop {
+        let (context, faults) = context_of(cli);
+        let sources = Sources::of(&context);
+        let is_lost = has_begun && context.settings.file.is_none() && cli.common.config.is_none();
+        let ended = match faults.is_empty() {
+            // An editor may remove the file before it writes the new one.
+            true if is_lost => Ended::With(ExitStatus::Usage),
+            true => watch::run(&context, args),
+            false => Ended::With(context.refuse(faults)),
+        };
+        match ended {
+            Ended::With(status) if !has_begun || status == ExitStatus::Success => {
+                return context.printer.finish(status);
+            }
+            Ended::With(_) => {
+                context.printer.status(context.choose(
+                    "the configuration or its post is missing or wrong: nothing is checked until it is put right",
+                    "die Konfiguration oder ihr Postprozessor fehlt oder ist falsch: nichts wird geprüft, bis das berichtigt ist",
+                ));
+                while Sources::of(&context_of(cli).0) == sources {
+                    thread::sleep(PAUSE);
+                }
+            }
+            Ended::ConfigurationChanged => {
+                has_begun = true;
+                context.printer.status(context.choose(
+                    "the configuration or its post changed",
+                    "die Konfiguration oder ihr Postprozessor wurde geändert",
+                ));
+            }
+        }
+    }
+}
+
+/// What a configuration consists of.
+#[derive(PartialEq, Eq)]
+struct Sources(Vec<(Utf8PathBuf, Option<Vec<u8>>)>);
+
+impl Sources {
+    fn of(context: &Context) -> Self {
+        let settings = &context.settings;
+        let beside = settings.directory().unwrap_or(&context.working_directory);
+        let post = beside.join(&*settings.general.post.value);
+        let limit = settings.limits.file_size.value;
+        let read = |file: Utf8PathBuf| {
+            let bytes = OsSystem.read(&file, limit).ok();
+            (file, bytes)
+        };
+        Self(settings.file.clone().into_iter().chain([post]).map(read).collect())
+    }
+}
