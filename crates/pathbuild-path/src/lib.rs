@@ -20,6 +20,7 @@ mod letter;
 mod limits;
 mod line_type;
 mod matrix;
+mod mistakes;
 mod name;
 mod number;
 mod number_range;

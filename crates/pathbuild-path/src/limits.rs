@@ -30,6 +30,22 @@ pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, class: ElementClass) ->
     limits.problems
 }
 
+/// A usual value of a letter that must be greater than 0.
+fn example(letter: Letter) -> &'static str {
+    match letter {
+        Letter::F => "F150",
+        Letter::I => "I0.5",
+        Letter::C => "C1",
+        Letter::O => "O2",
+        Letter::T => "T5",
+        Letter::A => "A8",
+        Letter::W => "W4",
+        Letter::Z => "Z50",
+        Letter::P => "P1",
+        _ => "U5",
+    }
+}
+
 struct Limits<'a> {
     own: &'a Values<'a>,
     path: &'a Values<'a>,
@@ -41,8 +57,10 @@ impl Limits<'_> {
         for letter in letters {
             let Given::Number(value) = self.own.number(*letter) else { continue };
             if !above(value, 0.0) {
-                let problem = Diagnostic::new(&messages::NOT_POSITIVE);
-                let problem = problem.with("letter", letter.as_char()).with("value", value);
+                let problem = Diagnostic::new(&messages::NOT_POSITIVE)
+                    .with("letter", letter.as_char())
+                    .with("value", value)
+                    .with("example", example(*letter));
                 self.problems.push(self.own.underline(*letter, problem));
             }
         }

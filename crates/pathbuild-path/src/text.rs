@@ -10,6 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{Letter, Letters};
 use crate::matrix::{ElementClass, Use};
+use crate::mistakes;
 use crate::number::{parse_integer, parse_number};
 
 /// The parameter texts of a path, read once: what they say is asked for by several stages.
@@ -166,6 +167,11 @@ impl<'t> ParameterText<'t> {
         self.pieces.iter().position(|piece| piece.letter == Some(letter))
     }
 
+    /// What a piece begins with, a letter or not.
+    pub(crate) fn letter(self, piece: &Piece) -> Option<char> {
+        self.string[piece.span()].chars().next()
+    }
+
     /// A piece's value as written.
     pub fn value(self, piece: &Piece) -> &'t str {
         let mut characters = self.string[piece.span()].chars();
@@ -194,6 +200,9 @@ impl<'t> ParameterText<'t> {
         if class == ElementClass::Unread {
             return Vec::new();
         }
+        if let Some(problem) = mistakes::in_text(self, class) {
+            return vec![problem];
+        }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
         let of_piece = |piece: &Piece| {
             // Letters are the same letter; variables only when they are the same variable.
@@ -211,7 +220,9 @@ impl<'t> ParameterText<'t> {
     fn problem(self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
         let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
-            return Some(unknown_letter(first, class));
+            return Some(
+                mistakes::in_piece(self, piece, class).unwrap_or_else(|| unknown_letter(first, class)),
+            );
         };
         let how = class.use_of(letter);
         if matches!(how, Use::Unknown | Use::PathOnly) {

@@ -164,6 +164,11 @@ impl<'t> Values<'t> {
 
 fn no_number(letter: Letter, value: &str) -> Diagnostic {
     let is_integer = letter == Letter::N;
-    let message = if is_integer { &messages::NOT_AN_INTEGER } else { &messages::NOT_A_NUMBER };
-    Diagnostic::new(message).with("letter", letter.as_char()).with("value", value)
+    let message = match is_integer {
+        _ if value.contains('\u{a0}') => &messages::NON_BREAKING_SPACE,
+        true => &messages::NOT_AN_INTEGER,
+        false => &messages::NOT_A_NUMBER,
+    };
+    let visible = value.replace('\u{a0}', "\u{2423}");
+    Diagnostic::new(message).with("letter", letter.as_char()).with("value", visible)
 }

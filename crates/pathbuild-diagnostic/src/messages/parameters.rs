@@ -36,6 +36,41 @@ messages! {
         help_en: "letters are upper case: \"{upper}\"? It knows {known}",
         help_de: "Buchstaben sind groß zu schreiben: \"{upper}\"? Bekannt sind {known}",
     }
+    /// Several letters in lower case: the text as it should be.
+    LOWER_CASE_TEXT: UnknownParameter {
+        en: "the letters of this text are lower case",
+        de: "die Buchstaben dieses Textes sind klein geschrieben",
+        help_en: "letters are upper case: write \"{text}\"",
+        help_de: "Buchstaben werden groß geschrieben: \"{text}\"",
+    }
+    /// Parameters with commas between.
+    COMMAS: UnknownParameter {
+        en: "parameters are separated by commas here",
+        de: "hier sind Parameter durch Kommas getrennt",
+        help_en: "separate them with blanks: write \"{text}\"",
+        help_de: "mit Leerzeichen trennen: \"{text}\"",
+    }
+    /// Words that cannot be parameters.
+    REMARK: UnknownParameter {
+        en: "\"{text}\" holds no parameters",
+        de: "\"{text}\" enthält keine Parameter",
+        help_en: "a remark? put it on a layer that is no path layer; Q puts a comment into the program",
+        help_de: "eine Bemerkung? auf einen Layer legen, der kein Pfad ist; mit Q kommt ein Kommentar ins Programm",
+    }
+    /// 02 for O2.
+    ZERO_FOR_O: UnknownParameter {
+        en: "{element} does not know \"0\"",
+        de: "{element} kennt \"0\" nicht",
+        help_en: "a zero for the letter O? write \"{meant}\"",
+        help_de: "eine Null statt des Buchstabens O? \"{meant}\" schreiben",
+    }
+    /// A path's name without >.
+    NAME_WITHOUT_SIGN: UnknownParameter {
+        en: "a path's name without \">\" before it",
+        de: "ein Pfadname ohne \">\" davor",
+        help_en: "write \"{meant}\"",
+        help_de: "\"{meant}\" schreiben",
+    }
     /// Two values of which one must be greater.
     NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
@@ -54,8 +89,8 @@ messages! {
     NOT_POSITIVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than 0",
         de: "{letter} ist {value}, muss aber größer als 0 sein",
-        help_en: "correct the value",
-        help_de: "den Wert berichtigen",
+        help_en: "write a value above 0, for example {example}",
+        help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
     /// The sweep height that an emitted path gets because it has none.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
@@ -84,6 +119,13 @@ messages! {
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
         help_en: "an optional sign, digits, at most one decimal point or comma: {letter}-0,3",
         help_de: "ein Vorzeichen, wenn nötig, Ziffern, höchstens ein Dezimalpunkt oder -komma: {letter}-0,3",
+    }
+    /// A blank that does not separate.
+    NON_BREAKING_SPACE: NotANumber {
+        en: "{letter} needs a number, not \"{value}\": \u{2423} is a non-breaking space, which separates nothing",
+        de: "{letter} braucht eine Zahl, nicht \"{value}\": \u{2423} ist ein geschütztes Leerzeichen und trennt nicht",
+        help_en: "type a plain blank in its place",
+        help_de: "dafür ein gewöhnliches Leerzeichen schreiben",
     }
     /// Not an integer.
     NOT_AN_INTEGER: NotANumber {

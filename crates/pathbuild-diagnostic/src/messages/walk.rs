@@ -8,6 +8,13 @@ messages! {
         help_en: "close the gap, draw the missing segment, or move it to the path's layer",
         help_de: "die Lücke schließen, das fehlende Segment zeichnen, oder es auf den Layer des Pfads legen",
     }
+    /// The tip of a dead end: what is left begins on the way to it.
+    DEAD_END: NothingContinues {
+        en: "the path breaks off here, at the tip of a dead end; segments left: {left}",
+        de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; übrige Segmente: {left}",
+        help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
+        help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
+    }
     /// A turn marker from where nothing is found.
     TURN_FOUND_NOTHING: NothingContinues {
         en: "going back from this turn marker found nothing; segments left: {left}",
@@ -41,6 +48,20 @@ messages! {
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen, oder auf einen anderen Layer legen",
+    }
+    /// Something left lies along a segment, where that has no end.
+    NO_END_THERE: UnreachedSegments {
+        en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; {element} bei {point} liegt auf {other}, wo dieses nicht endet",
+        help_en: "split the line or arc at {point}",
+        help_de: "die Linie oder den Bogen bei {point} teilen",
+    }
+    /// There and back over what is drawn twice.
+    END_NOT_REACHED_TWICE: EndNotReached {
+        en: "the path stops at {point}, but its end marker is at {end}: {element} at {begin} is drawn twice",
+        de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}: {element} bei {begin} ist doppelt gezeichnet",
+        help_en: "delete one of the two",
+        help_de: "eines der beiden löschen",
     }
     /// All segments done, but not at the end.
     END_NOT_REACHED: EndNotReached {

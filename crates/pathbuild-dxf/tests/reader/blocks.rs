@@ -145,6 +145,40 @@ fn blocks_are_nested() {
     assert_eq!(layers, ["P", "Q"]);
 }
 
+/// Layer 0 in layer 0: everything lies on the layer of the outermost insertion.
+#[test]
+fn blocks_on_layer_0_are_nested() {
+    let blocks = block("INNER", "", &LINE.replace("8 P", "8 0"))
+        + &block("MIDDLE", "", "0 INSERT\n8 0\n2 INNER\n10 0\n20 0")
+        + &block("OUTER", "", "0 INSERT\n8 0\n2 MIDDLE\n10 0\n20 0");
+    for name in ["MIDDLE", "OUTER"] {
+        let text = file("", LAYERS, &blocks, &format!("0 INSERT\n8 P\n2 {name}\n10 0\n20 0"));
+        let drawing = read(text.as_bytes(), &Options { keep_layer: &|name| name == "P", ..options() });
+        assert_eq!(lines(&drawing), [[1.0, 0.0, 3.0, 0.0]], "{name}");
+        assert_eq!(&*drawing.layers[0].name, "P");
+    }
+}
+
+/// Object coordinates of an insertion with the extrusion (0, 0, -1) run the other way in x, its columns too.
+#[test]
+fn columns_and_rows_of_a_mirrored_insertion_are_mirrored() {
+    let copies = |groups: &str| {
+        let drawing = drawing(&block("B", "", LINE), &format!("0 INSERT\n8 X\n2 B\n10 0\n20 0\n{groups}"));
+        lines(&drawing).into_iter().map(|[x, y, ..]| (x, y)).collect::<Vec<_>>()
+    };
+    assert_eq!(copies("70 2\n44 10\n71 2\n45 7"), [(1.0, 0.0), (11.0, 0.0), (1.0, 7.0), (11.0, 7.0)]);
+    assert_eq!(
+        copies("230 -1\n70 2\n44 10\n71 2\n45 7"),
+        [(-1.0, 0.0), (-11.0, 0.0), (-1.0, 7.0), (-11.0, 7.0)]
+    );
+    assert_eq!(copies("230 -1\n50 90\n70 2\n44 10"), [(0.0, 1.0), (0.0, 11.0)]);
+    assert_eq!(
+        copies("41 -1\n70 2\n44 10"),
+        [(-1.0, 0.0), (9.0, 0.0)],
+        "scales mirror copies, not their places"
+    );
+}
+
 #[test]
 fn parts_of_a_block_have_its_insertion_as_origin_and_their_own_kind() {
     let drawing = drawing(

@@ -54,6 +54,16 @@ fn straight_pieces_become_lines() {
     );
 }
 
+/// Two halves of a circle: nothing of it is lost.
+#[test]
+fn a_closed_polyline_of_two_corners_goes_there_and_back() {
+    let halves = "10 0\n20 0\n42 1\n10 4\n20 0\n42 1";
+    assert_eq!(shapes(&light(&format!("70 1\n{halves}"))).len(), 2);
+    assert_eq!(shapes(&light(&format!("70 0\n{halves}"))).len(), 1);
+    assert_eq!(shapes(&heavy("70 1", &["10 0\n20 0\n42 1", "10 4\n20 0\n42 1"])).len(), 2);
+    assert_eq!(shapes(&light("70 1\n10 0\n20 0\n10 4\n20 0")).len(), 2, "a line there and back");
+}
+
 #[test]
 fn a_closed_polyline_returns_to_its_start() {
     let expected = [line(0.0, 0.0, 3.0, 0.0), line(3.0, 0.0, 3.0, 4.0), line(3.0, 4.0, 0.0, 0.0)];

@@ -5,9 +5,14 @@ use pathbuild_diagnostic::{Diagnostic, Word, words};
 
 use super::Walk;
 use super::twice::Curves;
+use crate::approx::coincide;
 use crate::element::shown;
-use crate::geometry::Xy;
+use crate::geometry::{Curve, Xy};
 use crate::path::SegmentKind;
+use crate::text_circle::TextCircle;
+
+/// So near, in mm, a point is on a curve: nobody sees it beside it.
+const ON_CURVE: f64 = 0.001;
 
 impl Walk<'_> {
     pub(super) fn empty(&self) -> Diagnostic {
@@ -15,11 +20,20 @@ impl Walk<'_> {
     }
 
     pub(super) fn nothing_continues(&self) -> Diagnostic {
-        let problem = Diagnostic::new(&messages::NOTHING_CONTINUES).with("left", self.left);
+        let message = if self.is_dead_end() { &messages::DEAD_END } else { &messages::NOTHING_CONTINUES };
+        let problem = Diagnostic::new(message).with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
         let mut problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
         problem.place.point = Some(shown(self.at));
         self.with_hints(problem)
+    }
+
+    /// Whether what is left begins on the way to here.
+    fn is_dead_end(&self) -> bool {
+        let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
+        let mut passed = Vec::new();
+        self.ends.find_near(end, |segment| self.is_traversed[segment], &mut passed);
+        !passed.is_empty() && self.duplicate().is_none()
     }
 
     pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
@@ -28,20 +42,40 @@ impl Walk<'_> {
     }
 
     pub(super) fn unreached(&self) -> Diagnostic {
-        let one = self.open().next();
-        let mut problem = Diagnostic::new(&messages::UNREACHED).with("left", self.left);
-        if let Some(segment) = one {
-            let [start, _] = self.ends.of(segment);
+        let one = self.open().next().map(|segment| (segment, self.ends.of(segment)[0]));
+        let mut problem = Diagnostic::new(&messages::UNREACHED);
+        if let Some((segment, start)) = one {
+            if let Some(other) = self.passing_by(start) {
+                problem = Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other));
+            }
             problem = problem.with("element", self.word(segment)).with("point", shown(start));
         }
-        self.with_duplicate(self.path.end_origin.at(problem))
+        self.with_duplicate(self.path.end_origin.at(problem.with("left", self.left)))
+    }
+
+    /// A segment on which a point lies, where it has no end.
+    fn passing_by(&self, point: Xy) -> Option<usize> {
+        let at = TextCircle { centre: point, radius: 0.0 };
+        let is_on = |curve: Curve| {
+            let beside = match &curve {
+                Curve::Line(line) => at.distance_to_line(line),
+                Curve::Arc(arc) => at.distance_to_arc(arc),
+            };
+            let is_end = coincide(curve.start(), point) || coincide(curve.end(), point);
+            !is_end && beside.is_some_and(|distance| distance < ON_CURVE)
+        };
+        let mut traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
+        traversed.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
-        let problem = Diagnostic::new(&messages::END_NOT_REACHED)
-            .with("point", shown(stopped_at))
-            .with("end", shown(self.path.end));
-        self.path.end_origin.at(problem)
+        let problem = match self.duplicate() {
+            Some(segment) => Diagnostic::new(&messages::END_NOT_REACHED_TWICE)
+                .with("element", self.word(segment))
+                .with("begin", shown(self.ends.of(segment)[0])),
+            None => Diagnostic::new(&messages::END_NOT_REACHED),
+        };
+        self.path.end_origin.at(problem.with("point", shown(stopped_at)).with("end", shown(self.path.end)))
     }
 
     /// The segments that were not reached.
@@ -56,11 +90,15 @@ impl Walk<'_> {
         self.with_left_out(self.with_duplicate(problem), point)
     }
 
-    fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
+    /// The nearest end of what is left, and how far that is.
+    fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
         let ends = self.open().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
-        let nearest = distances.reduce(|best, other| if other.2 < best.2 { other } else { best });
-        let Some((segment, end, distance)) = nearest else { return problem };
+        distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
+    }
+
+    fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
+        let Some((segment, end, distance)) = self.nearest_end(point) else { return problem };
         problem.note(
             &messages::NEAREST_END,
             vec![
@@ -71,14 +109,15 @@ impl Walk<'_> {
         )
     }
 
-    /// A segment drawn twice is left over, and looks just like the one that was traversed.
-    fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
+    /// A segment that is drawn twice, as one that was traversed. It is left over, or the walk went there and back.
+    fn duplicate(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let curves = Curves::new(self.path, &self.ends, traversed.clone());
-        // There and back over a line that is drawn twice nothing is left over.
-        let Some(segment) = self.open().chain(traversed).find(|segment| curves.have_another(*segment)) else {
-            return problem;
-        };
+        self.open().chain(traversed).find(|segment| curves.have_another(*segment))
+    }
+
+    fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {
+        let Some(segment) = self.duplicate() else { return problem };
         let [start, _] = self.ends.of(segment);
         problem.note(
             &messages::DUPLICATE,

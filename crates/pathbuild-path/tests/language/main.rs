@@ -12,6 +12,7 @@ mod full_circles;
 mod letters;
 mod limits;
 mod line_types;
+mod mistakes;
 mod names;
 mod parameters;
 mod range_table;

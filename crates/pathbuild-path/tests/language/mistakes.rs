@@ -1,0 +1,159 @@
+//! What a draughtsman got wrong, and one error that says how it should be.
+
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_path::{ElementClass, ParameterTexts};
+
+use crate::support::{compile, path};
+
+const P: &str = "T5 O3 I1 B0";
+
+/// Message and help of each error.
+fn said(found: &[Diagnostic]) -> Vec<String> {
+    let with_help = |found: &Diagnostic| {
+        format!("{} {}; {}", found.code(), found.text(Lang::En), found.help(Lang::En).unwrap_or_default())
+    };
+    found.iter().map(with_help).collect()
+}
+
+fn of_text(text: &str, class: ElementClass) -> Vec<String> {
+    said(&ParameterTexts::from(text).first().unwrap().problems(class))
+}
+
+#[track_caller]
+fn assert_one(found: &[String], begin: &str, end: &str) {
+    assert!(found.len() == 1 && found[0].starts_with(begin) && found[0].ends_with(end), "{found:?}");
+}
+
+#[test]
+fn a_text_in_lower_case_is_one_error() {
+    let found = of_text("o2 t2 i0.5 B0", ElementClass::PathStart);
+    assert_one(&found, "PB202 the letters of this text", "write \"O2 T2 I0.5 B0\"");
+    assert_eq!(of_text("o2 T2 B0", ElementClass::PathStart).len(), 1, "one letter is an error of its own");
+    assert_eq!(of_text("x2 y2", ElementClass::PathStart).len(), 2, "no letters in upper case either");
+}
+
+#[test]
+fn commas_between_parameters_are_one_error() {
+    let found = of_text("O2,T2,B0", ElementClass::PathStart);
+    assert_one(&found, "PB202 parameters are separated by commas", "write \"O2 T2 B0\"");
+    let found = of_text("O2,5,T2 B-0,5", ElementClass::PathStart);
+    assert_one(&found, "PB202 parameters are", "write \"O2,5 T2 B-0,5\"");
+    assert_eq!(of_text("B2,5 QA,B", ElementClass::Mill), [""; 0], "numbers and texts have commas");
+    assert_eq!(of_text("O2,5 T2 :aP,Q", ElementClass::PathStart), [""; 0], "lists, too");
+}
+
+#[test]
+fn a_zero_may_be_meant_as_o() {
+    assert_one(&of_text("02 T2", ElementClass::PathStart), "PB202 ", "a zero for the letter O? write \"O2\"");
+    assert_one(&of_text("02", ElementClass::Mill), "PB202 ", "values follow their letter without a space");
+    assert_one(
+        &of_text("12 T2", ElementClass::PathStart),
+        "PB202 ",
+        "values follow their letter without a space",
+    );
+}
+
+#[test]
+fn a_path_is_embedded_with_its_sign() {
+    assert_one(
+        &of_text("2050.1P", ElementClass::Subpath),
+        "PB202 a path's name without",
+        "write \">2050.1P\"",
+    );
+    assert_one(
+        &of_text("2050.1P", ElementClass::Mill),
+        "PB202 ",
+        "values follow their letter without a space",
+    );
+}
+
+#[test]
+fn a_remark_is_no_parameter() {
+    assert_one(
+        &of_text("Deckel links", ElementClass::Mill),
+        "PB202 \"Deckel links\" holds no parameters",
+        "into the program",
+    );
+    assert_eq!(of_text("Deckel B1", ElementClass::Mill).len(), 1);
+    assert_eq!(of_text("QTeil", ElementClass::Mill), [""; 0]);
+    assert_eq!(
+        of_text("Bx", ElementClass::Mill),
+        [""; 0],
+        "too short for a word: PB205, once there are values"
+    );
+}
+
+#[test]
+fn a_non_breaking_space_is_named() {
+    let found = said(&compile(&path(P, "mill 0,0 20,0 \"B1\u{a0}F100\"\nend 20,0")).found);
+    assert_one(
+        &found,
+        "PB205 B needs a number, not \"1\u{2423}F100\": \u{2423} is a non-breaking space",
+        "in its place",
+    );
+}
+
+#[test]
+fn a_value_above_0_has_an_example() {
+    let found = said(&compile(&path(P, "mill 0,0 20,0 \"F0\"\nend 20,0")).found);
+    assert_one(&found, "PB203 F is 0", "for example F150");
+}
+
+#[test]
+fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
+    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    assert_one(&found("mill 0,0 20,0\nmill 0,0 20,0\nend 20,0"), "PB403 ", "delete one of the two");
+    assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
+    assert_one(&found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"), "PB403 ", "draw what is missing between");
+}
+
+#[test]
+fn a_dead_end_wants_a_turn_marker() {
+    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    let branch = "mill 0,0 20,0\nmill 20,0 20,10\nmill 20,0 50,0\nend 50,0";
+    assert_one(
+        &found(branch),
+        "PB401 the path breaks off here, at the tip of a dead end",
+        "the tool goes back",
+    );
+    assert_one(
+        &found("mill 0,0 20,0\nmill 20.2,0 50,0\nend 50,0"),
+        "PB401 nothing continues",
+        "the path's layer",
+    );
+    // A line drawn twice leads back to where it began.
+    let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 40,0\nmill 40,0 60,0 \"N9999\"\nend 60,0";
+    assert_one(&found(twice), "PB401 nothing continues", "the path's layer");
+}
+
+#[test]
+fn a_hole_along_a_line_wants_the_line_split() {
+    let found = |drawn: &str| said(&compile(&path(P, drawn)).found);
+    assert_one(
+        &found("mill 0,0 40,0\ncircle 20,0 d 3\nend 40,0"),
+        "PB402 ",
+        "split the line or arc at (20, 0)",
+    );
+    assert_one(
+        &found("mill 0,0 40,0\ncircle 20,0.0005 d 3\nend 40,0"),
+        "PB402 ",
+        "split the line or arc at (20, 0.001)",
+    );
+    assert_one(
+        &found("mill 0,0 40,0\ncircle 20,0.002 d 3\nend 40,0"),
+        "PB402 ",
+        "move them to another layer",
+    );
+    let arc = "mill arc centre 20,0 r 20 from 0 to 180\ncircle 20,20 d 3\nend 40,0";
+    assert_one(&found(arc), "PB402 ", "split the line or arc at (20, 20)");
+}
+
+/// The second of two bars too close is said as well: each place is to be mended.
+#[test]
+fn the_same_fault_is_said_of_each_element() {
+    let bars = "bars 0,0 8,0 \"D2 P2 U2\"\nbars 8,0 16,0 \"D2 P2 U2\"\nend 16,0";
+    let found = compile(&path(P, bars)).found;
+    let places: Vec<_> = found.iter().map(|it| (it.code().to_string(), it.place.point)).collect();
+    assert_eq!(places.len(), 2, "{places:?}");
+    assert!(places[0] != places[1] && places.iter().all(|(code, _)| code == "PB406"), "{places:?}");
+}
