@@ -68,15 +68,6 @@ impl Database {
         Self { shared: Arc::new(shared), storage }
     }
 
-    /// The directories in which paths were looked for, in order.
-    pub fn directories(&self) -> Vec<Directory> {
-        let inputs = self.inputs();
-        let mut known: Vec<(&Utf8Path, &Directory)> =
-            inputs.directories.iter().map(|(path, directory)| (Utf8Path::new(path), directory)).collect();
-        known.sort_by_key(|(path, _)| *path);
-        known.into_iter().map(|(_, directory)| *directory).collect()
-    }
-
     /// The inputs that stand for files, there or not. The paths must be normalised.
     pub fn files(&self, paths: Vec<Utf8PathBuf>) -> Vec<SourceFile> {
         let mut inputs = self.inputs();

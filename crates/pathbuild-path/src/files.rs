@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use crate::PathPattern;
 use crate::default_pattern::{DASHES, DefaultPattern};
-use crate::group::Groups;
+use crate::group::{Group, Groups};
 use crate::number_range::{NumberKey, NumberRange, number_key};
 use crate::pattern::{Name, Pattern, PatternError};
 
@@ -26,7 +26,7 @@ enum Ends {
 
 /// A range by the groups of its ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct GroupRange {
+struct GroupRange {
     from: FilePart,
     /// `None` for a single name.
     to: Option<FilePart>,
@@ -94,14 +94,9 @@ impl PathKey {
         pattern.groups(name).map(|groups| Self { number: number_key(&groups), groups })
     }
 
-    /// The groups.
-    pub(crate) fn groups(&self) -> &Groups {
-        &self.groups
-    }
-
-    /// As ranges of numbers are searched for it; `None` where they must be looked at by their groups.
-    pub(crate) fn number(&self) -> Option<NumberKey> {
-        self.number
+    /// The first of its groups.
+    pub(crate) fn first_group(&self) -> Option<&Group> {
+        self.groups.first()
     }
 }
 
@@ -130,14 +125,18 @@ impl NameRange {
         range.starts_by(path) && range.ends_by(path)
     }
 
-    pub(crate) fn numbers(&self) -> Option<NumberRange> {
+    /// The first group of the first name and of the last.
+    pub(crate) fn first_groups(&self) -> (Group, Group) {
         match &self.0 {
-            Ends::Numbers(range) => Some(*range),
-            Ends::Groups(_) => None,
+            Ends::Numbers(range) => range.first_groups(),
+            Ends::Groups(range) => {
+                let first = |part: &FilePart| part.0.first().cloned().unwrap_or_default();
+                (first(&range.from), first(range.end()))
+            }
         }
     }
 
-    pub(crate) fn groups(&self) -> Cow<'_, GroupRange> {
+    fn groups(&self) -> Cow<'_, GroupRange> {
         match &self.0 {
             Ends::Groups(range) => Cow::Borrowed(range),
             Ends::Numbers(range) => {
@@ -155,20 +154,12 @@ impl From<NumberRange> for NameRange {
 }
 
 impl GroupRange {
-    pub(crate) fn starts_by(&self, path: &PathKey) -> bool {
+    fn starts_by(&self, path: &PathKey) -> bool {
         self.from.compare(path) != Ordering::Greater
     }
 
-    pub(crate) fn ends_by(&self, path: &PathKey) -> bool {
+    fn ends_by(&self, path: &PathKey) -> bool {
         self.end().compare(path) != Ordering::Less
-    }
-
-    pub(crate) fn start_groups(&self) -> &Groups {
-        &self.from.0
-    }
-
-    pub(crate) fn end_groups(&self) -> &Groups {
-        &self.end().0
     }
 
     fn end(&self) -> &FilePart {
@@ -179,7 +170,7 @@ impl GroupRange {
 impl FilePart {
     /// How this part of a file's name lies to a path's name.
     fn compare(&self, path: &PathKey) -> Ordering {
-        let (file, path) = (&self.0, path.groups());
+        let (file, path) = (&self.0, &path.groups);
         for index in 0..file.len().max(path.len()) {
             let (file_group, path_group) = match (file.get(index), path.get(index)) {
                 (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => (file, path),

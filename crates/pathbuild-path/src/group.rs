@@ -48,7 +48,7 @@ impl From<[&str; 2]> for Groups {
 
 impl From<[Option<Group>; 2]> for Groups {
     fn from(groups: [Option<Group>; 2]) -> Self {
-        Self(List::Two(groups.map(|group| group.unwrap_or(Group::Other(SmolStr::default())))))
+        Self(List::Two(groups.map(Option::unwrap_or_default)))
     }
 }
 
@@ -67,6 +67,12 @@ impl std::ops::Deref for Groups {
             List::Three(groups) => groups,
             List::Any(groups) => groups,
         }
+    }
+}
+
+impl Default for Group {
+    fn default() -> Self {
+        Self::Other(SmolStr::default())
     }
 }
 
@@ -105,7 +111,8 @@ impl Group {
         a.chars().flat_map(char::to_uppercase).cmp(b.chars().flat_map(char::to_uppercase))
     }
 
-    fn text(&self) -> Cow<'_, str> {
+    /// As it is written.
+    pub(crate) fn text(&self) -> Cow<'_, str> {
         match self {
             Self::Short { value, digits } => Cow::Owned(format!("{value:0digits$}")),
             Self::Other(text) => Cow::Borrowed(text),

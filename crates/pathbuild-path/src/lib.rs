@@ -57,7 +57,7 @@ pub use pattern::PatternError;
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
-pub use table::{RangeTable, Ranges};
+pub use table::RangeTable;
 pub use text::{ParameterText, ParameterTexts, Piece, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;

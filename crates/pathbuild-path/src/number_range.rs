@@ -90,12 +90,11 @@ impl NumberRange {
         (self.first <= path) & (path <= self.last)
     }
 
-    pub(crate) fn first(self) -> NumberKey {
-        self.first
-    }
-
-    pub(crate) fn last(self) -> NumberKey {
-        self.last
+    /// The first group of the first name that it holds, and of the last.
+    pub(crate) fn first_groups(self) -> (Group, Group) {
+        let [first, _, last, _] = self.digits;
+        let group = |key: NumberKey, digits: u8| Number { value: key.groups().0, digits }.group();
+        (group(self.first, first), group(self.last, if last == 0 { first } else { last }))
     }
 
     /// The groups of its ends.

@@ -3,14 +3,12 @@
 use std::ops::Deref;
 use std::rc::Rc;
 
-use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::Workspace;
-use pathbuild_workspace::session::Session;
 
 use crate::args::Format;
 use crate::exit::ExitStatus;
-use crate::printer::{Printer, Stream, Verbosity};
+use crate::printer::{Printer, Stream};
 use crate::render::{View, render};
 use crate::report::{Findings, judge};
 use crate::usage;
@@ -35,21 +33,6 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// Says, to whoever wants to know more, in which directories every file name was looked at for each path.
-    pub fn tell_scans(&self, session: &Session<'_>) {
-        if self.printer.verbosity() < Verbosity::Verbose {
-            return;
-        }
-        let phrase = self.choose(
-            "every file name is looked at for each path, since groups of the file pattern are numbers in some and texts in others",
-            "für jeden Pfad wird jeder Dateiname angesehen, denn Gruppen des Dateimusters sind bald Zahlen, bald Texte",
-        );
-        for directory in session.scans() {
-            let shown = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
-            self.printer.detail(format_args!("{shown}: {phrase}"));
-        }
-    }
-
     /// Findings with the severities of the configuration, in order, each once.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         Findings::new(judge(diagnostics, &self.settings, &self.working_directory))

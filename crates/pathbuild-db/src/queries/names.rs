@@ -1,7 +1,7 @@
 //! What file names say about paths: the drawings of a directory by the name ranges in theirs. (spec/20-paths-and-files.md)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_path::{FilePattern, PathKey, RangeTable, Ranges};
+use pathbuild_path::{FilePattern, PathKey, RangeTable};
 
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
@@ -18,19 +18,14 @@ pub struct NameTable {
 impl NameTable {
     /// The drawings among some file names.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
-        let (mut names, mut ranges) = (Names::default(), Ranges::default());
+        let (mut names, mut ranges) = (Names::default(), Vec::new());
         for name in files.iter().filter(|name| is_drawing(name)) {
             let number = u32::try_from(names.len()).expect("a directory has fewer than 2^32 names");
             let stem = &name[..name.len() - EXTENSION.len()];
-            pattern.each_range(stem, |range| ranges.push(range, number));
+            pattern.each_range(stem, |range| ranges.push((range, number)));
             names.push(name);
         }
-        Self { names, ranges: ranges.into() }
-    }
-
-    /// Whether look-ups use an order; else each looks at every name.
-    pub fn is_sorted(&self) -> bool {
-        self.ranges.is_sorted()
+        Self { names, ranges: ranges.into_iter().collect() }
     }
 
     /// The files that may hold a path, in order of name.

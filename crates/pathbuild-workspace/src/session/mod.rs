@@ -31,7 +31,7 @@ use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Keeper, Made, Programs, is_passing};
+pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Held, Keeper, Made, Programs, is_passing};
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault};
 pub use provenance::{HEAD, Provenance, title};

@@ -6,12 +6,12 @@ use std::collections::hash_map::Entry;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::system::Kind;
-use pathbuild_db::{Db, Directory, SourceFile, holders, name_table, path_names};
+use pathbuild_db::{Db, SourceFile, holders, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Session, library};
 use crate::inputs::{Input, Inputs};
@@ -249,27 +249,14 @@ impl Session<'_> {
         distinct(drawings.filter_map(|drawing| drawing.parent().map(|directory| self.normal(directory))))
     }
 
-    /// The directories in which looking for a path meant to look at every file name, since groups of the file pattern are numbers in some and
-    /// texts in others.
-    pub fn scans(&self) -> Vec<&Utf8Path> {
-        let scanned = |directory: &Directory| !name_table(&self.db, *directory).is_sorted();
-        self.db
-            .directories()
-            .into_iter()
-            .filter(scanned)
-            .map(|directory| directory.path(&self.db).as_path())
-            .collect()
-    }
-
     /// The drawings in some directories that define a path, each once.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let mut files: Vec<SourceFile> = Vec::new();
-        let mut seen = Vec::new();
+        let mut seen = FxHashSet::default();
         for directory in directories {
             for file in holders(&self.db, self.db.directory(directory), name) {
                 let canonical = self.db.system().canonical(file.path(&self.db));
-                if !seen.contains(&canonical) {
-                    seen.push(canonical);
+                if seen.insert(canonical) {
                     files.push(file);
                 }
             }
@@ -322,11 +309,6 @@ fn nowhere(name: &str, directories: &[Utf8PathBuf]) -> Diagnostic {
 
 /// Each of them once, in their order.
 fn distinct(directories: impl Iterator<Item = Utf8PathBuf>) -> Vec<Utf8PathBuf> {
-    let mut distinct: Vec<Utf8PathBuf> = Vec::new();
-    for directory in directories {
-        if !distinct.contains(&directory) {
-            distinct.push(directory);
-        }
-    }
-    distinct
+    let mut seen = FxHashSet::default();
+    directories.filter(|directory| seen.insert(directory.clone())).collect()
 }

@@ -20,7 +20,7 @@ use crate::workspace::Workspace;
 
 pub use payload::{DrawingResult, is_passing};
 use question::whole_question;
-pub use question::{BUILD, Coverage};
+pub use question::{BUILD, Coverage, Held};
 use writing::Writing;
 
 /// The results that are kept for a question.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_path::{FilePattern, PathKey, PathPattern};
+use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 
 use crate::session::Session;
 use crate::workspace::Workspace;
@@ -60,8 +60,27 @@ impl Coverage {
 
     /// Whether a drawing of this name may hold the path of that name.
     pub fn may_hold(&self, file: &str, path: &str) -> bool {
-        let Some(key) = PathKey::new(path, &self.paths) else { return false };
-        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        self.files.ranges(stem).iter().any(|range| range.holds(&key))
+        self.of_files([file]).may_hold(path)
+    }
+
+    /// What drawings of these names may hold.
+    pub fn of_files<'f>(&self, files: impl IntoIterator<Item = &'f str>) -> Held<'_> {
+        let stem = |file: &'f str| file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let ranges = files.into_iter().flat_map(|file| self.files.ranges(stem(file)));
+        Held { paths: &self.paths, ranges: ranges.map(|range| (range, 0)).collect() }
+    }
+}
+
+/// The paths that some drawings may hold by their names.
+#[derive(Debug)]
+pub struct Held<'a> {
+    paths: &'a PathPattern,
+    ranges: RangeTable,
+}
+
+impl Held<'_> {
+    /// Whether any of the drawings may hold the path of that name.
+    pub fn may_hold(&self, path: &str) -> bool {
+        PathKey::new(path, self.paths).is_some_and(|key| !self.ranges.files(&key).is_empty())
     }
 }

@@ -78,7 +78,6 @@ fn finish(
     begun: Instant,
 ) -> ExitStatus {
     checked.diagnostics = session.with_elsewhere(checked.diagnostics);
-    context.tell_scans(session);
     checked.time = begun.elapsed();
     let status = conclude(context, args, checked);
     if args.timings {

@@ -146,7 +146,6 @@ fn conclude(
 ) -> ExitStatus {
     let findings = context.findings(session.with_elsewhere(diagnostics));
     context.show(&findings);
-    context.tell_scans(&session);
     // The run is over: to give back what every query holds, piece by piece, takes a twelfth of the time of a short one.
     std::mem::forget(session);
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }

@@ -27,20 +27,20 @@ pub(super) struct Library<'a> {
     /// What is still to be asked, in order of name.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
     /// The files because of which.
-    late: Vec<Utf8PathBuf>,
+    late: BTreeSet<Utf8PathBuf>,
 }
 
 /// What came of a batch of changes.
 #[derive(Default)]
 pub(super) struct Update {
     /// The files that changed.
-    pub(super) changed: Vec<Utf8PathBuf>,
+    pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// The drawings that were asked again.
     pub(super) asked: Vec<SourceFile>,
     /// How many are still to be asked, because there is news.
     pub(super) open: usize,
     /// The drawings that are no longer there.
-    pub(super) removed: Vec<Utf8PathBuf>,
+    pub(super) removed: BTreeSet<Utf8PathBuf>,
     /// What was found in them before.
     pub(super) before: Vec<Diagnostic>,
     /// What is found in them now.
@@ -62,7 +62,7 @@ impl<'a> Library<'a> {
             pairs: None,
             reverse: Reverse::default(),
             open: BTreeMap::new(),
-            late: Vec::new(),
+            late: BTreeSet::new(),
         }
     }
 
@@ -96,9 +96,10 @@ impl<'a> Library<'a> {
         let mut update = Update::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
-        let mut is_other_library = changes.is_incomplete;
+        let mut is_other_library = self.take_over_names(&files, &mut concerned) || changes.is_incomplete;
         for path in &files {
-            is_other_library |= self.take_over_file(path, &mut concerned);
+            concerned.extend(self.reverse.of_file(self.session.db().file(path)));
+            self.session.touch_file(path);
         }
         is_other_library |=
             changes.paths.iter().any(|path| matches!(path.file_name(), Some(".gitignore" | ".ignore")));
@@ -112,9 +113,8 @@ impl<'a> Library<'a> {
         });
         self.open.extend(concerned.map(|file| (file.path(db).clone(), file)));
         self.open.retain(|path, _| !update.removed.contains(path));
-        let late = std::mem::take(&mut self.late).into_iter();
-        let changed: BTreeSet<Utf8PathBuf> = files.into_iter().chain(late).collect();
-        update.changed = changed.into_iter().collect();
+        update.changed = files;
+        update.changed.append(&mut self.late);
         update
     }
 
@@ -166,24 +166,36 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Tells the database of a file, and collects the drawings that it concerns; whether it came or went.
-    fn take_over_file(&mut self, path: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
-        let directory = path.parent().unwrap_or(Utf8Path::new("")).to_owned();
-        let name = path.file_name().unwrap_or_default();
-        let db = self.session.db();
-        let file = db.file(path);
-        let is_known = self.reverse.directories().any(|known| *known == directory);
-        let was_listed =
-            is_known && drawing_names(db, db.directory(&directory)).iter().any(|known| known == name);
-        let is_there = db.system().kind(path) == Kind::File;
-        concerned.extend(self.reverse.of_file(file));
-        let came_or_went = is_there != self.drawings.contains_key(path) || was_listed != is_there;
-        if is_known && was_listed != is_there {
-            concerned.extend(self.reverse.of_name(&directory, name, &self.coverage));
-            self.session.touch_directory(&directory);
+    /// Tells the database of the directories in which files came or went, and collects the drawings that looked there for what they may hold;
+    /// whether any came or went.
+    fn take_over_names(
+        &mut self,
+        files: &BTreeSet<Utf8PathBuf>,
+        concerned: &mut HashSet<SourceFile>,
+    ) -> bool {
+        let mut by_directory: BTreeMap<&Utf8Path, Vec<&Utf8PathBuf>> = BTreeMap::new();
+        for path in files {
+            by_directory.entry(path.parent().unwrap_or(Utf8Path::new(""))).or_default().push(path);
         }
-        self.session.touch_file(path);
-        came_or_went
+        let mut have_changed = false;
+        for (directory, files) in by_directory {
+            let db = self.session.db();
+            let is_there = |path: &Utf8Path| db.system().kind(path) == Kind::File;
+            have_changed |= files.iter().any(|path| is_there(path) != self.drawings.contains_key(*path));
+            if !self.reverse.knows_directory(directory) {
+                continue;
+            }
+            let listed: HashSet<&str> = drawing_names(db, db.directory(directory)).iter().collect();
+            let names = files.iter().filter_map(|path| Some((path, path.file_name()?)));
+            let changed = names.filter(|(path, name)| listed.contains(name) != is_there(path));
+            let changed: Vec<&str> = changed.map(|(_, name)| name).collect();
+            if !changed.is_empty() {
+                have_changed = true;
+                concerned.extend(self.reverse.of_names(directory, changed, &self.coverage));
+                self.session.touch_directory(directory);
+            }
+        }
+        have_changed
     }
 
     /// Finds the drawings anew: those that came are concerned, those that went are forgotten.
@@ -195,7 +207,7 @@ impl<'a> Library<'a> {
         for drawing in &there {
             if !self.drawings.contains_key(*drawing) {
                 concerned.insert(db.file(drawing));
-                update.changed.push((*drawing).clone());
+                update.changed.insert((*drawing).clone());
             }
         }
         let is_gone = |drawing: &Utf8PathBuf, _: &mut DrawingResult| !there.contains(drawing);
@@ -204,7 +216,7 @@ impl<'a> Library<'a> {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;
             update.before.extend(result.diagnostics);
-            update.removed.push(drawing);
+            update.removed.insert(drawing);
         }
     }
 

@@ -60,10 +60,16 @@ impl Reverse {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
-    /// The drawings that depend on whether there is a file of that name in a directory.
-    pub(super) fn of_name(&self, directory: &Utf8Path, name: &str, coverage: &Coverage) -> Vec<SourceFile> {
-        let names = self.by_lookup.get(directory).into_iter().flatten();
-        let concerned = names.filter(|(path, _)| coverage.may_hold(name, path.as_str()));
+    /// The drawings that depend on whether there are files of those names in a directory.
+    pub(super) fn of_names<'n>(
+        &self,
+        directory: &Utf8Path,
+        names: impl IntoIterator<Item = &'n str>,
+        coverage: &Coverage,
+    ) -> Vec<SourceFile> {
+        let held = coverage.of_files(names);
+        let sought = self.by_lookup.get(directory).into_iter().flatten();
+        let concerned = sought.filter(|(path, _)| held.may_hold(path.as_str()));
         concerned.flat_map(|(_, drawings)| drawings).copied().collect()
     }
 
@@ -72,9 +78,9 @@ impl Reverse {
         self.by_file.keys().copied()
     }
 
-    /// Every directory that anything was looked for in.
-    pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
-        self.by_lookup.keys()
+    /// Whether anything was looked for in a directory.
+    pub(super) fn knows_directory(&self, directory: &Utf8Path) -> bool {
+        self.by_lookup.contains_key(directory)
     }
 }
 

@@ -1,6 +1,6 @@
 //! `watch --emit`: writes the programs of what was asked again.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
@@ -46,7 +46,7 @@ impl<'a> Writer<'a> {
         &mut self,
         session: &Session<'_>,
         asked: impl Iterator<Item = SourceFile>,
-        removed: &[Utf8PathBuf],
+        removed: &BTreeSet<Utf8PathBuf>,
     ) {
         let db = session.db();
         let removed = removed.iter().map(|drawing| db.file(drawing));

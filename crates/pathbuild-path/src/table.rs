@@ -1,0 +1,124 @@
+//! The name ranges of a directory's files: which files may hold a path. (spec/20-paths-and-files.md)
+
+use crate::files::{NameRange, PathKey};
+use crate::group::Group;
+
+/// The name ranges of many files, in the order of the first groups of their first names. "Integers by value, the rest as text" is no order:
+/// each look-up searches among the integers or the texts, and ranges from one to the other are all looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RangeTable {
+    sorted: Vec<Entry>,
+    /// Ranges without an order.
+    others: Vec<(NameRange, u32)>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Entry {
+    /// The first group of the first name, and of the last.
+    from: First,
+    to: First,
+    /// The greatest `to` of the entries up to this one.
+    latest: First,
+    range: NameRange,
+    file: u32,
+}
+
+/// The first group of a name. Integers come before texts.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum First {
+    Integer(u64),
+    /// In upper case.
+    Text(String),
+}
+
+impl First {
+    /// `None` for a group that took no part, and for an integer that is too long.
+    fn new(group: &Group) -> Option<Self> {
+        match group {
+            Group::Short { value, .. } => Some(Self::Integer(*value)),
+            Group::Other(_) if group.is_empty() || group.is_integer() => None,
+            Group::Other(_) => Some(Self::text(group)),
+        }
+    }
+
+    fn text(group: &Group) -> Self {
+        Self::Text(group.text().chars().flat_map(char::to_uppercase).collect())
+    }
+
+    fn is_integer(&self) -> bool {
+        matches!(self, Self::Integer(_))
+    }
+}
+
+impl Entry {
+    fn new(range: NameRange, file: u32) -> Result<Self, (NameRange, u32)> {
+        let (from, to) = range.first_groups();
+        match (First::new(&from), First::new(&to)) {
+            (Some(from), Some(to)) if from.is_integer() == to.is_integer() => {
+                Ok(Self { latest: to.clone(), from, to, range, file })
+            }
+            _ => Err((range, file)),
+        }
+    }
+}
+
+impl FromIterator<(NameRange, u32)> for RangeTable {
+    /// Each range with the number of the file that has it in its name.
+    fn from_iter<I: IntoIterator<Item = (NameRange, u32)>>(ranges: I) -> Self {
+        let (mut sorted, mut others) = (Vec::new(), Vec::new());
+        for (range, file) in ranges {
+            match Entry::new(range, file) {
+                Ok(entry) => sorted.push(entry),
+                Err(other) => others.push(other),
+            }
+        }
+        sorted.sort_by(|a, b| a.from.cmp(&b.from));
+        for index in 1..sorted.len() {
+            if sorted[index - 1].latest > sorted[index].latest {
+                sorted[index].latest = sorted[index - 1].latest.clone();
+            }
+        }
+        Self { sorted, others }
+    }
+}
+
+impl RangeTable {
+    /// The numbers of the files that may hold a path: ascending, each once.
+    pub fn files(&self, path: &PathKey) -> Vec<u32> {
+        let mut files = Vec::new();
+        let mut take = |range: &NameRange, file: u32| {
+            if range.holds(path) {
+                files.push(file);
+            }
+        };
+        let group = path.first_group();
+        match group.and_then(First::new).zip(group) {
+            Some((first, group)) => {
+                // A text is compared with integers as a text, of which they are in no order.
+                if !first.is_integer() {
+                    self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
+                }
+                self.around(&First::text(group)).for_each(|entry| take(&entry.range, entry.file));
+                if first.is_integer() {
+                    self.around(&first).for_each(|entry| take(&entry.range, entry.file));
+                }
+            }
+            None => self.sorted.iter().for_each(|entry| take(&entry.range, entry.file)),
+        }
+        self.others.iter().for_each(|(range, file)| take(range, *file));
+        files.sort_unstable();
+        files.dedup();
+        files
+    }
+
+    /// The entries that begin at a first group or before it, and end there or behind it.
+    fn around(&self, first: &First) -> impl Iterator<Item = &Entry> {
+        let begun = self.sorted.partition_point(|entry| entry.from <= *first);
+        let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);
+        reaching.filter(move |entry| entry.to >= *first)
+    }
+
+    fn integers(&self) -> &[Entry] {
+        &self.sorted[..self.sorted.partition_point(|entry| entry.from.is_integer())]
+    }
+}
