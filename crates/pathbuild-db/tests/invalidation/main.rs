@@ -4,7 +4,9 @@
 mod drift;
 mod embedding;
 mod incremental;
+mod judged;
 mod library;
+mod links;
 mod listing;
 mod memory;
 mod one_file;

@@ -7,6 +7,7 @@ mod chains;
 mod circles;
 mod crowded;
 mod default_patterns;
+mod embedding;
 mod files;
 mod full_circles;
 mod letters;

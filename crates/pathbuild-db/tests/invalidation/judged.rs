@@ -1,0 +1,101 @@
+//! What is judged, and with what: values, roles, duplicates.
+
+use pathbuild_db::{Limits, Role, Settings};
+use pathbuild_path::Bindings;
+use salsa::Setter;
+
+use crate::embedding::component;
+use crate::world::World;
+
+/// With B0 it is right, with B9 it is milled through the table.
+const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
+
+fn project(path: &str, segment: &str) -> String {
+    format!("layer {path}\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \"{segment}\"\nend 20,0")
+}
+
+fn codes(files: &[(&str, &str)], file: &str, path: &str, role: Role) -> Vec<String> {
+    World::new(files).judge("path", file, path, role)
+}
+
+/// The index knows what comes of the example values; of others it says nothing.
+#[test]
+fn a_path_is_judged_with_the_values_that_it_is_given() {
+    let component = ("lib/1114.1P.dxf", WITH_VARIABLE);
+    let with = |values: &str| {
+        let project = project("8001.1P", &format!(">1114.1P {values}"));
+        codes(&[component, ("lib/8001.1P.dxf", &project)], "lib/8001.1P.dxf", "8001.1P", Role::Checked)
+    };
+    assert_eq!(with(":B0"), [""; 0]);
+    assert_eq!(with(":B9"), ["PB203", "PB511"]);
+    let checked = |role| codes(&[component], "lib/1114.1P.dxf", "1114.1P", role);
+    assert_eq!(checked(Role::Checked), [""; 0]);
+    assert_eq!(checked(Role::CheckedWith(Bindings::new([('B', "9".into())]))), ["PB203"]);
+    assert_eq!(checked(Role::Emitted), ["PB302"]);
+}
+
+/// What the role gives is checked where a path embeds nothing, too.
+#[test]
+fn the_sweep_height_of_a_role_is_checked() {
+    let drawing = |t: &str| {
+        format!("layer 1111.1P\nstart 0,0 \"T5 O3 I1 Mx B0\"\nmill 0,0 20,0\nprobe 10,30 \"T{t}\"\nend 20,0")
+    };
+    let checked = |t: &str, role| codes(&[("lib/1111.dxf", &drawing(t))], "lib/1111.dxf", "1111.1P", role);
+    // T + O where it is checked, the option's 20 mm where it is emitted.
+    assert_eq!(checked("7.9", Role::Checked), [""; 0]);
+    assert_eq!(checked("8", Role::Checked), ["PB203"]);
+    assert_eq!(checked("19.9", Role::Emitted), [""; 0]);
+    assert_eq!(checked("20", Role::Emitted), ["PB203"]);
+}
+
+#[test]
+fn a_path_that_two_drawings_define_is_in_neither() {
+    let files = [
+        ("lib/1111.1P.dxf", component("1111.1P", "0")),
+        ("lib/1111.dxf", component("1111.1P", "0")),
+        ("lib/8001.1P.dxf", project("8001.1P", ">1111.1P")),
+    ];
+    let files: Vec<(&str, &str)> = files.iter().map(|(file, text)| (*file, text.as_str())).collect();
+    assert_eq!(codes(&files, "lib/8001.1P.dxf", "8001.1P", Role::Checked), ["PB504"]);
+    assert_eq!(codes(&files[1..], "lib/8001.1P.dxf", "8001.1P", Role::Checked), [""; 0]);
+}
+
+/// A path that embeds nothing is within the limits or not, as others are.
+#[test]
+fn limits_hold_for_every_path() {
+    let project = project("8001.1P", ">1111.1P");
+    let component = component("1111.1P", "0");
+    let mut world = World::new(&[("lib/1111.1P.dxf", &component), ("lib/8001.1P.dxf", &project)]);
+    for (file, path) in [("lib/1111.1P.dxf", "1111.1P"), ("lib/8001.1P.dxf", "8001.1P")] {
+        let mut refused = |limits: Limits| {
+            _ = Settings::get(&world.db).set_limits(&mut world.db).to(limits);
+            world.judge("path", file, path, Role::Checked).contains(&"PB005".to_owned())
+        };
+        let moves = |moves| Limits { moves, ..Limits::default() };
+        let least = (0..1000).find(|least| !refused(moves(*least))).unwrap();
+        assert!(least > 0 && refused(moves(least - 1)), "{path}: {least}");
+        let paths = |paths| Limits { paths, ..Limits::default() };
+        let count = if path == "8001.1P" { 2 } else { 1 };
+        assert!(!refused(paths(count)) && refused(paths(count - 1)), "{path}");
+    }
+}
+
+/// Nothing large is asked of drawings without findings: they are read once.
+#[test]
+fn a_check_reads_each_drawing_once() {
+    let project = project("8001.1P", ">1111.1P");
+    let component = component("1111.1P", "0");
+    let mut world = World::new(&[("lib/1111.1P.dxf", &component), ("lib/8001.1P.dxf", &project)]);
+    world.judge("component", "lib/1111.1P.dxf", "1111.1P", Role::Checked);
+    assert_eq!(
+        world.ran().iter().map(String::as_str).collect::<Vec<_>>(),
+        ["closure component", "file_index component", "path_index component"]
+    );
+    world.judge("project", "lib/8001.1P.dxf", "8001.1P", Role::Checked);
+    let large = ["raw_file", "raw_path", "path", "chains", "summary_with_values"];
+    assert!(
+        large.iter().all(|query| !world.ran().contains(&format!("{query} project"))),
+        "{:?}",
+        world.ran()
+    );
+}

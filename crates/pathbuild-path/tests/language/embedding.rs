@@ -1,0 +1,186 @@
+//! Whether a path may stand where a subpath segment names it. (spec/50-path-building.md, "Subpaths")
+
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_path::{
+    Judge, PathHeader, PathName, PathPattern, PathSignature, Restriction, SubpathCall, near_names,
+};
+
+use crate::support::{codes, compile, path, raw};
+
+/// A path with one subpath segment of 20 mm.
+fn project(parameters: &str, segment: &str) -> PathSignature {
+    signature(&path(parameters, &format!("subpath 0,0 20,0 \"{segment}\"\nend 20,0")))
+}
+
+/// A path of 20 mm to be embedded.
+fn component(parameters: &str) -> PathSignature {
+    component_of(parameters, "20")
+}
+
+fn component_of(parameters: &str, length: &str) -> PathSignature {
+    signature(&path(parameters, &format!("mill 0,0 {length},0\nend {length},0")))
+}
+
+fn signature(drawing: &str) -> PathSignature {
+    PathSignature::of(&compile(drawing).path.expect("the path is right"))
+}
+
+/// What a judge says of the only segment of a path.
+fn judged<R>(
+    outer: &PathSignature,
+    restrictions: &[Restriction],
+    judge: impl FnOnce(Judge<'_>, &SubpathCall) -> R,
+) -> R {
+    judge(Judge::new(outer, restrictions, &PathPattern::default()), &outer.subpaths[0])
+}
+
+/// What does not fit, with the letters.
+fn misfits(outer: &PathSignature, inner: &PathSignature) -> Vec<String> {
+    judged(outer, &[], |judge, call| codes(&judge.misfits(call, inner)))
+}
+
+/// The code that keeps a path from embedding what its segment names.
+fn refused(outer: &PathSignature, restrictions: &[Restriction]) -> Option<String> {
+    judged(outer, restrictions, |judge, call| {
+        judge.name(call).err().map(|problem| problem.code().to_string())
+    })
+}
+
+fn restriction(parent: &str, child: &str) -> Restriction {
+    Restriction::new(parent, child).unwrap()
+}
+
+const RIGHT: [&str; 0] = [];
+
+#[test]
+fn the_segment_is_as_long_as_the_path() {
+    let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
+    let of_length = |length: &str| misfits(&outer, &component_of("T5 O3 I1 B0 Mx", length));
+    assert_eq!(of_length("20"), RIGHT);
+    assert_eq!(of_length("20.00099"), RIGHT);
+    assert_eq!(of_length("19.99901"), RIGHT);
+    assert_eq!(of_length("20.00101"), ["PB505"]);
+    assert_eq!(of_length("19.99899"), ["PB505"]);
+}
+
+#[test]
+fn t_and_o_are_those_of_the_path() {
+    let inner = component("T5 O3 I1 B0 Mx");
+    let with = |text: &str| misfits(&project("T6 O3 I1 B0 Mx", &format!(">1111.1P {text}")), &inner);
+    assert_eq!(with("T5"), RIGHT);
+    assert_eq!(with("T5.000005"), RIGHT);
+    assert_eq!(with("T5.00001"), ["PB506 T"]);
+    assert_eq!(with(""), ["PB506 T"]);
+    assert_eq!(with("T5 O3.000003"), RIGHT);
+    assert_eq!(with("T5 O3.00001"), ["PB506 O"]);
+}
+
+/// What is embedded lies in the material of the path that embeds it.
+#[test]
+fn t_of_a_segment_is_no_more_than_that_of_its_path() {
+    let with = |own: &str, segment: &str| {
+        let outer = project(&format!("T{own} O3 I1 B0 Mx"), &format!(">1111.1P T{segment}"));
+        misfits(&outer, &component(&format!("T{segment} O3 I1 B0 Mx")))
+    };
+    assert_eq!(with("5", "5"), RIGHT);
+    assert_eq!(with("5", "5.000004"), RIGHT);
+    assert_eq!(with("5", "5.00001"), ["PB510"]);
+    assert_eq!(with("5", "4"), RIGHT);
+}
+
+#[test]
+fn m_is_that_of_the_path_and_both_say_it() {
+    let with = |own: &str, segment: &str, inner: &str| {
+        let outer = project(&format!("T5 O3 I1 B0 {own}"), &format!(">1111.1P {segment}"));
+        misfits(&outer, &component(&format!("T5 O3 I1 B0 {inner}")))
+    };
+    assert_eq!(with("Mx", "", "Mx"), RIGHT);
+    assert_eq!(with("Mx", "My", "My"), RIGHT);
+    assert_eq!(with("Mx", "", "My"), ["PB506 M"]);
+    assert_eq!(with("", "", "Mx"), ["PB201"]);
+    assert_eq!(with("Mx", "", ""), ["PB201"]);
+    assert_eq!(with("", "", ""), ["PB201"]);
+}
+
+/// E is found anywhere in the name, and counts instead of all restrictions.
+#[test]
+fn e_says_what_may_be_embedded() {
+    let with = |rule: &str| project(&format!("T5 O3 I1 B0 Mx E{rule}"), ">1111.1P");
+    assert_eq!(refused(&with("11P"), &[]).as_deref(), Some("PB507"));
+    assert_eq!(refused(&with("11.1P"), &[]), None);
+    assert_eq!(refused(&with("^2"), &[]).as_deref(), Some("PB507"));
+    assert_eq!(refused(&with("^1"), &[restriction("", "^2")]), None);
+}
+
+/// The first restriction that concerns a path counts.
+#[test]
+fn restrictions_say_what_may_be_embedded() {
+    let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
+    assert_eq!(refused(&outer, &[]), None);
+    assert_eq!(refused(&outer, &[restriction("^8", "^2")]), None);
+    assert_eq!(refused(&outer, &[restriction("^1", "^2")]).as_deref(), Some("PB507"));
+    assert_eq!(refused(&outer, &[restriction("^1", "^1"), restriction("^1", "^2")]), None);
+    assert_eq!(refused(&outer, &[restriction("^8", "^1"), restriction("", "^2")]).as_deref(), Some("PB507"));
+}
+
+#[test]
+fn a_segment_names_a_path_and_no_more() {
+    let named = |segment: &str| {
+        let outer = project("T5 O3 I1 B0 Mx", segment);
+        let found = judged(&outer, &[], |judge, call| {
+            let warnings = judge.warnings(call);
+            assert!(!warnings.iter().any(Diagnostic::is_error), "{warnings:?}");
+            judge.name(call).err().map(|it| *it).into_iter().chain(warnings).collect::<Vec<_>>()
+        });
+        codes(&found)
+    };
+    assert_eq!(named(">1111.1P"), RIGHT);
+    assert_eq!(named(">1111.1Px"), ["PB502"]);
+    assert_eq!(named(">x"), ["PB502"]);
+    assert_eq!(named("Mx"), ["PB501"]);
+}
+
+#[test]
+fn values_fit_the_definitions_of_the_path() {
+    let inner = PathHeader::of(&raw(&path("T5 O3 I1 Mx :B0~1", "mill 0,0 20,0 \"B=B\"\nend 20,0")));
+    let with = |text: &str| {
+        let outer = project("T5 O3 I1 B0 Mx", &format!(">1111.1P {text}"));
+        judged(&outer, &[], |judge, call| codes(&judge.binding_problems(call, &inner)))
+    };
+    assert_eq!(with(":B1"), RIGHT);
+    assert_eq!(with(":B1.1"), ["PB304"]);
+    assert_eq!(with(""), ["PB302"]);
+    assert_eq!(with(":B1 :C1"), ["PB303"]);
+    let unsound = PathHeader { is_sound: false, ..inner.clone() };
+    let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
+    assert_eq!(judged(&outer, &[], |judge, call| codes(&judge.binding_problems(call, &unsound))), RIGHT);
+}
+
+#[test]
+fn names_that_differ_by_one_character_are_near() {
+    let near = |name: &str, known: &[&str]| -> Vec<String> {
+        let known = known.iter().map(|name| PathName::new(name)).collect();
+        near_names(&PathName::new(name), known).iter().map(ToString::to_string).collect()
+    };
+    assert_eq!(
+        near("8999.1P", &["8999.01P", "8998.1P", "8988.1P", "899.1P"]),
+        ["899.1P", "8998.1P", "8999.01P"]
+    );
+    assert_eq!(near("1.1P", &["2.1P", "3.1P", "4.1P", "5.1P", "6.1P", "7.1P", "2.1p"]).len(), 5);
+}
+
+#[test]
+fn what_is_not_found_names_what_is_near() {
+    let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
+    let notes = |known: &[&str]| {
+        let known = known.iter().map(|name| PathName::new(name)).collect();
+        let name = PathName::new("1111.1P");
+        let problem = judged(&outer, &[], |judge, call| {
+            judge.not_found(call, &name, ["."].into_iter().collect(), ["a.dxf"].into_iter().collect(), known)
+        });
+        assert_eq!(problem.code().to_string(), "PB503");
+        problem.notes.iter().map(|note| note.text(Lang::En)).collect::<Vec<_>>()
+    };
+    assert!(notes(&["2222.2P"]).is_empty());
+    assert!(notes(&["1111.2P"]).concat().contains("1111.2P"));
+}
