@@ -38,6 +38,48 @@ messages! {
         help_en: "remove it, or write the program again with `pathbuild emit`",
         help_de: "das Wort entfernen, oder das Programm mit `pathbuild emit` neu schreiben",
     }
+    /// `verify --against`: another place.
+    DRAWN_ELSEWHERE: MovesDiffer {
+        en: "the tool goes to {found}; the drawing says {expected}",
+        de: "das Werkzeug fährt nach {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: the same place by another way.
+    DRAWN_OTHERWISE: MovesDiffer {
+        en: "the tool goes there by another way than the drawing says",
+        de: "das Werkzeug fährt auf anderem Weg dorthin, als die Zeichnung sagt",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: rapid or not.
+    DRAWN_AT_ANOTHER_PACE: MovesDiffer {
+        en: "this is {found}; the drawing says {expected}",
+        de: "das ist {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: F.
+    DRAWN_WITH_ANOTHER_FEED: MovesDiffer {
+        en: "the feed is {found}; the drawing says {expected}",
+        de: "der Vorschub ist {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: it ends too early.
+    DRAWN_FURTHER: MovesDiffer {
+        en: "moves are missing at the end: the drawing goes on to {expected}",
+        de: "am Ende fehlen Bewegungen: die Zeichnung geht weiter nach {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: it goes on too long.
+    NOT_DRAWN: MovesDiffer {
+        en: "the drawing has no such move: the tool goes to {found}",
+        de: "die Zeichnung hat keine solche Bewegung: das Werkzeug fährt nach {found}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
     /// `verify --against`: T.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, for the drawing it is T{expected}",

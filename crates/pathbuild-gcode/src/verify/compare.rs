@@ -132,6 +132,34 @@ impl Difference {
     }
 }
 
+impl Difference {
+    /// What is said of it where the other program is a drawing's, which has no lines.
+    pub(super) fn from_drawing(&self) -> Diagnostic {
+        let drawn = |message: &'static Message| Diagnostic::new(message);
+        let diagnostic = match (&self.found, &self.expected) {
+            (Some((_, found)), Some((_, expected))) => match self.kind {
+                Kind::Place => drawn(&say::DRAWN_ELSEWHERE)
+                    .with("found", place(&found.to))
+                    .with("expected", place(&expected.to)),
+                Kind::Shape => drawn(&say::DRAWN_OTHERWISE),
+                Kind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
+                    .with("found", pace(found))
+                    .with("expected", pace(expected)),
+                Kind::Feed => drawn(&say::DRAWN_WITH_ANOTHER_FEED)
+                    .with("found", found.pace.feed().unwrap_or(0.0))
+                    .with("expected", expected.pace.feed().unwrap_or(0.0)),
+            },
+            (None, Some((_, expected))) => drawn(&say::DRAWN_FURTHER).with("expected", place(&expected.to)),
+            (Some((_, found)), None) => drawn(&say::NOT_DRAWN).with("found", place(&found.to)),
+            (None, None) => drawn(&say::DRAWN_OTHERWISE),
+        };
+        match self.found {
+            Some((line, _)) => diagnostic.at_line(line, None),
+            None => diagnostic,
+        }
+    }
+}
+
 fn between(kind: Kind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
     let said = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
     match kind {
