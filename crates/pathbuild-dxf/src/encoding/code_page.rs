@@ -5,8 +5,8 @@ use encoding_rs::{
     ISO_8859_7, ISO_8859_8, MACINTOSH, SHIFT_JIS, UTF_8, WINDOWS_874, WINDOWS_1250, WINDOWS_1251,
     WINDOWS_1252, WINDOWS_1253, WINDOWS_1254, WINDOWS_1255, WINDOWS_1256, WINDOWS_1257, WINDOWS_1258,
 };
-
-use super::dos;
+use oem_cp::code_table::DECODING_TABLE_CP_MAP;
+use oem_cp::code_table_type::TableType;
 
 /// How the bytes of texts are to be read.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,8 @@ pub(super) enum CodePage {
     Usual,
     /// One that `encoding_rs` has.
     Standard(&'static Encoding),
-    /// A page of DOS: its upper half.
-    Dos(&'static str),
+    /// A page of DOS.
+    Dos(&'static TableType),
     /// Nobody knows it.
     Unknown,
 }
@@ -66,7 +66,10 @@ fn numbered(page: u32) -> CodePage {
         1257 => WINDOWS_1257,
         1258 => WINDOWS_1258,
         65001 => UTF_8,
-        _ => return dos::upper_half(page).map_or(CodePage::Unknown, CodePage::Dos),
+        _ => {
+            let page = u16::try_from(page).ok().and_then(|page| DECODING_TABLE_CP_MAP.get(&page));
+            return page.map_or(CodePage::Unknown, CodePage::Dos);
+        }
     };
     CodePage::Standard(encoding)
 }

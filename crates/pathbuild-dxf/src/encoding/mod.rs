@@ -4,13 +4,13 @@
 //! backslash, but never like a line end. ASCII, nearly all there is, is borrowed as it stands.
 
 mod code_page;
-mod dos;
 mod escapes;
 
 use std::borrow::Cow;
 
 use encoding_rs::mem::decode_latin1;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use oem_cp::code_table_type::TableType;
 use pathbuild_diagnostic::messages::reading::{UNDECODABLE, UNKNOWN_CODE_PAGE};
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
@@ -31,7 +31,7 @@ pub(crate) struct Decoder<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Charset<'a> {
     Standard(&'static Encoding),
-    Dos(&'static str),
+    Dos(&'static TableType),
     /// UTF-8 if the whole file is valid UTF-8, else `ANSI_1252`: found out when the first byte that is not ASCII is met.
     Either(&'a [u8]),
     /// Declared, but nobody knows it.
@@ -47,7 +47,7 @@ impl<'a> Decoder<'a> {
             _ if is_utf8 => (Charset::Standard(UTF_8), Cow::Borrowed("UTF-8")),
             CodePage::Usual => (Charset::Either(file), Cow::Borrowed("ANSI_1252")),
             CodePage::Standard(encoding) => (Charset::Standard(encoding), shown(declared).into()),
-            CodePage::Dos(upper_half) => (Charset::Dos(upper_half), shown(declared).into()),
+            CodePage::Dos(page) => (Charset::Dos(page), shown(declared).into()),
             CodePage::Unknown => (Charset::Unknown, shown(declared).into()),
         };
         Self { charset, name, doubt: None }
@@ -89,7 +89,7 @@ impl<'a> Decoder<'a> {
     fn decode_beyond_ascii<'b>(&mut self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         match self.charset {
             Charset::Standard(encoding) => standard(encoding, bytes),
-            Charset::Dos(upper_half) => dos(upper_half, bytes),
+            Charset::Dos(page) => dos(page, bytes),
             Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
             Charset::Either(file) => {
                 // Where a string is not, the file is not.
@@ -134,12 +134,10 @@ fn standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, 
     (text, !had_errors && !has_holes)
 }
 
-fn dos<'b>(upper_half: &str, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
-    let character = |byte: &u8| match byte.checked_sub(128) {
-        None => char::from(*byte),
-        Some(index) => upper_half.chars().nth(usize::from(index)).unwrap_or(char::REPLACEMENT_CHARACTER),
-    };
-    let text: String = bytes.iter().map(character).collect();
+fn dos<'b>(page: &TableType, bytes: &[u8]) -> (Cow<'b, str>, bool) {
+    // Two pages give bytes that have no character their own number.
+    let is_hole = |character: char| ('\u{80}'..='\u{9f}').contains(&character);
+    let text = page.decode_string_lossy(bytes).replace(is_hole, "\u{fffd}");
     let is_known = !text.contains(char::REPLACEMENT_CHARACTER);
     (Cow::Owned(text), is_known)
 }

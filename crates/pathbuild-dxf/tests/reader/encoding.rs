@@ -102,6 +102,7 @@ fn bytes_that_the_encoding_does_not_know_are_doubtful_once() {
     assert_eq!(doubtful("AC1015", "ANSI_1253", b"\xD2").0, "\u{fffd}");
     assert_eq!(doubtful("AC1015", "ANSI_1252", b"\x81").0, "\u{81}");
     assert_eq!(doubtful("AC1015", "ANSI_932", b"\x83").0, "\u{fffd}");
+    assert_eq!(doubtful("AC1015", "DOS869", b"\x80\xDD").0, "\u{fffd}δ");
     assert_eq!(doubtful("AC1015", "DOS857", b"\x8D\xE7").0, "ı\u{fffd}");
     let mut bytes = file("AC1021", "", b"\xFC");
     let two = b"  0\nTEXT\n  8\n\xFC\n 10\n0\n 20\n0\n 40\n1\n  1\n\xFC\n";
