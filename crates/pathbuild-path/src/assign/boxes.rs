@@ -84,8 +84,8 @@ impl List {
         let (mut fours, mut count) = (Vec::new(), 0);
         let mut sides = boxes.map(|box_| sides(&box_));
         while let Some(first) = sides.next() {
-            // What is missing in the last is nowhere.
-            let mut four = [first, [f32::INFINITY; 4], [f32::INFINITY; 4], [f32::INFINITY; 4]];
+            // What is missing in the last is nowhere, even where limits are infinite.
+            let mut four = [first, [f32::NAN; 4], [f32::NAN; 4], [f32::NAN; 4]];
             count += 1;
             for (place, next) in four[1..].iter_mut().zip(&mut sides) {
                 *place = next;

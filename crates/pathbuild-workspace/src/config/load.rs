@@ -31,6 +31,11 @@ pub fn load(given: &Overrides, inputs: &Inputs, working_directory: &Utf8Path) ->
 /// Bytes of a configuration. What limits everything else is written in it, so this one is fixed.
 const LARGEST: u64 = 4 << 20;
 
+/// What is wrong with the text of a configuration.
+pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
+    parse(file, text).1
+}
+
 fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
     match files::read(file, LARGEST) {
         Ok(text) => {

@@ -27,7 +27,7 @@ mod template;
 pub mod types;
 
 pub use arguments::{Overrides, number, positive, regex};
-pub use load::load;
+pub use load::{faults, load};
 pub use options::Options;
 pub use origin::{Origin, Sourced};
 pub use schema::schema;

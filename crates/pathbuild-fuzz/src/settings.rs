@@ -1,0 +1,22 @@
+//! What a tree says beside its drawings, and what is kept of earlier runs.
+
+use camino::Utf8Path;
+use pathbuild_cache::{Decoder, decode_diagnostic};
+use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::config;
+
+/// A pathbuild.toml.
+pub(crate) fn config(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    for fault in config::faults(Utf8Path::new("pathbuild.toml"), text) {
+        let text = fault.text(Lang::En) + &fault.text(Lang::De);
+        assert!(!text.contains(pathbuild_diagnostic::shown::acts), "{text:?}");
+    }
+}
+
+/// Findings as they are kept.
+pub(crate) fn cache(data: &[u8]) {
+    if let Ok(found) = decode_diagnostic(&mut Decoder::new(data)) {
+        _ = (found.text(Lang::En), found.help(Lang::De));
+    }
+}
