@@ -1,5 +1,6 @@
 //! `watch`: what it says and writes as drawings change.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -206,7 +207,8 @@ fn an_edited_post_begins_anew() {
     assert!(place.read(program).starts_with("(anna)"));
 }
 
-/// More changes while many drawings are asked again: what is still open is asked together with what they concern, and nothing is forgotten.
+/// A change that concerns one drawing, while two hundred are asked again because of another that is not made once more: what was still open
+/// is asked together with it. The pauses are such that it comes before, between and after the portions.
 #[test]
 fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     const PROJECTS: usize = 200;
@@ -215,30 +217,32 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
     });
     let watch = Watch::begin(&place, "watch --emit --format concise");
-    let difference = |said: &[String]| {
-        let counts = said.iter().filter_map(|line| {
-            let (new, gone) = line.split_once(" new findings, ")?;
-            let number = |text: &str| text.parse::<i64>().unwrap();
-            Some(number(new.rsplit(' ').next().unwrap()) - number(gone.split(' ').next().unwrap()))
-        });
-        counts.sum::<i64>()
-    };
-    let mut said = Vec::new();
-    for pause in [60, 75, 90, 120] {
+    // Each project is wrong, 8001 among them; 1002, and 8002 that embeds it, miss a path.
+    let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
+    for pause in [65, 90, 120, 180, 260, 400] {
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
         std::thread::sleep(Duration::from_millis(pause));
+        watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1999.1P"]));
+        let said = watch.until("1002.dxf: changed");
+        assert_eq!(difference(&said), wrong, "after {pause} ms: {said:#?}");
+
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
         std::thread::sleep(Duration::from_millis(pause));
+        watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
+        let said = watch.until("1002.dxf: changed");
+        assert_eq!(difference(&said), -wrong, "mended after {pause} ms: {said:#?}");
     }
-    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
-    // Whatever comes now comes after everything else.
-    std::thread::sleep(Duration::from_millis(500));
-    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1999.1P"]));
-    said.extend(watch.until("1002.dxf: changed"));
-    said.retain(|line| line.starts_with('['));
-    // Each project is wrong now, 8001 among them; 1002, and 8002 that embeds it, miss a path.
-    let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
-    assert_eq!(difference(&said), wrong, "{said:#?}");
+}
+
+/// How many findings more there are. Each file that changed has a line, and those of one revision say the same.
+fn difference(said: &[String]) -> i64 {
+    let counts = said.iter().filter_map(|line| {
+        let revision = line.strip_prefix('[')?.split(']').next()?;
+        let (new, gone) = line.split_once(" new findings, ")?;
+        let number = |text: &str| text.parse::<i64>().unwrap();
+        Some((revision, number(new.rsplit(' ').next()?) - number(gone.split(' ').next()?)))
+    });
+    counts.collect::<BTreeMap<_, _>>().values().sum()
 }
 
 #[test]

@@ -7,9 +7,11 @@
 mod fixture;
 mod furniture;
 pub mod generate;
+pub mod naive;
 mod oracle;
 mod parse;
 mod random;
+mod workshop;
 
 pub use pathbuild_draw::{
     Block, Draft, DrawError, Entity, Layer, Options, Point, Shape, Sheet, TextCircle, Version, model,
@@ -19,6 +21,7 @@ pub use pathbuild_draw::{
 pub use fixture::{Command, Content, Expect, Fixture, FixtureFile};
 pub use oracle::{is_required, project, shared, skip};
 pub use parse::sheet;
+pub use workshop::Workshop;
 
 /// The examples of README.md are tests.
 #[cfg(doctest)]

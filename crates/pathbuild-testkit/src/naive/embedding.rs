@@ -1,0 +1,193 @@
+//! How an embedding is judged. (spec/50-path-building.md, "Subpaths"; the order: spec/80-diagnostics.md, "Which error hides which")
+
+use pathbuild_path::{
+    Allowed, Bindings, Definition, Path, PathName, Segment, SegmentKind, Subpath, SubpathName, SweepLimits,
+    parse_number, walk,
+};
+use regex::Regex;
+
+use super::{Finding, Instance, Model};
+
+/// How deep embedding may be below the path that is checked.
+const DEEPEST: usize = 10;
+
+/// Lengths in mm that differ by no more are the same.
+const LENGTH: f64 = 0.001;
+
+/// A walk through all that a path embeds.
+pub(super) struct Visit<'m> {
+    model: &'m Model,
+    /// The paths that are being gone through, outermost first.
+    open: Vec<Instance>,
+    pub(super) found: Vec<Finding>,
+}
+
+impl<'m> Visit<'m> {
+    pub(super) fn new(model: &'m Model) -> Self {
+        Self { model, open: Vec::new(), found: Vec::new() }
+    }
+
+    /// Goes through a path and all that it embeds; whether anything in it is an error.
+    pub(super) fn path(&mut self, instance: &Instance) -> bool {
+        let drawing = &self.model.drawings[instance.0];
+        self.found.extend(drawing.faults());
+        let raw = self.model.raw(instance);
+        if self.report(instance, &raw.diagnostics) {
+            return true;
+        }
+        let (path, problems) = self.model.bound(instance);
+        let mut is_wrong = self.report(instance, &problems);
+        let Some(path) = path else { return true };
+        is_wrong |= self.report(instance, &SweepLimits::of(&path).check(path.embedded_sweep_height()));
+        if is_wrong {
+            return true;
+        }
+        is_wrong |= self.report(instance, &walk(&path, self.model.language.join_tolerance).diagnostics);
+        self.open.push(instance.clone());
+        for segment in &path.segments {
+            if let SegmentKind::Subpath(subpath) = &segment.kind {
+                is_wrong |= self.embedding(instance, &path, segment, subpath);
+            }
+        }
+        self.open.pop();
+        is_wrong
+    }
+
+    /// Reports what is found in a path; whether it is an error.
+    fn report(&mut self, (drawing, ..): &Instance, found: &[pathbuild_diagnostic::Diagnostic]) -> bool {
+        let drawing = &self.model.drawings[*drawing];
+        for diagnostic in found {
+            let mut finding = Finding::shared(diagnostic, &drawing.path);
+            if let (Some(path), Some(element)) = (&diagnostic.path, diagnostic.place.element) {
+                finding.handle = drawing.handle(&PathName::new(path), element);
+            }
+            self.found.push(finding);
+        }
+        found.iter().any(pathbuild_diagnostic::Diagnostic::is_error)
+    }
+
+    /// Judges one embedding and goes through what is embedded; whether anything is an error.
+    fn embedding(&mut self, outer: &Instance, path: &Path, segment: &Segment, subpath: &Subpath) -> bool {
+        let model = self.model;
+        let drawing = &model.drawings[outer.0];
+        let at = |code: &str, words: &[&str]| Finding {
+            code: code.to_owned(),
+            file: drawing.path.clone(),
+            path: Some(path.name.to_string()),
+            handle: drawing.handle(&path.name, path.origin(segment).id),
+            words: words.iter().map(|word| (*word).to_owned()).collect(),
+        };
+        let name = match &subpath.name {
+            SubpathName::Missing { .. } => return self.stop(at("PB501", &[])),
+            SubpathName::Invalid { value } => return self.stop(at("PB502", &[value])),
+            SubpathName::Found { name, has_more } => {
+                // A warning.
+                self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
+                name
+            }
+        };
+        if !self.is_allowed(path, name) {
+            return self.stop(at("PB507", &[name.as_str()]));
+        }
+        if self.open.len() > DEEPEST {
+            return self.stop(at("PB508", &[]));
+        }
+        let holder = match *model.holders(outer.0, name) {
+            [] => return self.stop(at("PB503", &[name.as_str()])),
+            [holder] => holder,
+            [first, second, ..] => {
+                let [first, second] = [first, second].map(|it| &*model.drawings[it].path);
+                return self.stop(at("PB504", &[name.as_str(), first, second]));
+            }
+        };
+        let paths = &model.drawings[holder].content.paths;
+        let number = paths.iter().take_while(|(raw, _)| raw.name != *name).count();
+        let values = subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone())));
+        let child = (holder, number, Bindings::new(values));
+        let raw = model.raw(&child);
+        if raw.is_sound() {
+            let before = self.found.len();
+            for given in &subpath.values {
+                let name = given.variable.map(String::from).unwrap_or_default();
+                match raw.definitions.iter().find(|known| Some(known.name) == given.variable) {
+                    None => self.found.push(at("PB303", &[&name])),
+                    Some(known) if !allows(known, &given.value) => {
+                        self.found.push(at("PB304", &[&format!("{name:?}"), &given.value]));
+                    }
+                    Some(_) => {}
+                }
+            }
+            let is_missing = |known: &&Definition| child.2.get(known.name).is_none();
+            for known in raw.definitions.iter().filter(is_missing) {
+                self.found.push(at("PB302", &[&known.name.to_string()]));
+            }
+            if self.found.len() > before {
+                return true;
+            }
+        }
+        if self.open.contains(&child) {
+            return self.stop(at("PB509", &[name.as_str()]));
+        }
+        let inner = model.bound(&child).0;
+        let misfits = inner.map_or(Vec::new(), |inner| misfits(path, subpath, &inner));
+        let mut is_wrong = !misfits.is_empty();
+        for (code, word) in misfits {
+            self.found.push(at(code, &[&word]));
+        }
+        if self.path(&child) {
+            self.found.push(at("PB511", &[raw.name.as_str()]));
+            is_wrong = true;
+        }
+        is_wrong
+    }
+
+    fn stop(&mut self, finding: Finding) -> bool {
+        self.found.push(finding);
+        true
+    }
+
+    /// E of the embedding path, else the first --restrict that is about it.
+    fn is_allowed(&self, path: &Path, name: &PathName) -> bool {
+        let is_in = |rule: &str, name: &PathName| {
+            Regex::new(rule).is_ok_and(|pattern| pattern.is_match(name.as_str()))
+        };
+        if let Some(rule) = &path.embeds_only {
+            return is_in(rule, name);
+        }
+        let rule = self.model.rules.restrict.iter().find(|(parent, _)| is_in(parent, &path.name));
+        rule.is_none_or(|(_, child)| is_in(child, name))
+    }
+}
+
+/// Whether a variable may have a value.
+pub(super) fn allows(definition: &Definition, value: &str) -> bool {
+    match &definition.values {
+        Allowed::Range { from, to, .. } => {
+            parse_number(value).is_some_and(|number| *from <= number && number <= *to)
+        }
+        Allowed::List(values) => values.iter().any(|known| known == value),
+        Allowed::Characters(all) => all.iter().any(|known| value == known.to_string()),
+    }
+}
+
+/// What of M, T, O and the length does not fit: the code, and the letter.
+fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
+    let differs = |a: f64, b: f64| (a - b).abs() > LENGTH;
+    let mut found = Vec::new();
+    for (letter, here, there) in [("T", subpath.thickness, inner.thickness), ("O", subpath.tool, inner.tool)]
+    {
+        found.extend(differs(here, there).then(|| ("PB506", letter.to_owned())));
+    }
+    match (&subpath.material, &inner.material) {
+        (Some(here), Some(there)) => found.extend((here != there).then(|| ("PB506", "M".to_owned()))),
+        _ => found.push(("PB201", "M".to_owned())),
+    }
+    if path.thickness < subpath.thickness - LENGTH {
+        found.push(("PB510", String::new()));
+    }
+    let length = |from: pathbuild_path::Xy, to: pathbuild_path::Xy| (to - from).norm();
+    if differs(length(subpath.start, subpath.end), length(inner.start, inner.end)) {
+        found.push(("PB505", String::new()));
+    }
+    found
+}

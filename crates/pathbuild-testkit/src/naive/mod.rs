@@ -1,0 +1,168 @@
+//! What a check of a library finds, told the plain way: every file is read, every name is looked at, and each path is gone through as
+//! often as it is embedded. No database, no index, nothing kept. Only reading, binding and walking are the program's own; how files are
+//! found and how embeddings are judged is written here once more from the specification, so that the program is not held against itself.
+//! (spec/20-paths-and-files.md, spec/40-variables.md, spec/50-path-building.md, spec/80-diagnostics.md)
+
+mod embedding;
+mod finding;
+mod names;
+mod q_projects;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use pathbuild_diagnostic::{Diagnostic, ElementId};
+use pathbuild_dxf::{Options, Units};
+use pathbuild_path::{
+    Bindings, Language, LineTypeAliases, Path, PathName, PathPattern, ProxyLine, RawFile, RawPath,
+    proxy_lines, raw_file,
+};
+
+pub use finding::{Finding, differences};
+
+/// Files by their paths, with `/` between directories.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// What the configuration says.
+#[derive(Clone, Debug, Default)]
+pub struct Rules {
+    /// Directories in which paths are looked for beside the drawing's own.
+    pub search: Vec<String>,
+    /// PARENT and CHILD of each `--restrict`.
+    pub restrict: Vec<(String, String)>,
+}
+
+/// Everything that is drawn.
+pub struct Model {
+    drawings: Vec<Drawing>,
+    language: Arc<Language>,
+    rules: Rules,
+}
+
+struct Drawing {
+    path: String,
+    bytes: Vec<u8>,
+    content: RawFile,
+}
+
+/// A path with values: the drawing's number, the path's among its paths, the values.
+type Instance = (usize, usize, Bindings);
+
+/// What is expected without anything that a configuration can change.
+pub fn language() -> Language {
+    Language {
+        path_pattern: PathPattern::default(),
+        line_types: LineTypeAliases::default(),
+        join_tolerance: 0.0,
+        text_limit: 65_536,
+    }
+}
+
+impl Model {
+    /// Reads every drawing.
+    pub fn new(files: &Files, rules: &Rules) -> Self {
+        let language = Arc::new(language());
+        let drawings = files.iter().filter(|(path, _)| is_drawing(path));
+        let drawings = drawings.map(|(path, bytes)| Drawing::read(path, bytes, &language)).collect();
+        Self { drawings, language, rules: rules.clone() }
+    }
+
+    /// What a check of the drawings in a directory and below finds.
+    pub fn check(&self, directory: &str) -> Vec<Finding> {
+        let wanted = |drawing: &&Drawing| drawing.path.starts_with(&format!("{directory}/"));
+        let numbers: Vec<usize> =
+            (0..self.drawings.len()).filter(|number| wanted(&&self.drawings[*number])).collect();
+        let mut found = Vec::new();
+        for number in &numbers {
+            found.extend(self.drawings[*number].faults());
+            for path in 0..self.drawings[*number].content.paths.len() {
+                found.extend(self.check_path(*number, path));
+            }
+        }
+        found.extend(self.q_projects(&numbers));
+        finding::each_once(found)
+    }
+
+    /// What a check of one path alone finds; nothing where there is no such drawing.
+    pub fn check_alone(&self, file: &str, name: &str) -> Vec<Finding> {
+        let Some(number) = self.drawings.iter().position(|drawing| drawing.path == file) else {
+            return Vec::new();
+        };
+        let path = self.drawings[number].content.paths.iter();
+        let path = path.take_while(|(raw, _)| raw.name != PathName::new(name)).count();
+        let mut found = self.drawings[number].faults();
+        found.extend(self.check_path(number, path));
+        finding::each_once(found)
+    }
+
+    /// The paths of the drawings in a directory and below: file and name.
+    pub fn paths(&self, directory: &str) -> Vec<(String, String)> {
+        let below = self.drawings.iter().filter(|it| it.path.starts_with(&format!("{directory}/")));
+        let names = |it: &Drawing| {
+            let names = it.content.paths.iter().map(|(raw, _)| (it.path.clone(), raw.name.to_string()));
+            names.collect::<Vec<_>>()
+        };
+        below.flat_map(names).collect()
+    }
+
+    fn check_path(&self, drawing: usize, path: usize) -> Vec<Finding> {
+        let (raw, _) = &self.drawings[drawing].content.paths[path];
+        let values = Bindings::check_values(&raw.definitions);
+        let mut visit = embedding::Visit::new(self);
+        visit.path(&(drawing, path, values));
+        visit.found
+    }
+
+    fn raw(&self, (drawing, path, _): &Instance) -> &RawPath {
+        &self.drawings[*drawing].content.paths[*path].0
+    }
+
+    /// Binds a path that is sound.
+    fn bound(&self, instance: &Instance) -> (Option<Path>, Vec<Diagnostic>) {
+        let raw = self.raw(instance);
+        if raw.is_sound() {
+            pathbuild_path::bind(raw, &instance.2, &self.language)
+        } else {
+            (None, Vec::new())
+        }
+    }
+}
+
+impl Drawing {
+    fn read(path: &str, bytes: &[u8], language: &Language) -> Self {
+        let content = raw_file(&drawn(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
+        Self { path: path.to_owned(), bytes: bytes.to_vec(), content }
+    }
+
+    /// Its lines to be copied into projects.
+    fn proxies(&self, language: &Language) -> Vec<ProxyLine> {
+        proxy_lines(&drawn(&self.bytes, &|_| true), language)
+    }
+
+    /// What is wrong with the drawing and is about none of its paths.
+    fn faults(&self) -> Vec<Finding> {
+        self.content.diagnostics.iter().map(|found| Finding::shared(found, &self.path)).collect()
+    }
+
+    /// The handle of an element of a path.
+    fn handle(&self, path: &PathName, element: ElementId) -> Option<String> {
+        let (_, map) = self.content.paths.iter().find(|(raw, _)| raw.name == *path)?;
+        map.positions().get(element.0 as usize)?.handle.map(|handle| handle.to_string())
+    }
+}
+
+fn drawn(bytes: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> pathbuild_dxf::Drawing {
+    let options = Options {
+        keep_layer,
+        units: Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 2_000_000,
+        max_text: 65_536,
+        compatible: false,
+    };
+    pathbuild_dxf::read(bytes, &options)
+}
+
+fn is_drawing(path: &str) -> bool {
+    path.to_ascii_lowercase().ends_with(".dxf")
+}

@@ -1,0 +1,235 @@
+//! One answer, whoever asks: what a check of libraries finds with all kinds of faults in them, edited again and again, is what a plain model
+//! finds that reads every file and keeps nothing, and the same from a new database as from one that was told of the edits, path by path, on
+//! several threads, and by the program, with what it kept of the runs before. (pathbuild_testkit::naive)
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::MemorySystem;
+use pathbuild_db::{
+    Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_file, closure, locate,
+    path_names, q_project_findings,
+};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{FilePattern, Restriction};
+use pathbuild_testkit::Workshop;
+use pathbuild_testkit::naive::{Finding, Model, Rules, differences, language};
+use pathbuild_toolpath::FoldOptions;
+use rayon::prelude::*;
+use serde_json::Value as Json;
+
+use crate::support::Place;
+
+const LIBRARIES: u64 = 300;
+const EDITS: usize = 10;
+
+/// The program itself is asked about each of so many libraries: it takes longer than all other ways together.
+const OF_PROGRAM: u64 = 20;
+
+/// Kinds of faults, each of which is to be in one of twenty states at least.
+const KINDS: [&str; 25] = [
+    "PB002", "PB107", "PB201", "PB202", "PB203", "PB207", "PB301", "PB302", "PB303", "PB304", "PB401",
+    "PB501", "PB502", "PB503", "PB504", "PB505", "PB506", "PB507", "PB508", "PB509", "PB510", "PB511",
+    "PB515", "PB516", "PB517",
+];
+
+#[test]
+fn every_way_to_ask_finds_what_a_plain_model_finds() {
+    let seen: Vec<Vec<Finding>> = (0..LIBRARIES).into_par_iter().flat_map_iter(states).collect();
+    assert_eq!(seen.len() as u64, LIBRARIES * (EDITS as u64 + 1));
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for kind in KINDS {
+        let with_it = seen.iter().filter(|found| found.iter().any(|it| it.code == kind)).count();
+        counts.insert(kind, with_it);
+    }
+    let rare: Vec<_> = counts.iter().filter(|(_, count)| 20 * **count < seen.len()).collect();
+    assert!(rare.is_empty(), "in fewer than 5 % of {} states: {rare:?}", seen.len());
+}
+
+/// What is found in each state of a library.
+fn states(seed: u64) -> Vec<Vec<Finding>> {
+    let mut workshop = Workshop::new(seed);
+    let system = Arc::new(MemorySystem::default());
+    for (path, bytes) in workshop.files() {
+        system.put(path.as_str(), bytes.clone());
+    }
+    let mut told = Asked::new(Arc::clone(&system), workshop.rules());
+    let place = (seed % OF_PROGRAM == 0).then(|| OnDisk::new(&workshop));
+    let mut seen = Vec::new();
+    for step in 0..=EDITS {
+        if step > 0 {
+            for path in workshop.edit() {
+                change(&workshop, &path, &system, &mut told, place.as_ref());
+            }
+        }
+        let said = |what: &str| format!("library {seed}, edit {step}: {what}");
+        let model = Model::new(workshop.files(), workshop.rules());
+        let expected = model.check("lib");
+        let mut cold = Asked::new(Arc::clone(&system), workshop.rules());
+        let found = cold.library(&workshop);
+        same(&expected, &findings(&found), &said("the model and a new database"));
+        let [again, found] = [told.library(&workshop), found].map(|found| in_lower_case(&found));
+        let differing = again.iter().zip(&found).find(|(a, b)| a != b);
+        assert!(again == found, "{}: {differing:#?}", said("a database that was told of the edits"));
+        let paths = model.paths("lib");
+        let (file, name) = &paths[(seed as usize + step) % paths.len()];
+        let alone = Asked::new(Arc::clone(&system), workshop.rules()).path(file, name);
+        same_but_cycles(&model.check_alone(file, name), &findings(&alone), &said(&format!("{name} alone")));
+        if let Some(place) = &place {
+            same(&expected, &place.check(""), &said("the program with what it kept"));
+            same(&expected, &place.check("--no-cache -j1"), &said("the program on one thread"));
+        }
+        seen.push(expected);
+    }
+    seen
+}
+
+#[track_caller]
+fn same(model: &[Finding], program: &[Finding], what: &str) {
+    let differences = differences(model, program);
+    assert!(differences.is_empty(), "{what}:\n{}", differences.join("\n"));
+}
+
+/// From one path alone a cycle may be entered on several ways, of which each path takes but one.
+#[track_caller]
+fn same_but_cycles(model: &[Finding], program: &[Finding], what: &str) {
+    let is_cyclic = |found: &[Finding]| found.iter().any(|it| it.code == "PB509");
+    assert_eq!(is_cyclic(model), is_cyclic(program), "{what}");
+    if !is_cyclic(model) {
+        same(model, program, what);
+    }
+}
+
+fn findings(found: &[Diagnostic]) -> Vec<Finding> {
+    found.iter().map(Finding::of).collect()
+}
+
+/// A path that is only spelt in another case counts as unchanged, so that findings of others keep its old spelling.
+fn in_lower_case(found: &[Diagnostic]) -> Vec<String> {
+    let mut found: Vec<String> = found.iter().map(|it| format!("{it:?}").to_lowercase()).collect();
+    found.sort();
+    found
+}
+
+fn change(workshop: &Workshop, path: &str, system: &MemorySystem, told: &mut Asked, place: Option<&OnDisk>) {
+    let path = Utf8Path::new(path);
+    match workshop.files().get(path.as_str()) {
+        Some(bytes) => system.put(path, bytes.clone()),
+        None => _ = pathbuild_db::system::System::remove(system, path),
+    }
+    told.db.touch_file(path);
+    told.db.touch_directory(path.parent().unwrap());
+    if let Some(place) = place {
+        place.put(workshop, path);
+    }
+}
+
+/// A database that is asked for targets.
+struct Asked {
+    db: Database,
+    targets: BTreeMap<(String, String), Target>,
+}
+
+impl Asked {
+    fn new(system: Arc<MemorySystem>, rules: &Rules) -> Self {
+        let db = Database::new(system);
+        let search = rules.search.iter().map(Utf8PathBuf::from).collect();
+        let restrict = rules.restrict.iter().map(|(parent, child)| Restriction::new(parent, child).unwrap());
+        Settings::new(
+            &db,
+            Reading::default(),
+            Arc::new(language()),
+            Lookup { file_pattern: FilePattern::default(), search },
+            restrict.collect(),
+            FoldOptions { feed: Some(100.0), sweep_height: None, compatible: false },
+            Limits::default(),
+        );
+        Self { db, targets: BTreeMap::new() }
+    }
+
+    /// What is found in the library, in order, each once.
+    fn library(&mut self, workshop: &Workshop) -> Vec<Diagnostic> {
+        let files: Vec<&String> = workshop.files().keys().filter(|path| path.starts_with("lib/")).collect();
+        let mut found = Vec::new();
+        for path in &files {
+            let file = self.db.file(Utf8Path::new(path));
+            found.extend(check_file(&self.db, file).iter().cloned());
+            let names: Vec<String> =
+                path_names(&self.db, file).iter().map(|name| name.as_str().to_owned()).collect();
+            for name in names {
+                found.extend(self.path(path, &name));
+            }
+        }
+        for path in &files {
+            let Some(q_project) = files.iter().find(|it| **it == &path.replace(".dxf", "_Q.dxf")) else {
+                continue;
+            };
+            let [drawing, q_project] = [path, q_project].map(|it| self.db.file(Utf8Path::new(it)));
+            if drawing != q_project {
+                found.extend(q_project_findings(&self.db, drawing, q_project).iter().cloned());
+            }
+        }
+        let mut found: Vec<Diagnostic> = found.into_iter().map(|it| locate(&self.db, it)).collect();
+        found.sort_by_cached_key(|it| format!("{it:?}"));
+        found.dedup();
+        found
+    }
+
+    /// What is found in a path, and what is wrong with the drawings that it was made from.
+    fn path(&mut self, file: &str, name: &str) -> Vec<Diagnostic> {
+        let drawing = self.db.file(Utf8Path::new(file));
+        let new = || Target::new(&self.db, drawing, name.into(), Role::Checked);
+        let target = *self.targets.entry((file.to_owned(), name.to_owned())).or_insert_with(new);
+        let closure = closure(&self.db, target);
+        let files: Vec<SourceFile> = closure.files(&self.db);
+        let faults = files.iter().flat_map(|file| check_file(&self.db, *file));
+        let found = closure.diagnostics.iter().chain(faults).cloned();
+        found.map(|it| locate(&self.db, it)).collect()
+    }
+}
+
+/// The library as the program sees it.
+struct OnDisk(Place);
+
+impl OnDisk {
+    fn new(workshop: &Workshop) -> Self {
+        let rules = workshop.rules();
+        let restrict: Vec<String> =
+            rules.restrict.iter().map(|(parent, child)| format!("{parent}:{child}")).collect();
+        let configuration = format!(
+            "library = [\"lib\"]\nsearch = {:?}\nrestrict = {restrict:?}\nfeed = 100\n",
+            rules.search
+        );
+        let place = Place::new().file("pathbuild.toml", configuration).file("spare/nothing", "");
+        let files = workshop.files().iter();
+        Self(files.fold(place, |place, (path, bytes)| place.file(path, bytes)))
+    }
+
+    fn put(&self, workshop: &Workshop, path: &Utf8Path) {
+        let on_disk = self.0.path().join(path);
+        match workshop.files().get(path.as_str()) {
+            Some(bytes) => fs::write(on_disk, bytes).unwrap(),
+            None => _ = fs::remove_file(on_disk),
+        }
+    }
+
+    /// What `check` finds with these options.
+    fn check(&self, options: &str) -> Vec<Finding> {
+        let run = self.0.run(&format!("check --format=json {options}"));
+        assert!(matches!(run.status, Some(0 | 1)), "{run}");
+        let of = |line: &str| {
+            let found: Json = serde_json::from_str(line).unwrap();
+            let text = |key: &str| found[key].as_str().map(str::to_owned);
+            Finding {
+                code: text("code").unwrap(),
+                file: text("file").unwrap_or_default(),
+                path: text("path"),
+                handle: text("handle"),
+                words: vec![text("message").unwrap()],
+            }
+        };
+        run.stdout.lines().map(of).collect()
+    }
+}
