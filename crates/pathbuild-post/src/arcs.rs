@@ -2,7 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::job::Plane;
+use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
+
+use super::job::{Plane, Units};
 use super::step::Arc;
 
 /// An arc is cut into at most so many chords.
@@ -54,6 +56,42 @@ impl Polar {
         let count = (self.sweep / widest.min(PI / 2.0)).ceil().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
         (count <= MOST_CHORDS as f64).then_some(count as usize)
+    }
+}
+
+/// How an arc's numbers are written.
+pub(crate) struct Rounding<'r> {
+    /// A length in mm as the number that is written, in the unit that is written.
+    pub(crate) length: &'r dyn Fn(f64) -> f64,
+    /// Centres are absolute, not relative to where arcs begin.
+    pub(crate) is_absolute: bool,
+}
+
+impl Rounding<'_> {
+    /// Whether an arc would be read as a full circle because its ends are written alike.
+    pub(crate) fn closes(&self, arc: &Arc, plane: Plane) -> bool {
+        let alike = |axis: usize| (self.length)(arc.from[axis]) == (self.length)(arc.to[axis]);
+        Polar::of(arc, plane).sweep < PI && plane.axes()[..2].iter().all(|axis| alike(*axis))
+    }
+
+    /// Controls refuse an arc, or run a wild one, when the rounded centre is not as far from the end as from the start.
+    pub(crate) fn check(&self, arc: &Arc, plane: Plane, units: Units) -> Result<(), Box<Diagnostic>> {
+        let rounded = |point: [f64; 3]| point.map(|at| (self.length)(at));
+        let (from, to) = (rounded(arc.from), rounded(arc.to));
+        let centre = |axis: usize| match self.is_absolute {
+            true => (self.length)(arc.centre[axis]),
+            false => from[axis] + (self.length)(arc.centre[axis] - arc.from[axis]),
+        };
+        let [u, v, _] = plane.axes();
+        let radius = |point: [f64; 3]| libm::hypot(point[u] - centre(u), point[v] - centre(v));
+        let (start, end) = (radius(from), radius(to));
+        let tolerance = if units == Units::Inches { 0.000_2 } else { 0.002 };
+        if (start - end).abs() <= tolerance {
+            return Ok(());
+        }
+        let text = |radius: f64| format!("{radius:.4}");
+        let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(arc.to[0], arc.to[1]));
+        Err(Box::new(diagnostic.with("start", text(start)).with("end", text(end))))
     }
 }
 

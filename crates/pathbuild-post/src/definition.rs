@@ -122,41 +122,57 @@ impl Post {
             post_build: None,
             inserted: Vec::new(),
         };
-        match &self.engine {
-            Engine::CamBam(definition) => self.write_cambam(definition, job, options, &mut output)?,
+        let target = target.as_ref();
+        let shadow = match &self.engine {
+            Engine::CamBam(definition) => self.write_cambam(definition, job, target, options, &mut output)?,
             Engine::Cad6(definition) => {
-                let written = cad6::write(definition, &self.file, job, options)?;
+                let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.inserted = written.inserted;
                 output.note_switches(definition, job);
+                written.shadow
             }
-        }
-        output.text = target::plain(&output.text, target.as_ref(), options.charset);
-        match target {
-            None => output.notes.push(Note { message: &posts::POST_WITHOUT_DIALECT, arguments: Vec::new() }),
-            Some(target) => {
-                let errors = target::check(&output.text, &target);
-                let found =
-                    if errors.is_empty() { self.read_back(&output.text, job, &target) } else { Err(errors) };
-                found.map_err(|errors| {
-                    errors.into_iter().map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
-                })?;
+        };
+        output.text = target::plain(&output.text, target, options.charset);
+        let refused =
+            target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
+        let found = match refused {
+            Some(errors) => Err(errors),
+            None if options.unchecked => {
+                output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
+                Ok(())
             }
-        }
+            None => self.read_back(&output.text, &shadow, job, target),
+        };
+        let placed = |errors: Vec<Diagnostic>| {
+            errors.into_iter().map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
+        };
+        found.map_err(placed)?;
         Ok(output)
     }
 
-    /// Whether the text makes the machine do what the job says.
-    fn read_back(&self, text: &[u8], job: &Job, target: &Target) -> Result<(), Vec<Diagnostic>> {
+    /// Whether the text makes the machine do what the job says. Where no dialect says what its words mean, or where axes are the
+    /// definition's own, its shadow is read.
+    fn read_back(
+        &self,
+        text: &[u8],
+        shadow: &str,
+        job: &Job,
+        target: Option<&Target>,
+    ) -> Result<(), Vec<Diagnostic>> {
         let (decimals, chord) = match &self.engine {
-            Engine::CamBam(definition) if definition.is_wrapped() => return Ok(()),
             Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
             Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
         };
         let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
-        let tolerance = Tolerance { place: half, feed: half, chord, ends: Ends::Cutting };
-        read_back::check(text, job, target, &tolerance)
+        // Some definitions write whole feeds.
+        let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
+        let has_own_axes = matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes());
+        match target.filter(|_| !has_own_axes) {
+            Some(target) => read_back::check(text, job, Some(target), &tolerance),
+            None => read_back::check(shadow.as_bytes(), job, None, &tolerance),
+        }
     }
 
     /// The unit that is written, in mm.
@@ -188,10 +204,11 @@ impl Post {
         &self,
         definition: &cambam::Definition,
         job: &Job,
+        target: Option<&Target>,
         options: &PostOptions<'_>,
         output: &mut Output,
-    ) -> Result<(), Vec<Diagnostic>> {
-        let written = cambam::write(definition, &self.file, job, options)?;
+    ) -> Result<String, Vec<Diagnostic>> {
+        let written = cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
         output.warnings.extend(written.warnings);
         if written.leaves_out_coolant {
@@ -203,7 +220,7 @@ impl Post {
             }
             command => output.post_build = command,
         }
-        Ok(())
+        Ok(written.shadow)
     }
 }
 

@@ -18,6 +18,8 @@ pub struct Job {
     pub units: Units,
     /// The operations in order. A job without any is not written.
     pub operations: Vec<Operation>,
+    /// What the head of the text tells, as comments.
+    pub remarks: Vec<Box<str>>,
     /// Custom text for the head and foot of the file; may use the post's macros.
     pub texts: Texts,
     /// The raw material, where it is known.
@@ -127,7 +129,7 @@ pub struct Operation {
     pub surface: f64,
     /// The deepest point, mm, where there is one.
     pub target_depth: Option<f64>,
-    /// The infeed, mm, where it is known.
+    /// The largest infeed, mm, where there is one.
     pub depth_increment: Option<f64>,
     /// Free text.
     pub tag: Box<str>,
@@ -171,7 +173,7 @@ impl Operation {
 }
 
 impl Operation {
-    /// Where the first move leads, as far as it says.
+    /// The first place to which the moves lead, each coordinate by the first move that says it, else where they begin.
     pub fn first_point(&self) -> Position {
         let target = |step: &Step| match step {
             Step::Rapid { to } | Step::Feed { to, .. } | Step::Probe { to, .. } => Some(*to),
@@ -179,7 +181,15 @@ impl Operation {
             Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].into()),
             Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
         };
-        self.steps.iter().find_map(target).unwrap_or_default()
+        let places = self.steps.iter().filter_map(target).map(Position::axes);
+        let begin = match self.entry {
+            Entry::At(at) => at.map(Some),
+            Entry::Clearance => [None, None, Some(self.clearance)],
+        };
+        places
+            .chain([begin])
+            .fold([None; 3], |first, next| [0, 1, 2].map(|axis| first[axis].or(next[axis])))
+            .into()
     }
 
     fn is_finite(&self) -> bool {
@@ -313,6 +323,11 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     operation.plunge_feed = plunge_feed;
     operation.cut_feed = cut_feed;
     operation.target_depth = operation.steps.iter().filter_map(depth_of).reduce(f64::min);
+    let mut depths: Vec<f64> = operation.steps.iter().filter_map(depth_of).collect();
+    depths.push(operation.surface);
+    depths.sort_by(|a, b| b.total_cmp(a));
+    let infeeds = depths.windows(2).map(|pair| pair[0] - pair[1]);
+    operation.depth_increment = infeeds.filter(|infeed| *infeed > 0.0).reduce(f64::max);
 }
 
 fn is_cut(step: &Step) -> bool {

@@ -23,6 +23,12 @@ pub struct PostOptions<'a> {
     pub charset: Charset,
     /// The dialect of the output, where the definition does not name one or names another.
     pub dialect: Option<Box<str>>,
+    /// Somebody answers for what cannot be read back.
+    pub unchecked: bool,
+    /// The operator sees to the spindle: no word of the definition's spindle macros is written.
+    pub manual_spindle: bool,
+    /// The time in seconds that the spindle takes to reach its speed.
+    pub spin_up: f64,
     /// Where files are that the definition inserts.
     pub files: &'a dyn PostFiles,
 }
@@ -37,6 +43,9 @@ impl Default for PostOptions<'_> {
             run_post_build: false,
             charset: Charset::Ascii,
             dialect: None,
+            unchecked: false,
+            manual_spindle: false,
+            spin_up: 0.0,
             files: &NoFiles,
         }
     }

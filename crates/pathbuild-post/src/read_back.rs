@@ -6,27 +6,30 @@ use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
 use super::step::{Arc, Position, Step};
 use super::target::Target;
+use super::ways;
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Axes, Move, Named, Options, Pace, Path};
-use pathbuild_gcode::verify::{Tolerance, compare};
+use pathbuild_gcode::verify::Tolerance;
 
-/// What is wrong with a text: what the target's reader says, else the first place where it moves otherwise than the job.
+/// What is wrong with a text: what the target's reader says, else the first place where it moves otherwise than the job. Without a target
+/// the text is one in RS274's words, which may have others.
 pub(super) fn check(
     text: &[u8],
     job: &Job,
-    target: &Target,
+    target: Option<&Target>,
     tolerance: &Tolerance,
 ) -> Result<(), Vec<Diagnostic>> {
-    let read = interpret::interpret(text, target.reader, &Options::default());
+    let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
+    let read = interpret::interpret(text, reader, &Options::default());
     let problems: Vec<Diagnostic> =
         read.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
-    if !problems.is_empty() {
+    if target.is_some() && !problems.is_empty() {
         return Err(problems.into_iter().map(as_post_s).collect());
     }
     let expected = moves(job).map_err(|error| vec![*error])?;
-    match compare(&read.moves(), &expected, tolerance) {
-        None => Ok(()),
-        Some(difference) => Err(vec![as_post_s(difference.diagnostic())]),
-    }
+    let clearance =
+        job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
+    ways::check(&read.moves(), &expected, clearance, tolerance).map_err(|problem| vec![as_post_s(*problem)])
 }
 
 /// A line of the output is no line of the definition.

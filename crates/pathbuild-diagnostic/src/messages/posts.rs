@@ -187,10 +187,43 @@ messages! {
         en: "the post's command \"{command}\" was not run; --run-post-build runs it",
         de: "der Befehl »{command}« des Postprozessors wurde nicht ausgeführt; --run-post-build führt ihn aus",
     }
-    /// A note: nothing checked the program.
-    POST_WITHOUT_DIALECT: DoubtfulPost {
-        en: "the post names no dialect, so its output was not checked; --dialect (of `post`: --target) names one",
-        de: "der Postprozessor nennt keinen Dialekt, die Ausgabe wurde nicht geprüft; --dialect (bei `post`: --target) nennt einen",
+    /// A note: nobody but its owner answers for the program.
+    POST_UNCHECKED: DoubtfulPost {
+        en: "unchecked = true: nothing checked that the output moves as the program does",
+        de: "unchecked = true: nichts hat geprüft, ob die Ausgabe sich bewegt wie das Programm",
+    }
+    /// A name that would be executed.
+    TEXT_AMONG_WORDS: RejectedWord {
+        en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
+        de: "{macro} in {section} setzt »{text}« außerhalb eines Kommentars, wo die Maschine es ausführte",
+        help_en: "write it in a comment in the post, or give the drawing another name",
+        help_de: "es im Postprozessor in einen Kommentar schreiben, oder die Zeichnung anders nennen",
+    }
+    /// Wrapped round a cylinder of no diameter.
+    NO_RADIUS: NothingToPost {
+        en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
+        de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
+        help_en: "write it from the drawing with emit, which knows T",
+        help_de: "mit emit aus der Zeichnung schreiben, das T kennt",
+    }
+    /// The spindle would never turn.
+    SPINDLE_UNKNOWN: MissingPostValue {
+        en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
+        de: "für {operation} (Fräser O = {diameter}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
+        help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
+        help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
+    }
+    /// A byte needs two hexadecimal digits.
+    BYTE_EXPECTED: InvalidControlText {
+        en: "{text}, line {line}, column {column}: two hexadecimal digits are missing here",
+        de: "{text}, Zeile {line}, Spalte {column}: hier fehlen zwei hexadezimale Ziffern",
+    }
+    /// Variables are put in before statements are run.
+    VARIABLE_UNDEFINED_YET: UnknownMacro {
+        en: "{text}, line {line}, column {column}: {name} gets its value in this text, which only later texts see",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} erhält seinen Wert in diesem Text, den erst spätere Texte sehen",
+        help_en: "assign it in a text that is called before, such as program-start",
+        help_de: "in einem Text zuweisen, der vorher aufgerufen wird, etwa program-start",
     }
     /// A note: the tool table's coolant comes to nothing.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
@@ -415,8 +448,8 @@ messages! {
     POST_DIFFERS: PostDiffers {
         en: "line {line} of the output does not do what the program says",
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
-        help_en: "look at the post's text for this line; a post without a dialect is not read back",
-        help_de: "den Text im Postprozessor für diese Zeile ansehen; ohne Dialekt wird nicht zurückgelesen",
+        help_en: "look at the post's text for this line; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "den Text im Postprozessor für diese Zeile ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
     /// G55 and the like.
     JOB_SYSTEM: NothingToPost {

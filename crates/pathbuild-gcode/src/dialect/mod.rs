@@ -3,6 +3,7 @@
 //! A dialect is data, one [`Rules`] each; reader and interpreter ask the rules and never which dialect it is.
 
 mod codes;
+mod comment;
 mod rules;
 mod spelling;
 
@@ -10,6 +11,7 @@ use std::fmt;
 use std::str::FromStr;
 
 pub use codes::{Acceptance, Letters, Words};
+pub use comment::{ascii, is_active_comment, within_comment};
 pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 

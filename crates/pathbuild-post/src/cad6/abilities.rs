@@ -11,7 +11,17 @@ pub(super) struct Abilities {
     pub(super) rapid: bool,
     /// Holes have a text of their own.
     pub(super) hole: bool,
+    /// It has the depth of a peck.
+    pub(super) peck: bool,
+    /// It has the time to wait at the bottom.
+    pub(super) dwell: bool,
     pub(super) arc: bool,
+    /// The text of arcs has centres relative to where they begin.
+    pub(super) has_relative_centres: bool,
+    /// The text of arcs has centres.
+    pub(super) has_absolute_centres: bool,
+    /// Decimals of rounded numbers.
+    pub(super) decimals: usize,
     /// Lines may go up and down.
     pub(super) line_z: bool,
     /// Arcs may go up and down.
@@ -27,12 +37,18 @@ impl Abilities {
     /// Looks through a definition.
     pub(super) fn of(definition: &Definition) -> Self {
         let has = |kind| definition.text(kind).is_some();
+        let hole = if has(Kind::Cycle) { Kind::Cycle } else { Kind::Point };
         Self {
             rapid: has(Kind::Rapid),
-            hole: has(Kind::Point) || has(Kind::Cycle),
+            hole: has(hole),
+            peck: definition.names(hole, &["PeckDepth"]),
+            dwell: definition.names(hole, &["DwellTime"]),
+            has_absolute_centres: definition.names(Kind::Arc, &["XC", "YC"]),
+            has_relative_centres: definition.names(Kind::Arc, &["IRel", "JRel"]),
+            decimals: definition.settings.decimals,
             arc: has(Kind::Arc),
-            line_z: definition.names_z(Kind::Line),
-            arc_z: definition.names_z(Kind::Arc),
+            line_z: definition.names(Kind::Line, &["Z1", "ZIncr"]),
+            arc_z: definition.names(Kind::Arc, &["Z1", "ZIncr"]),
             lift_between_passes: definition.settings.lift_between_passes,
             arc_sweep: definition.settings.arc_sweep.to_radians(),
             arc_tolerance: definition.settings.arc_tolerance,

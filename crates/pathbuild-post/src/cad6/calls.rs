@@ -10,10 +10,10 @@ use super::abilities::Abilities;
 use super::call::{Call, Place, Point, What};
 use super::control_text::Kind;
 use super::definition::Definition;
-use crate::arcs::{MOST_CHORDS, Polar, pieces};
+use crate::arcs::{MOST_CHORDS, Polar, Rounding, pieces};
 use crate::holes;
-use crate::job::{Entry, Job, Operation, Plane};
-use crate::step::{Arc, Hole, Position, Step};
+use crate::job::{Entry, Job, Operation, Plane, Units};
+use crate::step::{Arc, Hole, HoleKind, Position, Step};
 
 type Built = Result<(), Box<Diagnostic>>;
 
@@ -31,6 +31,7 @@ pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Cal
 struct Builder<'a> {
     job: &'a Job,
     abilities: Abilities,
+    units: Units,
     index: usize,
     calls: Vec<Call<'a>>,
     at: Point,
@@ -53,6 +54,7 @@ impl<'a> Builder<'a> {
         Self {
             job,
             abilities: Abilities::of(definition),
+            units: definition.units().unwrap_or(job.units),
             index: 0,
             calls: Vec::new(),
             at,
@@ -166,7 +168,12 @@ impl<'a> Builder<'a> {
     }
 
     fn hole(&mut self, hole: &Hole) -> Built {
-        if !self.abilities.hole {
+        let can_say_it = match hole.kind {
+            HoleKind::Plain => true,
+            HoleKind::Peck { .. } => self.abilities.peck,
+            HoleKind::Dwell { .. } => self.abilities.dwell,
+        };
+        if !self.abilities.hole || !can_say_it {
             for step in holes::moves(hole)? {
                 match step {
                     Step::Rapid { to } => self.rapid(self.resolve(to)),
@@ -178,8 +185,9 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         self.ways.push([hole.at[0], hole.at[1], hole.level]);
+        let clearance = self.height().max(hole.exit);
         self.close()?;
-        self.call(What::Hole { hole: *hole, clearance: hole.level.max(hole.exit) });
+        self.call(What::Hole { hole: *hole, clearance });
         self.at = [hole.at[0], hole.at[1], hole.exit];
         Ok(())
     }
@@ -232,6 +240,10 @@ impl<'a> Builder<'a> {
             self.abilities.arc && plane == Plane::Xy && (arc.to[2] == arc.from[2] || self.abilities.arc_z);
         if is_writable {
             for arc in pieces(arc, plane, polar.pieces_of(self.abilities.arc_sweep)) {
+                if self.is_nothing(&arc)? {
+                    self.line(arc.to, arc.feed)?;
+                    continue;
+                }
                 let place = self.place(arc.feed);
                 self.call(What::Arc { arc, place });
                 self.at = arc.to;
@@ -243,6 +255,21 @@ impl<'a> Builder<'a> {
             return Err(Box::new(diagnostic.with("radius", polar.radius)));
         };
         pieces(arc, plane, count).iter().try_for_each(|piece| self.line(piece.to, piece.feed))
+    }
+
+    /// Whether an arc, as it is written, would be a full circle because it ends where it begins; an error where it would be none at all.
+    fn is_nothing(&self, arc: &Arc) -> Result<bool, Box<Diagnostic>> {
+        let unit = self.units.millimetres();
+        let digits = libm::pow(10.0, self.abilities.decimals as f64);
+        let length = |length: f64| (length / unit * digits).round() / digits;
+        let rounding = Rounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
+        if rounding.closes(arc, Plane::Xy) {
+            return Ok(true);
+        }
+        if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
+            rounding.check(arc, Plane::Xy, self.units)?;
+        }
+        Ok(false)
     }
 
     /// Ends the rapids that were put off: within the material they are elements, else they lead to a new contour, which may begin with
@@ -257,7 +284,7 @@ impl<'a> Builder<'a> {
             self.flush_asides();
             return self.walk(self.ways.len());
         }
-        let (to, working, clearance) = (self.end(), self.end()[2], self.highest());
+        let (to, working, clearance) = (self.end(), self.end()[2], self.height());
         self.close()?;
         let (to, feed) = plunge.unwrap_or((to, None));
         self.start_contour(to, clearance, working, feed);
@@ -289,6 +316,21 @@ impl<'a> Builder<'a> {
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
     }
 
+    /// The height at which the tool goes where the rapids lead that were put off: their highest point, if they go straight there, else above
+    /// everything.
+    fn height(&self) -> f64 {
+        let (from, to) = (self.at, self.end());
+        let is_straight = |way: &Point| {
+            let [along, across] = [[to[0] - from[0], to[1] - from[1]], [way[0] - from[0], way[1] - from[1]]];
+            let square = along[0] * along[0] + along[1] * along[1];
+            let share = along[0] * across[0] + along[1] * across[1];
+            let aside = along[0] * across[1] - along[1] * across[0];
+            aside.abs() <= 1e-9 * square.max(1.0) && (-1e-9..=square + 1e-9).contains(&share)
+        };
+        let highest = self.highest();
+        if self.ways.iter().all(is_straight) { highest } else { highest.max(self.present().clearance) }
+    }
+
     fn start_contour(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) {
         self.call(What::Start { at, clearance, working, feed });
         self.at = at;
@@ -301,8 +343,8 @@ impl<'a> Builder<'a> {
         let end = self.end();
         if self.is_open && !self.abilities.rapid {
             self.walk(self.sideways())?;
-            let highest = self.highest();
-            self.end_contour(if highest.is_finite() { highest } else { self.present().clearance });
+            let height = self.height();
+            self.end_contour(if height.is_finite() { height } else { self.present().clearance });
         }
         self.finish_contour();
         self.at = end;

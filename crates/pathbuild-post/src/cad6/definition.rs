@@ -91,11 +91,11 @@ impl Definition {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())
     }
 
-    /// Whether a text has the height to which a move goes.
-    pub(super) fn names_z(&self, kind: Kind) -> bool {
-        let is_z = |own: &str| matches!(own, "Z1" | "ZIncr");
-        let others = self.aliases.iter().filter(|(_, own)| is_z(own)).map(|(other, _)| &**other);
-        let mut names = ["Z1", "ZIncr"].into_iter().chain(others).map(|name| format!("~{name}~"));
+    /// Whether a text has one of these variables, under its own name or another.
+    pub(super) fn names(&self, kind: Kind, variables: &[&str]) -> bool {
+        let others =
+            self.aliases.iter().filter(|(_, own)| variables.contains(&&**own)).map(|(other, _)| &**other);
+        let mut names = variables.iter().copied().chain(others).map(|name| format!("~{name}~"));
         self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
     }
 

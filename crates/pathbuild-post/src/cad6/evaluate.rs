@@ -128,6 +128,9 @@ impl<'a> Evaluator<'a> {
             self.push(char_of(byte));
             return Ok(());
         }
+        if rest.starts_with(r"\\\~") {
+            return Err(self.fault(&posts::BYTE_EXPECTED, 4));
+        }
         let escaped = rest[1..].chars().next().filter(|c| matches!(c, '~' | '{' | '}' | '\\'));
         self.at += 1 + escaped.map_or(0, char::len_utf8);
         self.push(escaped.unwrap_or('\\'));
@@ -139,6 +142,7 @@ impl<'a> Evaluator<'a> {
         let start = self.at;
         let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
         let name: String = after[..length].chars().filter(|c| !is_mark(*c)).collect();
+        let name = self.surroundings.variables.plain(&name).into_owned();
         self.at += 5 + length + 1;
         let span = start..self.at;
         if let Some(at) = after[..length].find(UNDEFINED) {
@@ -248,7 +252,11 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = text.find(UNDEFINED) {
             return Err(self.undefined(span.start + at));
         }
-        let term = evaluate(text).map_err(|fault| fault.shifted(span.start))?;
+        // A text may be a number, but no term.
+        let plain = self.surroundings.variables.plain(text);
+        let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
+        let term =
+            evaluate(if is_number { &plain } else { text }).map_err(|fault| fault.shifted(span.start))?;
         self.doubts.extend(term.doubts.into_iter().map(|doubt| (span.start, doubt)));
         Ok(term.value)
     }

@@ -32,11 +32,17 @@ pub(super) use definition::Definition;
 use runner::Runner;
 
 use super::PostOptions;
-use super::job::Job;
+use super::guard::Guard;
+use super::job::{Job, Units};
+use super::shadow::Shadow;
+use super::target::Target;
+use super::words::{CommentMarks, words};
 
 /// What the engine wrote.
 pub(super) struct Written {
     pub(super) text: Vec<u8>,
+    /// What the text says, in the words of RS274.
+    pub(super) shadow: String,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
     /// Files that are part of it.
@@ -48,10 +54,23 @@ pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
     job: &Job,
+    target: Option<&Target>,
     options: &PostOptions<'_>,
 ) -> Result<Written, Vec<Diagnostic>> {
-    let mut runner = Runner::new(definition, file, options.files);
+    let guard = Guard::new(target, CommentMarks::default(), options.charset);
+    let mut runner = Runner::new(definition, file, options.files, guard);
     program::run(job, options, &mut runner).map_err(|error| vec![*error])?;
     let (text, warnings, inserted) = runner.finish();
-    Ok(Written { text, warnings, inserted })
+    let shadow = shadow(&text, definition.units().unwrap_or(job.units));
+    Ok(Written { text, shadow, warnings, inserted })
+}
+
+fn shadow(text: &[u8], units: Units) -> String {
+    let mut shadow = Shadow::new(units, false);
+    for line in text.split(|&byte| byte == b'\n') {
+        let line = String::from_utf8_lossy(line);
+        let code = line.find("//").map_or(&*line, |comment| &line[..comment]);
+        shadow.line(&words(code, &CommentMarks::default()), None, false);
+    }
+    shadow.finish()
 }

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use super::call::{Call, Place, Point, What};
 use super::calls::calls;
 use super::control_text::Kind;
+use super::marks::is_private;
 use super::runner::{Called, Runner};
 use crate::PostOptions;
 use crate::arcs::Polar;
@@ -21,6 +22,7 @@ pub(super) struct Caller<'a, 'r> {
     tool: Option<u32>,
     contours: u32,
     elements: u32,
+    unchecked: bool,
 }
 
 /// Runs every text that a job calls.
@@ -28,9 +30,15 @@ pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runn
     let calls = calls(job, runner.definition)?;
     let units = runner.definition.settings.units.unwrap_or(job.units);
     let unit = units.millimetres();
-    let mut caller = Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0 };
+    let unchecked = options.unchecked;
+    let mut caller =
+        Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0, unchecked };
     caller.constants(units, options);
     caller.runner.call(Kind::ProgramStart)?;
+    for remark in &job.remarks {
+        caller.text("CommentText", remark);
+        caller.runner.call(Kind::Comment)?;
+    }
     calls.iter().try_for_each(|call| caller.make(call))?;
     caller.runner.call(Kind::PrimaryRun)?;
     caller.runner.call(Kind::BeforeRepeat)?;
@@ -56,7 +64,7 @@ impl Caller<'_, '_> {
 
     fn constants(&mut self, units: Units, options: &PostOptions<'_>) {
         for own in &options.macros {
-            self.runner.variables.assign(&own.name, &own.value);
+            self.runner.variables.assign(&own.name, &own.value.replace(is_private, "?"));
         }
         for axis in ["X", "Y", "Z"] {
             self.runner.variables.assign(&format!("{axis}Incr"), &format!("(~{axis}1~-~Prev{axis}~)"));
@@ -106,10 +114,12 @@ impl Caller<'_, '_> {
             What::Start { at, clearance, working, feed } => {
                 self.length("ZClearance", clearance.max(self.at[2]));
                 self.change_tool(operation)?;
+                self.require_move(Kind::ContourStart, operation)?;
                 self.start(*at, *clearance, *working, *feed)
             }
             What::Line { to, feed, place } => {
                 self.change_tool(operation)?;
+                self.require_move(Kind::Line, operation)?;
                 self.element(*to, *feed, *place);
                 self.runner.call(Kind::Line)
             }
@@ -124,6 +134,7 @@ impl Caller<'_, '_> {
             What::End { clearance } => {
                 self.length("ZClearance", *clearance);
                 self.at[2] = *clearance;
+                self.require_move(Kind::ContourEnd, operation)?;
                 self.runner.call(Kind::ContourEnd)
             }
             What::Hole { hole, clearance } => {
@@ -151,6 +162,11 @@ impl Caller<'_, '_> {
                 self.runner.call(Kind::Comment)
             }
         }
+    }
+
+    /// A move that a text must write is not written without it, unless somebody answers for that.
+    fn require_move(&self, kind: Kind, operation: &Operation) -> Called {
+        if self.unchecked { Ok(()) } else { self.require(kind, operation) }
     }
 
     fn require(&self, kind: Kind, operation: &Operation) -> Called {

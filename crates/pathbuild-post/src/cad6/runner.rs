@@ -15,6 +15,7 @@ use super::report::locate;
 use super::term::Doubt;
 use super::variables::{KNOWN, Variables};
 use crate::PostFiles;
+use crate::guard::Guard;
 use crate::suggest::nearest;
 
 /// Success, or the diagnostic that ends the writing.
@@ -35,6 +36,7 @@ pub(super) struct Runner<'a> {
     files: &'a dyn PostFiles,
     pub(super) variables: Variables,
     line_number: ControlText,
+    guard: Guard<'a>,
     text: Vec<u8>,
     /// Bytes that the texts may still come to, files that are inserted apart.
     fuel: usize,
@@ -43,7 +45,12 @@ pub(super) struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    pub(super) fn new(definition: &'a Definition, file: &'a Utf8Path, files: &'a dyn PostFiles) -> Self {
+    pub(super) fn new(
+        definition: &'a Definition,
+        file: &'a Utf8Path,
+        files: &'a dyn PostFiles,
+        guard: Guard<'a>,
+    ) -> Self {
         let aliases = definition.aliases.iter().map(|(other, own)| (&**other, &**own));
         let default = ControlText { text: LINE_NUMBER.to_owned(), begins: None };
         Self {
@@ -52,6 +59,7 @@ impl<'a> Runner<'a> {
             files,
             variables: Variables::new(aliases),
             line_number: definition.text(Kind::LineNumber).cloned().unwrap_or(default),
+            guard,
             text: Vec::new(),
             fuel: FUEL,
             warnings: Vec::new(),
@@ -64,12 +72,12 @@ impl<'a> Runner<'a> {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
         self.fuel += FUEL_PER_CALL;
         for line in self.evaluate(kind, text)? {
-            self.line(&line)?;
+            self.line(&line, kind)?;
         }
         Ok(())
     }
 
-    fn line(&mut self, line: &ResultLine) -> Called {
+    fn line(&mut self, line: &ResultLine, kind: Kind) -> Called {
         let text =
             if self.definition.settings.trim { line.text.trim_end_matches([' ', '\t']) } else { &line.text };
         if line.is_made && text.is_empty() {
@@ -80,7 +88,7 @@ impl<'a> Runner<'a> {
         if self.definition.settings.number_lines && (has_text || !line.is_inserted) && !text.is_empty() {
             self.number()?;
         }
-        self.push(text);
+        self.push(text, kind)?;
         self.text.extend_from_slice(self.definition.settings.end_of_line.as_bytes());
         Ok(())
     }
@@ -99,18 +107,32 @@ impl<'a> Runner<'a> {
         let text = self.line_number.clone();
         for line in self.evaluate(Kind::LineNumber, &text)? {
             self.burn(line.text.len())?;
-            self.push(&line.text);
+            self.push(&line.text, Kind::LineNumber)?;
         }
         Ok(())
     }
 
-    fn push(&mut self, text: &str) {
-        for c in text.chars() {
-            match byte_of(c) {
-                Some(byte) => self.text.push(byte),
-                None => self.text.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes()),
+    /// Adds a line. Texts of drawings and options get into it so that no control acts on them.
+    fn push(&mut self, line: &str, kind: Kind) -> Called {
+        let mut before = String::new();
+        for c in line.chars() {
+            if let Some(text) = self.variables.text(c) {
+                let Some(text) = self.guard.put(&before, text) else {
+                    let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS).with("section", kind.name());
+                    return Err(Box::new(
+                        diagnostic.with("macro", "~").with("text", text).in_file(self.file),
+                    ));
+                };
+                self.text.extend_from_slice(text.as_bytes());
+                before.push_str(&text);
+            } else if let Some(byte) = byte_of(c) {
+                self.text.push(byte);
+            } else {
+                self.text.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+                before.push(c);
             }
         }
+        Ok(())
     }
 
     /// The two phases of a call.
@@ -142,6 +164,7 @@ impl<'a> Runner<'a> {
 
     fn report(&self, fault: Fault, kind: Kind, text: &ControlText) -> Box<Diagnostic> {
         let Fault { span, mut diagnostic } = fault;
+        let is_assigned = |name: &str| text.text.contains(&format!("{{={name}"));
         if diagnostic.message == &posts::VARIABLE_UNDEFINED {
             let name =
                 diagnostic.arguments.first().map(|(_, value)| value.render(pathbuild_diagnostic::Lang::En));
@@ -151,6 +174,9 @@ impl<'a> Runner<'a> {
             {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_NEAREST;
                 diagnostic = diagnostic.with("nearest", nearest);
+            }
+            if name.as_deref().is_some_and(is_assigned) {
+                diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;
             }
         }
         Box::new(locate(diagnostic, kind, text, span, self.file))

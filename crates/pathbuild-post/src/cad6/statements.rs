@@ -32,7 +32,9 @@ impl Evaluator<'_> {
         let first = self.result()?;
         self.blanks();
         let second = self.result()?;
-        self.branches(first == second)
+        let variables = &self.surroundings.variables;
+        let is_same = variables.plain(&first) == variables.plain(&second);
+        self.branches(is_same)
     }
 
     /// The result of the statement that comes next, which does not go into the text.

@@ -1,6 +1,9 @@
 //! The variables of control texts: which there are, and what they hold.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+
+use super::marks::{MOST_TEXTS, char_of_text, is_private, text_of};
 
 /// The names that pathbuild sets, in the order in which they are documented.
 pub(super) const KNOWN: &[&str] = &[
@@ -75,13 +78,16 @@ pub(super) struct Variables {
     values: BTreeMap<Box<str>, Box<str>>,
     /// Names of the definition's own, and the variables that they stand for.
     aliases: BTreeMap<Box<str>, Box<str>>,
+    /// Texts of drawings, file names and options. In values a character stands for each, so that nothing in them is ever read again.
+    texts: Vec<Box<str>>,
+    numbers: BTreeMap<Box<str>, usize>,
 }
 
 impl Variables {
     /// No variables; `aliases` are pairs of another name and the one it stands for.
     pub(super) fn new<'a>(aliases: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let aliases = aliases.into_iter().map(|(other, own)| (other.into(), own.into())).collect();
-        Self { values: BTreeMap::new(), aliases }
+        Self { aliases, ..Self::default() }
     }
 
     fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
@@ -111,14 +117,41 @@ impl Variables {
 
     /// Gives a variable a text in which nothing has a meaning.
     pub(super) fn set_text(&mut self, name: &str, text: &str) {
-        let mut escaped = String::with_capacity(text.len());
-        for c in text.chars() {
-            match c {
-                '\\' | '~' | '{' | '}' => escaped.extend(['\\', c]),
-                c if c.is_control() => escaped.push(' '),
-                c => escaped.push(c),
+        let number = match self.numbers.get(text) {
+            Some(number) => *number,
+            None => self.add(text),
+        };
+        self.assign(name, char_of_text(number).encode_utf8(&mut [0; 4]));
+    }
+
+    /// The last place is used again when there are more texts than characters.
+    fn add(&mut self, text: &str) -> usize {
+        if self.texts.len() == MOST_TEXTS {
+            self.texts.pop();
+        } else {
+            self.numbers.insert(text.into(), self.texts.len());
+        }
+        self.texts.push(text.into());
+        self.texts.len() - 1
+    }
+
+    /// The text that a character stands for.
+    pub(super) fn text(&self, c: char) -> Option<&str> {
+        self.texts.get(text_of(c)?).map(|text| &**text)
+    }
+
+    /// A value with its texts in it, to be compared or read as a number, never to be expanded.
+    pub(super) fn plain<'t>(&self, value: &'t str) -> Cow<'t, str> {
+        if !value.contains(is_private) {
+            return Cow::Borrowed(value);
+        }
+        let mut plain = String::new();
+        for c in value.chars() {
+            match self.text(c) {
+                Some(text) => plain.push_str(text),
+                None => plain.push(c),
             }
         }
-        self.assign(name, &escaped);
+        Cow::Owned(plain)
     }
 }

@@ -9,8 +9,8 @@ use super::move_values::ArcValues;
 use super::registers::Register;
 use super::section::Section;
 use super::writer::{Writer, Written};
-use crate::arcs::{MOST_CHORDS, Polar, pieces};
-use crate::job::{Plane, Units};
+use crate::arcs::{MOST_CHORDS, Polar, Rounding, pieces};
+use crate::job::Plane;
 use crate::step::Arc;
 
 const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
@@ -25,7 +25,9 @@ impl Writer<'_> {
             return self.chords(arc, plane, polar);
         }
         let is_short = self.scaled(polar.radius * polar.sweep) < options.least_arc_length;
-        if is_short || self.closes_when_rounded(arc, plane, polar) {
+        let closes = self.rounded(|rounding| rounding.closes(arc, plane));
+        if is_short || closes {
+            self.warn_of_line(arc, polar);
             return self.feed(arc.to.map(Some), arc.feed);
         }
         if self.scaled(polar.radius) > options.greatest_arc_radius {
@@ -37,7 +39,8 @@ impl Writer<'_> {
                 .iter()
                 .try_for_each(|piece| self.circle(piece, plane));
         }
-        self.check_rounded(arc, plane)?;
+        self.rounded(|rounding| rounding.check(arc, plane, self.plan.job.units))
+            .map_err(|error| Box::new(error.in_file(self.plan.file)))?;
         self.circle(arc, plane)
     }
 
@@ -47,13 +50,6 @@ impl Writer<'_> {
             return Err(Box::new(diagnostic.with("radius", polar.radius).in_file(self.plan.file)));
         };
         pieces(arc, plane, count).iter().try_for_each(|piece| self.feed(piece.to.map(Some), arc.feed))
-    }
-
-    /// Whether an arc would be read as a full circle because its ends are written alike.
-    fn closes_when_rounded(&self, arc: &Arc, plane: Plane, polar: Polar) -> bool {
-        let [u, v, _] = plane.axes();
-        let alike = |axis: usize| self.length(arc.from[axis]) == self.length(arc.to[axis]);
-        polar.sweep < PI && alike(u) && alike(v)
     }
 
     fn warn_of_line(&mut self, arc: &Arc, polar: Polar) {
@@ -80,26 +76,10 @@ impl Writer<'_> {
         if arc.clockwise == is_inverted { Section::ArcCcw } else { Section::ArcCw }
     }
 
-    /// Controls refuse an arc, or run a wild one, when the rounded centre is not as far from the end as from the start.
-    fn check_rounded(&self, arc: &Arc, plane: Plane) -> Written {
-        let format = self.number_format();
-        let rounded = |point: [f64; 3]| point.map(|at| format.round(self.scaled(at)));
-        let (from, to) = (rounded(arc.from), rounded(arc.to));
-        let centre = self.offsets(arc).map(|offset| format.round(offset));
-        let centre = |axis: usize| if self.is_absolute() { centre[axis] } else { from[axis] + centre[axis] };
-        let [u, v, _] = plane.axes();
-        let radius = |point: [f64; 3]| libm::hypot(point[u] - centre(u), point[v] - centre(v));
-        let (start, end) = (radius(from), radius(to));
-        let tolerance = match self.plan.job.units {
-            Units::Millimetres => 0.002,
-            Units::Inches => 0.000_2,
-        };
-        if (start - end).abs() <= tolerance {
-            return Ok(());
-        }
-        let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", place(arc));
-        let text = |radius: f64| format!("{radius:.4}");
-        Err(Box::new(diagnostic.with("start", text(start)).with("end", text(end)).in_file(self.plan.file)))
+    /// How the numbers of arcs are rounded.
+    fn rounded<T>(&self, ask: impl FnOnce(&Rounding<'_>) -> T) -> T {
+        let length = |length: f64| self.number_format().round(self.scaled(length));
+        ask(&Rounding { length: &length, is_absolute: self.is_absolute() })
     }
 
     fn is_absolute(&self) -> bool {

@@ -1,5 +1,7 @@
 //! Canned drilling cycles.
 
+use std::mem::discriminant;
+
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 use pathbuild_path::approx::{at_least, near};
 
@@ -41,7 +43,8 @@ impl<'a> Writer<'a> {
         if is_below {
             self.lines_of(Section::StartCut)?;
         }
-        self.set_move([Some(hole.at[0]), Some(hole.at[1]), Some(hole.bottom)], self.cycle_values(hole));
+        let to = [Some(hole.at[0]), Some(hole.at[1]), Some(hole.bottom)];
+        self.set_move(to, self.cycle_values(hole))?;
         self.empty_code = None;
         self.lines_of(section)?;
         self.check_drilled(hole, section)?;
@@ -80,11 +83,15 @@ pub(super) fn can_be_canned(hole: &Hole) -> bool {
 /// How many steps belong to one group: holes between which the tool stays at one level, and remarks among them.
 fn group_length(steps: &[Step]) -> usize {
     let mut length = 0;
-    let mut level = None;
+    let mut last: Option<&Hole> = None;
+    // Each kind of cycle is a group, since a control forgets R when the cycle's word changes.
+    let continues = |last: &Hole, hole: &Hole| {
+        near(last.exit, hole.level) && discriminant(&last.kind) == discriminant(&hole.kind)
+    };
     for (index, step) in steps.iter().enumerate() {
         match step {
-            Step::Hole(hole) if can_be_canned(hole) && level.is_none_or(|level| near(level, hole.level)) => {
-                level = Some(hole.exit);
+            Step::Hole(hole) if can_be_canned(hole) && last.is_none_or(|last| continues(last, hole)) => {
+                last = Some(hole);
                 length = index + 1;
             }
             Step::Comment(_) => {}

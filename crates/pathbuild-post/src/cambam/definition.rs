@@ -7,6 +7,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::macros::Macro;
 use super::names::MacroArguments;
 use super::options::{Options, Refusal};
+use super::registers::Form;
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::job::Units;
@@ -51,9 +52,11 @@ impl Definition {
         self.options.dialect.as_deref()
     }
 
-    /// Whether paths are wrapped round a cylinder.
-    pub(crate) fn is_wrapped(&self) -> bool {
+    /// Whether axes are not the program's: wrapped round a cylinder, or with another sign.
+    pub(crate) fn has_own_axes(&self) -> bool {
+        let is_turned = |what: &Macro| matches!(what, Macro::Register(_, Form::Reversed));
         self.options.rotary.wrap
+            || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
     /// Decimals of the numbers that are written.

@@ -1,6 +1,6 @@
 //! The line that is being written.
 
-use super::registers::Code;
+use super::registers::{Code, Register};
 
 /// The line that is being written.
 #[derive(Debug, Default)]
@@ -14,6 +14,8 @@ pub(super) struct Line {
     pub(super) asked: bool,
     /// A register was written.
     pub(super) answered: bool,
+    /// Registers that were written with the other sign.
+    pub(super) turned: Vec<Register>,
     /// The motion that a macro stood for.
     pub(super) code: Option<Code>,
     /// Something was left out at the end of the text; whether blanks stood before it.

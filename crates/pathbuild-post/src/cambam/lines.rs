@@ -7,12 +7,12 @@ use super::options::Options;
 pub(super) struct Lines<'a> {
     options: &'a Options,
     text: String,
-    next_number: u32,
+    next_number: u64,
 }
 
 impl<'a> Lines<'a> {
     pub(super) fn new(options: &'a Options) -> Self {
-        Self { options, text: String::new(), next_number: options.numbering.start }
+        Self { options, text: String::new(), next_number: options.numbering.start.into() }
     }
 
     /// Adds a line, which is not blank.
@@ -29,11 +29,11 @@ impl<'a> Lines<'a> {
     fn push_number(&mut self) {
         let numbering = &self.options.numbering;
         self.text.push_str(&numbering.prefix);
-        self.text.push_str(&numbering.format.format(f64::from(self.next_number)));
+        self.text.push_str(&numbering.format.format(self.next_number as f64));
         if numbering.space_after {
             self.text.push(' ');
         }
-        self.next_number = self.next_number.wrapping_add(numbering.increment);
+        self.next_number = self.next_number + u64::from(numbering.increment);
     }
 
     /// The whole text.

@@ -1,9 +1,9 @@
 //! The state of the machine as the lines written so far leave it.
 
 use super::registers::{Code, Register};
-use super::words::{Word, Words};
 use crate::job::{Coolant, Plane, Spindle, VelocityMode};
 use crate::number::NumberFormat;
+use crate::words::{Word, Words};
 
 /// What is known of the machine. `None` is unknown, as everything is at the beginning.
 #[derive(Debug, Default)]

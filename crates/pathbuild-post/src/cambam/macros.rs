@@ -90,6 +90,24 @@ pub(super) enum Block {
     MopFooter,
 }
 
+impl Value {
+    /// Whether it is no number but a text of the drawing, the configuration or the command line.
+    pub(super) fn is_text(self) -> bool {
+        matches!(
+            self,
+            Self::FileName
+                | Self::Date
+                | Self::OutFile
+                | Self::PartName
+                | Self::MopName
+                | Self::MopTag
+                | Self::ToolName
+                | Self::ToolProfile
+                | Self::ToolComment
+        )
+    }
+}
+
 /// Values that are written bare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {

@@ -22,7 +22,6 @@ mod section;
 mod states;
 mod template;
 mod values;
-mod words;
 mod writer;
 
 use camino::Utf8Path;
@@ -36,24 +35,28 @@ use writer::Writer;
 
 use super::PostOptions;
 use super::job::Job;
+use super::target::Target;
 
 /// Writes a job that has operations.
 pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
     job: &Job,
+    target: Option<&Target>,
     options: &PostOptions<'_>,
 ) -> Result<Written, Vec<Diagnostic>> {
-    let plan = Plan::new(definition, file, job, options)?;
+    let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
-    let (text, warnings) = Writer::new(&plan).run().map_err(one)?;
-    Ok(Written { text, warnings, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+    let (text, shadow, warnings) = Writer::new(&plan).run().map_err(one)?;
+    Ok(Written { text, shadow, warnings, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
 /// What the engine wrote.
 pub(super) struct Written {
     pub(super) text: String,
+    /// What the text says, in the words of RS274.
+    pub(super) shadow: String,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
     /// The definition's own command.

@@ -1,12 +1,13 @@
 //! The moves of an operation: entry, rapids, feeds, dwells, probes.
 
+use pathbuild_diagnostic::{Diagnostic, messages::posts};
+
 use super::cycles::can_be_canned;
 use super::macros::Argument;
 use super::move_values::MoveValues;
 use super::registers::Register;
 use super::section::Section;
-use super::values::plain;
-use super::writer::{Writer, Written};
+use super::writer::{ROTARY, Writer, Written};
 use crate::holes;
 use crate::job::Entry;
 use crate::step::Step;
@@ -49,16 +50,8 @@ impl Writer<'_> {
                 self.go(Section::Probe, to.axes(), values)
             }
             Step::Stop => self.lines_of(Section::Stop),
-            Step::Comment(text) => self.comment(text),
+            Step::Comment(text) => self.comment(text, " "),
         }
-    }
-
-    fn comment(&mut self, text: &str) -> Written {
-        self.section(Section::Comment)?;
-        self.text(&format!(" {} ", plain(text)))?;
-        self.section(Section::EndComment)?;
-        self.end_line();
-        Ok(())
     }
 
     /// Straight, cutting.
@@ -85,8 +78,9 @@ impl Writer<'_> {
         if self.is_cutting && !was_cutting {
             self.lines_of(Section::StartCut)?;
         }
-        self.set_move(to, values);
+        self.set_move(to, values)?;
         self.lines_of(section)?;
+        self.remember(to);
         if was_cutting && !self.is_cutting {
             self.lines_of(Section::EndCut)?;
         }
@@ -94,13 +88,39 @@ impl Writer<'_> {
     }
 
     /// Sets the numbers of the registers for a move.
-    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) {
+    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> Written {
         self.move_values = values;
-        for (register, target) in Register::AXES.into_iter().zip(to) {
-            let value = target.map(|target| self.scaled(target)).or_else(|| self.machine.number(register));
-            self.move_values.set(register, value);
+        for (axis, target) in to.into_iter().enumerate() {
+            let value = target.map(|target| self.scaled(target)).or_else(|| self.present(axis));
+            self.move_values.set(Register::AXES[axis], value);
         }
-        self.wrap(to);
+        self.wrap(to)
+    }
+
+    /// Notes where the program has the tool now.
+    pub(super) fn remember(&mut self, to: [Option<f64>; 3]) {
+        for (axis, target) in to.into_iter().enumerate() {
+            if let Some(target) = target {
+                let text = self.machine.written(Register::AXES[axis]).map(Into::into);
+                self.own[axis] = Some((self.scaled(target), text));
+            }
+        }
+    }
+
+    /// Where the tool is, in the unit that is written: by the program's own moves, which a template may write with another sign, unless a
+    /// line of another kind has moved it since.
+    fn present(&self, axis: usize) -> Option<f64> {
+        let register = Register::AXES[axis];
+        match &self.own[axis] {
+            Some((at, text)) if text.as_deref() == self.machine.written(register) => Some(*at),
+            _ => self.machine.number(register),
+        }
+    }
+
+    /// Whether the tool is at a coordinate, as it is written.
+    fn is_at(&self, axis: usize, target: f64) -> bool {
+        self.machine.written(Register::AXES[axis]).is_some()
+            && self.present(axis).is_some_and(|at| self.number_format().format(at) == self.length(target))
     }
 
     /// A section on lines of its own.
@@ -117,28 +137,30 @@ impl Writer<'_> {
     }
 
     /// Turns the coordinate across a rotary axis into its angle.
-    fn wrap(&mut self, to: [Option<f64>; 3]) {
+    fn wrap(&mut self, to: [Option<f64>; 3]) -> Written {
         let rotary = self.plan.definition.options.rotary;
-        let radius = self.operation().surface;
-        if rotary.wrap && radius > 0.0 {
-            let angle = to[1 - rotary.along].map(|across| (across / radius).to_degrees());
-            let register = [Register::A, Register::B, Register::C][rotary.letter];
-            self.move_values.set(register, angle.or_else(|| self.machine.number(register)));
+        if !rotary.wrap {
+            return Ok(());
         }
+        let radius = self.operation().surface;
+        if radius <= 0.0 {
+            let diagnostic = Diagnostic::new(&posts::NO_RADIUS).with("operation", &*self.operation().name);
+            return Err(Box::new(diagnostic.in_file(self.plan.file)));
+        }
+        let angle = to[1 - rotary.along].map(|across| (across / radius).to_degrees());
+        let register = ROTARY[rotary.letter];
+        self.move_values.set(register, angle.or_else(|| self.machine.number(register)));
+        Ok(())
     }
 
     /// Up to the clearance plane, unless the tool is there.
     pub(super) fn clearance(&mut self) -> Written {
-        let axis = self.plan.definition.options.clearance_axis;
-        let register = Register::AXES[axis];
-        let height = self.length(self.operation().clearance);
-        if self.machine.written(register) == Some(height.as_str()) {
+        let clearance = self.operation().clearance;
+        if self.is_at(2, clearance) {
             return Ok(());
         }
-        let mut to = [None; 3];
-        to[axis] = Some(self.operation().clearance);
-        let is_down =
-            self.machine.number(register).is_some_and(|now| now > self.scaled(self.operation().clearance));
+        let to = [None, None, Some(clearance)];
+        let is_down = self.present(2).is_some_and(|now| now > self.scaled(clearance));
         if is_down && !self.plan.definition.options.rapid_down {
             return self.feed(to, self.operation().plunge_feed);
         }
@@ -161,9 +183,8 @@ impl Writer<'_> {
 
     /// Goes somewhere by way of the clearance plane, unless the tool is there.
     pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> Written {
-        let is_there = Register::AXES.into_iter().zip(target).all(|(register, target)| {
-            target.is_none_or(|target| self.machine.written(register) == Some(self.length(target).as_str()))
-        });
+        let is_there =
+            target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));
         if is_there {
             return Ok(());
         }

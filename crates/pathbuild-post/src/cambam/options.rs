@@ -21,15 +21,12 @@ pub(super) struct Options {
     pub(super) least_arc_length: f64,
     /// An arc with a greater radius becomes a line; in the program's unit.
     pub(super) greatest_arc_radius: f64,
-    /// The axis of the clearance plane: 0 is X, 2 is Z.
-    pub(super) clearance_axis: usize,
     /// Arcs in G18 turn the other way.
     pub(super) invert_arcs: bool,
     /// The way down to the clearance plane is a rapid.
     pub(super) rapid_down: bool,
     /// Nothing is said about lines that are no G-code.
     pub(super) suppress_parser_errors: bool,
-    pub(super) lathe_diameter: bool,
     pub(super) rotary: Rotary,
     pub(super) post_build_command: Box<str>,
     pub(super) post_build_arguments: Box<str>,
@@ -83,11 +80,9 @@ impl Default for Options {
             arc_tolerance: 0.01,
             least_arc_length: 1e-4,
             greatest_arc_radius: 1e6,
-            clearance_axis: 2,
             invert_arcs: false,
             rapid_down: true,
             suppress_parser_errors: false,
-            lathe_diameter: false,
             rotary: Rotary { wrap: false, along: 0, letter: 0 },
             post_build_command: "".into(),
             post_build_arguments: "".into(),
@@ -127,18 +122,13 @@ impl Options {
             "ArcToLinesTolerance" => put(&mut self.arc_tolerance, positive(value)),
             "MinimumArcLength" => put(&mut self.least_arc_length, length(value)),
             "MaximumArcRadius" => put(&mut self.greatest_arc_radius, positive(value)),
-            "ClearancePlaneAxis" => {
-                put(&mut self.clearance_axis, choice(value, "X or Z", &[("X", 0), ("Z", 2)]))
-            }
+            // A lathe's programs would need other moves.
+            "ClearancePlaneAxis" => choice(value, "Z: lathes are not supported", &[("Z", ())]),
             "InvertArcs" => put(&mut self.invert_arcs, boolean(value)),
             "RapidDownToClearance" => put(&mut self.rapid_down, boolean(value)),
             "SuppressParserErrors" => put(&mut self.suppress_parser_errors, boolean(value)),
-            "LatheXMode" => put(
-                &mut self.lathe_diameter,
-                choice(value, "Diameter or Radius", &[("Diameter", true), ("Radius", false)]),
-            ),
-            // Only lathe operations have a tool radius offset, and no job has any.
-            "LatheToolRadiusOffset" => boolean(value).map(drop),
+            "LatheXMode" => choice(value, "Radius: lathes are not supported", &[("Radius", ())]),
+            "LatheToolRadiusOffset" => choice(value, "false: lathes are not supported", &[("false", ())]),
             "RotaryWrap" => put(&mut self.rotary.wrap, boolean(value)),
             "AxisOfRotation" => put(&mut self.rotary.along, choice(value, "X or Y", &[("X", 0), ("Y", 1)])),
             "RotaryAxis" => {

@@ -9,6 +9,7 @@ use super::section::Section;
 use super::template::Template;
 use crate::job::{Job, Texts};
 use crate::suggest::nearest;
+use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
 /// Everything that a writer reads.
@@ -16,6 +17,7 @@ pub(super) struct Plan<'a> {
     pub(super) file: &'a Utf8Path,
     pub(super) definition: &'a Definition,
     pub(super) job: &'a Job,
+    pub(super) target: Option<&'a Target>,
     pub(super) options: &'a PostOptions<'a>,
     /// The configuration's macros; they win over the definition's.
     macros: Vec<(Box<str>, Template)>,
@@ -37,6 +39,7 @@ impl<'a> Plan<'a> {
         definition: &'a Definition,
         file: &'a Utf8Path,
         job: &'a Job,
+        target: Option<&'a Target>,
         options: &'a PostOptions<'a>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
@@ -56,7 +59,7 @@ impl<'a> Plan<'a> {
         let macros = own
             .map(|PostMacro { name, value }| (name.clone(), template(Section::UserMacro, value)))
             .collect();
-        let plan = Self { file, definition, job, options, macros, texts, operation_texts };
+        let plan = Self { file, definition, job, target, options, macros, texts, operation_texts };
         diagnostics.extend(plan.unknown_macros());
         if diagnostics.is_empty() { Ok(plan) } else { Err(diagnostics) }
     }

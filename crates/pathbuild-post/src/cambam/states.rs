@@ -21,6 +21,9 @@ impl Writer<'_> {
             return Ok(());
         }
         self.line.answered = true;
+        if form == Form::Reversed {
+            self.line.turned.push(register);
+        }
         self.text(&format!("{}{text}", register.letter()))
     }
 
@@ -65,7 +68,6 @@ impl Writer<'_> {
             Choice::Units => Section::UnitsMm,
             Choice::ArcCentre if options.absolute_centres => Section::ArcCenterAbsolute,
             Choice::ArcCentre => Section::ArcCenterIncremental,
-            Choice::LatheX if options.lathe_diameter => Section::XModeDiameter,
             Choice::LatheX => Section::XModeRadius,
         }
     }

@@ -17,31 +17,32 @@ impl Writer<'_> {
         let operation = self.operation();
         let tool = self.tool;
         match value {
-            Value::FileName => Some(plain(&self.plan.job.name)),
-            Value::Date => self.plan.options.date.as_deref().map(plain),
-            Value::OutFile => self.plan.options.output.as_deref().map(plain),
-            Value::PartName => Some(plain(&operation.part)),
-            Value::MopName => Some(plain(&operation.name)),
-            Value::MopTag => Some(plain(&operation.tag)),
+            Value::FileName => Some(self.plan.job.name.to_string()),
+            Value::Date => self.plan.options.date.as_deref().map(str::to_owned),
+            Value::OutFile => self.plan.options.output.as_deref().map(str::to_owned),
+            Value::PartName => Some(operation.part.to_string()),
+            Value::MopName => Some(operation.name.to_string()),
+            Value::MopTag => Some(operation.tag.to_string()),
             Value::MopClearancePlane => Some(self.length(operation.clearance)),
             Value::MopRetractHeight => Some(self.length(operation.retract)),
             Value::MopPlungeFeedrate => self.plan.job.plunge_feed(operation).map(|feed| self.length(feed)),
             Value::MopCutFeedrate => self.plan.job.cut_feed(operation).map(|feed| self.length(feed)),
-            Value::MopDepthIncrement => operation.depth_increment.map(|depth| self.length(depth)),
+            Value::MopDepthIncrement => Some(self.length(operation.depth_increment.unwrap_or(0.0))),
             Value::MopDwell => {
                 Some(self.number_format().format(operation.holes().find_map(dwell).unwrap_or(0.0)))
             }
             Value::MopHoleDiameter | Value::ToolDiameter => Some(self.length(tool.diameter)),
             Value::MopPeckDistance => Some(self.length(operation.holes().find_map(peck).unwrap_or(0.0))),
             Value::MopStockSurface => Some(self.length(operation.surface)),
-            Value::MopTargetDepth => operation.target_depth.map(|depth| self.length(depth)),
+            // What cuts nothing leaves the surface alone.
+            Value::MopTargetDepth => Some(self.length(operation.target_depth.unwrap_or(operation.surface))),
             Value::MopFirst(axis) => operation.first_point().axes()[axis as usize].map(|at| self.length(at)),
             Value::ToolIndex => Some(tool.index.to_string()),
-            Value::ToolName => Some(plain(&tool.name)),
+            Value::ToolName => Some(tool.name.to_string()),
             Value::ToolRadius => Some(self.length(tool.radius)),
             Value::ToolLength => tool.length.map(|length| self.length(length)),
-            Value::ToolProfile => Some(plain(&tool.profile)),
-            Value::ToolComment => Some(plain(&tool.comment)),
+            Value::ToolProfile => Some(tool.profile.to_string()),
+            Value::ToolComment => Some(tool.comment.to_string()),
             Value::ToolVeeAngle => tool.vee_angle.map(|angle| self.number_format().format(angle)),
             Value::MoveAxis(register) | Value::ArcOffset(register) => self.register_value(register),
             Value::ArcRadius => self.arc_value(|arc| arc.radius),
@@ -91,14 +92,4 @@ fn peck(hole: &Hole) -> Option<f64> {
         HoleKind::Peck { depth } => Some(depth),
         _ => None,
     }
-}
-
-/// A name as it may stand in a comment: in one line, without the end of a comment.
-pub(super) fn plain(text: &str) -> String {
-    let harmless = |c: char| match c {
-        ')' => ']',
-        c if c.is_control() => ' ',
-        c => c,
-    };
-    text.chars().map(harmless).collect()
 }

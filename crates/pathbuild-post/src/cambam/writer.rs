@@ -8,12 +8,15 @@ use super::lines::Lines;
 use super::machine::Machine;
 use super::macros::{Block, Macro};
 use super::move_values::MoveValues;
-use super::plan::Plan;
+use super::plan::{Plan, framed};
+use super::registers::{Code, Register};
 use super::section::Section;
 use super::template::{Piece, Template};
-use super::words::{CommentMarks, words};
+use crate::guard::Guard;
 use crate::job::{Operation, Tool};
 use crate::number::NumberFormat;
+use crate::shadow::Shadow;
+use crate::words::{CommentMarks, Word, Words, words};
 
 /// Success, or the diagnostic that ends the writing.
 pub(super) type Written = Result<(), Box<Diagnostic>>;
@@ -39,6 +42,13 @@ pub(super) struct Writer<'a> {
     pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
+    guard: Guard<'a>,
+    /// What the lines say, in the words of RS274.
+    shadow: Shadow,
+    /// Whether the definition writes an axis with the other sign, by axis, once it has written it.
+    turned: [Option<bool>; 3],
+    /// Where the program has the tool, in the unit that is written, and the text that was written for it, by axis.
+    pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
     /// Sections that contain each other at this moment, and user macros.
     depth: [usize; 2],
     fuel: usize,
@@ -58,7 +68,11 @@ impl<'a> Writer<'a> {
             warnings: Vec::new(),
             line: Line::default(),
             lines: Lines::new(&plan.definition.options),
-            marks: CommentMarks { open: String::new(), close: String::new() },
+            marks: CommentMarks::default(),
+            guard: Guard::new(plan.target, CommentMarks::default(), plan.options.charset),
+            shadow: Shadow::new(plan.job.units, plan.definition.options.absolute_centres),
+            turned: [None; 3],
+            own: [None, None, None],
             depth: [0; 2],
             fuel: fuel(plan),
         };
@@ -66,6 +80,7 @@ impl<'a> Writer<'a> {
             open: writer.marks_of(Section::Comment),
             close: writer.marks_of(Section::EndComment),
         };
+        writer.guard = Guard::new(plan.target, writer.marks.clone(), plan.options.charset);
         writer
     }
 
@@ -78,11 +93,11 @@ impl<'a> Writer<'a> {
         text.trim().to_owned()
     }
 
-    /// The text of the whole file, and what is doubtful in it.
-    pub(super) fn run(mut self) -> Result<(String, Vec<Diagnostic>), Box<Diagnostic>> {
+    /// The text of the whole file, its shadow, and what is doubtful in it.
+    pub(super) fn run(mut self) -> Result<(String, String, Vec<Diagnostic>), Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
-        Ok((self.lines.finish(), self.warnings))
+        Ok((self.lines.finish(), self.shadow.finish(), self.warnings))
     }
 
     /// The present operation.
@@ -130,6 +145,7 @@ impl<'a> Writer<'a> {
         match what {
             Macro::Section(text) => self.named_section(*text),
             Macro::Value(value) => match self.value(*value) {
+                Some(text) if value.is_text() => self.foreign(&text, value.name(), section, line),
                 Some(text) => self.text(&text),
                 None => self.without_value(*value, section, line),
             },
@@ -164,7 +180,11 @@ impl<'a> Writer<'a> {
             Block::ToolChange => self.tool_change(&self.operation().tool),
             Block::FirstToolChange => self.tool_change(&self.plan.job.operations[0].tool),
             Block::Clearance => self.clearance(),
-            Block::FileHeader => self.template(&self.plan.texts.header),
+            Block::FileHeader => {
+                let remarks = &self.plan.job.remarks;
+                remarks.iter().try_for_each(|remark| self.comment(remark, ""))?;
+                self.template(&self.plan.texts.header)
+            }
             Block::FileFooter => self.template(&self.plan.texts.footer),
             Block::MopHeader => self.template(&self.plan.operation_texts[self.operation].header),
             Block::MopFooter => self.template(&self.plan.operation_texts[self.operation].footer),
@@ -214,6 +234,27 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
+    /// Adds a text of a drawing, a file name or an option, so that no control acts on it.
+    pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> Written {
+        let Some(text) = self.guard.put(&self.line.text, text) else {
+            let diagnostic =
+                Diagnostic::new(&posts::TEXT_AMONG_WORDS).with("macro", framed(name)).with("text", text);
+            return Err(Box::new(self.plan.locate(diagnostic, section, line)));
+        };
+        self.text(&text)
+    }
+
+    /// A comment on a line of its own.
+    pub(super) fn comment(&mut self, text: &str, blank: &str) -> Written {
+        self.section(Section::Comment)?;
+        self.text(blank)?;
+        self.foreign(text, "endcomment", Section::Comment, 0)?;
+        self.text(blank)?;
+        self.section(Section::EndComment)?;
+        self.end_line();
+        Ok(())
+    }
+
     /// Writes the line, unless it is blank or a move that moves nothing, and reads it back.
     pub(super) fn end_line(&mut self) {
         let line = std::mem::take(&mut self.line);
@@ -227,7 +268,34 @@ impl<'a> Writer<'a> {
             self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).with("line", text.as_str()));
         }
         self.machine.read(&found, line.code, self.number_format());
+        let meant = Words {
+            words: found.words.iter().map(|word| self.meant(*word, &line)).collect(),
+            has_more: false,
+        };
+        let has_word = |code: &Code| !self.plan.definition.section(code.section()).is_blank();
+        self.shadow.line(
+            &meant,
+            line.code.filter(has_word).map(Code::number),
+            self.turned[0] != self.turned[1],
+        );
         self.lines.push(&text);
+    }
+
+    /// A word with the sign and the axis that the program gave it before the template turned it round. An axis is turned in every line, or in
+    /// none: where lines differ, the machine would go to both sides.
+    fn meant(&mut self, word: Word, line: &Line) -> Word {
+        let Some(register) = Register::of(word.letter) else { return word };
+        let rotary = self.plan.definition.options.rotary;
+        if rotary.wrap && register == ROTARY[rotary.letter] {
+            let across = word.number.to_radians() * self.scaled(self.operation().surface);
+            return Word { letter: Register::AXES[1 - rotary.along].letter(), number: across };
+        }
+        let is_turned = line.turned.contains(&register);
+        let is_turned = match Register::AXES.iter().position(|axis| *axis == register) {
+            Some(axis) => *self.turned[axis].get_or_insert(is_turned),
+            None => is_turned,
+        };
+        Word { number: if is_turned { -word.number } else { word.number }, ..word }
     }
 
     /// Whether a line has nothing but words for motions, and a feed that the template itself has.
@@ -259,6 +327,9 @@ impl<'a> Writer<'a> {
         }
     }
 }
+
+/// The letters of angles round X, Y, Z.
+pub(super) const ROTARY: [Register; 3] = [Register::A, Register::B, Register::C];
 
 /// Nobody reads more of them.
 const MOST_WARNINGS: usize = 50;

@@ -85,13 +85,19 @@ impl Target {
         self.has_real_time_bytes
     }
 
+    /// The length of the sign that opens a comment at the beginning of a text, and the sign that closes it, if it is not the line's end.
+    pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
+        let Comments { round, semicolon, slashes, .. } = self.comments;
+        let signs = [(round, "(", ")"), (semicolon, ";", ""), (slashes, "//", "")];
+        let found = signs.into_iter().find(|(is_known, open, _)| *is_known && text.starts_with(open));
+        found.map(|(_, open, close)| (open.len(), close))
+    }
+
     /// The length of the comment at the beginning of a text; `None` if there is none.
     fn comment_length(&self, text: &str) -> Option<usize> {
-        if self.comments.round && text.starts_with('(') {
-            return Some(text.find(')').map_or(text.len(), |end| end + 1));
-        }
-        let is_semicolon = self.comments.semicolon && text.starts_with(';');
-        (is_semicolon || (self.comments.slashes && text.starts_with("//"))).then_some(text.len())
+        let (open, close) = self.comment_marks(text)?;
+        let end = text[open..].find(close).filter(|_| !close.is_empty());
+        Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
     /// A line in pieces.

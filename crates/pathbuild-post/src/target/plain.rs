@@ -1,7 +1,8 @@
 //! Characters as the target may have them.
 
 use super::{Piece, Target};
-use pathbuild_gcode::native::{Charset, transliterated};
+use pathbuild_gcode::dialect::ascii;
+use pathbuild_gcode::native::Charset;
 
 /// The text with characters that the target, or the configuration, does not allow written otherwise. In comments, characters that the
 /// target would act on are replaced; in code they are left for the check to find. Lines that are no UTF-8 stay as they are.
@@ -25,24 +26,6 @@ fn line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
         Piece::Comment(comment) => harmless(comment, target),
     };
     target.pieces(&line).into_iter().map(piece).collect()
-}
-
-fn ascii(text: &str) -> String {
-    let mut ascii = String::with_capacity(text.len());
-    let mut characters = text.chars().peekable();
-    let mut is_after_capital = false;
-    while let Some(c) = characters.next() {
-        let is_before_letter = characters.peek().is_some_and(|next| next.is_alphabetic());
-        let is_among_capitals = characters.peek().is_some_and(|next| next.is_uppercase())
-            || (is_after_capital && !is_before_letter);
-        match c {
-            c if c.is_ascii() => ascii.push(c),
-            c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
-            c => ascii.push_str(transliterated(c)),
-        }
-        is_after_capital = c.is_uppercase();
-    }
-    ascii
 }
 
 fn harmless(comment: &str, target: &Target) -> String {

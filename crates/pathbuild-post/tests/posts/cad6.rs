@@ -8,7 +8,7 @@ use pathbuild_post::{
     Arc, Coolant, Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, PostOptions, Spindle, Step, Units,
 };
 
-use crate::support::{feed, job, operation, rapid, texts};
+use crate::support::{feed, job, operation, rapid, texts, unchecked};
 
 /// The manual's rectangle: 50/100, 100 x 50, clockwise, safety height 100, depth 20.
 const RECTANGLE: &str = r#"
@@ -57,7 +57,7 @@ fn rectangle() -> Job {
 }
 
 fn output(definition: &str, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
-    Post::read(definition.as_bytes(), Utf8Path::new("test.toml"))?.write(job, options)
+    unchecked(&Post::read(definition.as_bytes(), Utf8Path::new("test.toml"))?, job, options)
 }
 
 #[track_caller]
@@ -219,8 +219,10 @@ fn trailing_blanks_stay_on_demand() {
 fn escapes_stand_for_themselves() {
     assert_eq!(text(r"\~ \{ \} \\ \x", &[]), "~ { } \\ \\x\n");
     assert_eq!(text(r"{$\}\{\~}", &[]), "}{~\n");
-    let bytes = text_with(r"\\\~1B\\\~ff.\\\~0x", &[]).unwrap().text;
-    assert_eq!(bytes, b"\x1b\xff.\\~0x\n");
+    let bytes = text_with(r"\\\~1B\\\~ff.", &[]).unwrap().text;
+    assert_eq!(bytes, b"\x1b\xff.\n");
+    let cut = texts(&text_with(r"\\\~0x", &[]).unwrap_err());
+    assert_eq!(cut, ["5: PB759 program-start, line 1, column 1: two hexadecimal digits are missing here"]);
 }
 
 #[test]
@@ -228,7 +230,7 @@ fn a_name_of_the_program_means_nothing_to_the_texts() {
     let mut job = job(vec![]);
     job.name = "~X1~{$a}\\".into();
     let definition = "[post]\nnumber-lines = false\n[text]\nprogram-start = '(~PrgName~)'";
-    assert_eq!(written(definition, &job), "(~X1~{$a}\\)\n");
+    assert_eq!(written(definition, &job), "(-X1-{$a}/)\n", "nor to any control");
 }
 
 #[test]
@@ -258,7 +260,7 @@ fn aliases_are_other_names() {
     let definition = "[post]\nnumber-lines = false\n[alias]\nX1 = \"Xe\"\nLineNumber = \"Satz\"\n[text]\nline = 'X{.~Xe~} {.~Z1~}{=Satz{7}}'\nprogram-end = '~LineNumber~'";
     assert_eq!(written(definition, &job(vec![feed(2.0, 0.0, 5.0)])), "X2 5\n7\n");
     let unknown = Post::read(b"[alias]\nX9 = \"Xe\"", Utf8Path::new("t.toml")).unwrap();
-    let warnings = texts(&unknown.write(&job(vec![]), &PostOptions::default()).unwrap().warnings);
+    let warnings = texts(&unchecked(&unknown, &job(vec![]), &PostOptions::default()).unwrap().warnings);
     assert!(warnings[0].starts_with("2: PB760 there is no variable X9"), "{warnings:?}");
 }
 
@@ -290,7 +292,8 @@ fn errors_say_where_in_the_text_and_in_the_file_they_are() {
     let definition = "[text]\nprogram-start = '''\nG90\nX{.~X1~+}\n'''";
     let post = Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap();
     let macros = vec![PostMacro { name: "X1".into(), value: "123.456".into() }];
-    let errors = post.write(&job(vec![]), &PostOptions { macros, ..PostOptions::default() }).unwrap_err();
+    let errors =
+        unchecked(&post, &job(vec![]), &PostOptions { macros, ..PostOptions::default() }).unwrap_err();
     let expected =
         "4: PB759 program-start, line 2, column 9: the term ends where a value or \")\" is expected";
     assert_eq!(texts(&errors), [expected]);
@@ -570,8 +573,14 @@ fn a_hole_is_a_cycle_or_a_point_or_moves() {
     let point = "point = 'point {.~X1~} Z{.~Z1~} from {.~ZWorking~} at {.~ZClearance~} Q{.~PeckDepth~} F{.~LoweringVel~}'\n";
     let with_point = format!("{CALLS}{point}");
     assert_eq!(calls(&with_point, steps.clone())[5], "point 8 Z-3 from 1 at 5 Q2 F60");
-    let with_cycle = format!("{with_point}cycle = 'cycle {{.~X1~}}'\n");
-    assert_eq!(calls(&with_cycle, steps.clone())[5], "cycle 8");
+    let with_cycle = format!("{with_point}cycle = 'cycle {{.~X1~}} {{.~PeckDepth~}}'\n");
+    assert_eq!(calls(&with_cycle, steps.clone())[5], "cycle 8 2");
+    let without_peck = format!("{with_point}cycle = 'cycle {{.~X1~}}'\n");
+    assert_eq!(
+        calls(&without_peck, steps.clone())[5],
+        "contour 2 X8 Y0 Z-1 from 1 at 5 F60",
+        "its pecks are moves"
+    );
     assert_eq!(calls(CALLS, steps)[5], "contour 2 X8 Y0 Z-1 from 1 at 5 F60");
 }
 

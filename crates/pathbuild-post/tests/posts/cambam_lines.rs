@@ -65,7 +65,7 @@ fn a_bracket_in_a_name_does_not_end_the_comment() {
     let mut job = job(vec![Step::Comment("a (b)\nc".into())]);
     job.operations[0].name = "x) M3".into();
     let text = bare("<MOP>( {$mop.name} )\n{$blocks}</MOP>").replace("<MOP>{$blocks}</MOP>", "");
-    assert_eq!(lines(&text, &job), ["( x] M3 )", "G0 Z5.0", "G0 X0.0 Y0.0", "( a (b] c )"]);
+    assert_eq!(lines(&text, &job), ["( x] M3 )", "G0 Z5.0", "G0 X0.0 Y0.0", "( a [b] c )"]);
 }
 
 #[test]

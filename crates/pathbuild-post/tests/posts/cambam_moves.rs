@@ -215,10 +215,9 @@ fn a_beam_without_z_is_switched_all_the_same() {
 }
 
 #[test]
-fn clearance_goes_along_another_axis_and_down_by_feed_on_demand() {
+fn clearance_goes_down_by_feed_on_demand() {
     let mut job = job(vec![]);
     job.operations[0].entry = Entry::Clearance;
-    assert_eq!(lines(&bare("<ClearancePlaneAxis>X</ClearancePlaneAxis>"), &job), ["G0 X5.0"]);
     job.operations[0].plunge_feed = Some(60.0);
     let slow = bare("<MOP>G0 Z9\n{$blocks}</MOP><RapidDownToClearance>false</RapidDownToClearance>")
         .replace("<MOP>{$blocks}</MOP>", "");
@@ -264,8 +263,18 @@ fn holes_become_cycles_in_one_group() {
 #[test]
 fn pecks_and_dwells_have_their_own_cycles() {
     let holes = vec![hole(0.0, HoleKind::Peck { depth: 1.5 }), hole(8.0, HoleKind::Dwell { seconds: 2.0 })];
-    let expected = ["G83 X0.0 Y0.0 Z-3.0 Q1.5 R1.0 F60.0", "G82 X8.0 Z-3.0 P2.0"];
-    assert_eq!(cycles("", holes)[1..3], expected);
+    let expected = [
+        "G98",
+        "G83 X0.0 Y0.0 Z-3.0 Q1.5 R1.0 F60.0",
+        "G80",
+        "G0 Z5.0",
+        "G0 X8.0",
+        "G98",
+        "G82 X8.0 Y0.0 Z-3.0 P2.0 R1.0",
+        "G80",
+        "G0 Z5.0",
+    ];
+    assert_eq!(cycles("", holes), expected, "each in a group of its own");
 }
 
 #[test]

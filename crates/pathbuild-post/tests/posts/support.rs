@@ -33,7 +33,17 @@ pub(crate) fn output(
     job: &Job,
     options: &PostOptions<'_>,
 ) -> Result<Output, Vec<Diagnostic>> {
-    read(definition)?.write(job, options)
+    unchecked(&read(definition)?, job, options)
+}
+
+/// What a definition makes of a job, read back only if somebody names its dialect: rules of text are not about whole programs.
+pub(crate) fn unchecked(
+    post: &Post,
+    job: &Job,
+    options: &PostOptions<'_>,
+) -> Result<Output, Vec<Diagnostic>> {
+    let unchecked = post.dialect().is_none() && options.dialect.is_none();
+    post.write(job, &PostOptions { unchecked, ..options.clone() })
 }
 
 /// The lines that a definition makes of a job.

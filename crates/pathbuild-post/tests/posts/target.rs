@@ -12,7 +12,9 @@ fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Out
     let text = definition(&format!(
         "<PostFile>{text}</PostFile><EndOfLine>\\n</EndOfLine><SuppressParserErrors>true</SuppressParserErrors>{target}"
     ));
-    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), options)
+    // What it writes is no program.
+    let options = PostOptions { unchecked: true, ..options.clone() };
+    Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), &options)
 }
 
 fn dialect(name: &str) -> String {
@@ -138,20 +140,16 @@ fn comments_within_comments_are_no_such_where_that_is_an_error() {
 }
 
 #[test]
-fn without_a_dialect_a_note_says_that_nothing_was_checked() {
-    let notes = |target: &str, dialect: Option<&str>| {
-        let options = PostOptions { dialect: dialect.map(Into::into), ..PostOptions::default() };
-        let notes = write_with(target, "M2", &options).unwrap().notes;
-        notes.iter().map(|note| note.text(Lang::En)).collect::<Vec<_>>()
-    };
-    assert_eq!(
-        notes("", None),
-        [
-            "the post names no dialect, so its output was not checked; --dialect (of `post`: --target) names one"
-        ]
-    );
-    assert_eq!(notes(&dialect("grbl"), None), [""; 0]);
-    assert_eq!(notes("", Some("grbl")), [""; 0]);
+fn what_somebody_answers_for_is_not_read_back_and_a_note_says_so() {
+    let post = Post::read(definition("<PostFile>M2</PostFile>").as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let program = job(vec![feed(1.0, 0.0, -1.0)]);
+    for dialect in [None, Some("linuxcnc".into())] {
+        let options = PostOptions { dialect, ..PostOptions::default() };
+        assert!(post.write(&program, &options).is_err(), "the moves are lost");
+        let notes = post.write(&program, &PostOptions { unchecked: true, ..options }).unwrap().notes;
+        let notes: Vec<String> = notes.iter().map(|note| note.text(Lang::En)).collect();
+        assert_eq!(notes, ["unchecked = true: nothing checked that the output moves as the program does"]);
+    }
 }
 
 #[test]
@@ -217,11 +215,12 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
     assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
 }
 
-/// Writes without a dialect, when anything may be written, and with one, when the text is read back.
+/// Writes unchecked, when anything may be written, and for a dialect, in which the text is read back.
 fn read_back(elements: &str, steps: Vec<Step>) -> Result<(), Vec<String>> {
     let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
     let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
-    post.write(&job(steps.clone()), &PostOptions::default()).unwrap();
+    let unchecked = PostOptions { unchecked: true, ..PostOptions::default() };
+    post.write(&job(steps.clone()), &unchecked).unwrap();
     let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
     post.write(&job(steps), &options).map(drop).map_err(|errors| {
         let notes =

@@ -1,30 +1,30 @@
-//! Words of a written line, read back leniently: whatever is no word is passed over.
+//! Words of a written line, read leniently: whatever is no word is passed over.
 
 /// A letter and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Word {
+pub(crate) struct Word {
     /// Upper case.
-    pub(super) letter: char,
-    pub(super) number: f64,
+    pub(crate) letter: char,
+    pub(crate) number: f64,
 }
 
 /// What a line says to the machine.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Words {
-    pub(super) words: Vec<Word>,
+pub(crate) struct Words {
+    pub(crate) words: Vec<Word>,
     /// Something in the line is neither a word nor a comment.
-    pub(super) has_more: bool,
+    pub(crate) has_more: bool,
 }
 
 /// How comments begin and end. An empty end is the end of the line.
-#[derive(Clone, Debug)]
-pub(super) struct CommentMarks {
-    pub(super) open: String,
-    pub(super) close: String,
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CommentMarks {
+    pub(crate) open: String,
+    pub(crate) close: String,
 }
 
 /// The words of a line.
-pub(super) fn words(line: &str, marks: &CommentMarks) -> Words {
+pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
     let mut found = Words::default();
     let mut rest = line.trim_start();
     while let Some(first) = rest.chars().next() {
@@ -41,12 +41,20 @@ pub(super) fn words(line: &str, marks: &CommentMarks) -> Words {
     found
 }
 
+impl CommentMarks {
+    /// The length of the sign that opens a comment here, and the sign that closes it: the definition's own, or a usual one.
+    pub(crate) fn at(&self, text: &str) -> Option<(usize, &str)> {
+        let own = (self.open.as_str(), self.close.as_str());
+        let (open, close) = [own, ("(", ")"), (";", "")]
+            .into_iter()
+            .find(|(open, _)| !open.is_empty() && text.starts_with(open))?;
+        Some((open.len(), close))
+    }
+}
+
 fn after_comment<'a>(text: &'a str, marks: &CommentMarks) -> Option<&'a str> {
-    let own = (marks.open.as_str(), marks.close.as_str());
-    let (open, close) = [own, ("(", ")"), (";", "")]
-        .into_iter()
-        .find(|(open, _)| !open.is_empty() && text.starts_with(open))?;
-    let inside = &text[open.len()..];
+    let (open, close) = marks.at(text)?;
+    let inside = &text[open..];
     match inside.find(close).filter(|_| !close.is_empty()) {
         Some(end) => Some(&inside[end + close.len()..]),
         None => Some(""),

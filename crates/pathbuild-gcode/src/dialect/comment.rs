@@ -1,0 +1,89 @@
+//! Texts of others in comments: names, remarks, dates. Whatever comes from a drawing, a file's name or an option passes here.
+//! (spec/60-gcode.md, "The program"; `reference/cad6_xpertmill_gcode.md`, section 5.1)
+
+use super::{Dialect, Percent, Style};
+use crate::native::{Charset, transliterated};
+
+impl Dialect {
+    /// A comment as the dialect spells it. Its text begins with a word of ours.
+    pub fn comment(self, text: &str, charset: Charset) -> String {
+        let spelling = &self.rules().spelling;
+        let text = within_comment(text, Some(self), charset);
+        match spelling {
+            spelling if spelling.round_comments == Style::Usual => format!("({text})"),
+            spelling if spelling.slash_comments == Style::Usual => format!("// {text}"),
+            _ => format!("; {text}"),
+        }
+    }
+}
+
+/// A text that neither ends a comment of the dialect nor makes the control act. Without a dialect it is harmless in all.
+pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) -> String {
+    let spelling = dialect.map(|dialect| &dialect.rules().spelling);
+    let acts_at_once = spelling.is_none_or(|spelling| spelling.real_time_bytes);
+    let knows_percent = spelling.is_some_and(|spelling| spelling.percent != Percent::Refused);
+    // Senders cut lines at semicolons, within round brackets, too. The native program is as its page says.
+    let keeps_semicolons = dialect == Some(Dialect::Native);
+    let harmless = |c: char| match c {
+        '(' => '[',
+        ')' => ']',
+        '\\' => '/',
+        ';' if !keeps_semicolons => ',',
+        '%' if !knows_percent => '-',
+        '!' | '?' if acts_at_once => '.',
+        '~' if acts_at_once => '-',
+        c if is_invisible(c) => ' ',
+        c => c,
+    };
+    let is_ascii = charset == Charset::Ascii || spelling.is_some_and(|spelling| spelling.real_time_bytes);
+    if is_ascii { ascii(text).chars().map(harmless).collect() } else { text.chars().map(harmless).collect() }
+}
+
+/// Control characters, ends of lines and changes of direction.
+fn is_invisible(c: char) -> bool {
+    let is_format = matches!(c, '\u{2028}' | '\u{2029}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || is_format
+}
+
+/// A text with transliterated umlauts and the like, in capitals among capitals.
+pub fn ascii(text: &str) -> String {
+    let mut ascii = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    let mut is_after_capital = false;
+    while let Some(c) = characters.next() {
+        let is_before_letter = characters.peek().is_some_and(|next| next.is_alphabetic());
+        let is_among_capitals = characters.peek().is_some_and(|next| next.is_uppercase())
+            || (is_after_capital && !is_before_letter);
+        match c {
+            c if c.is_ascii() => ascii.push(c),
+            c if is_invisible(c) => ascii.push(' '),
+            c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
+            c => ascii.push_str(transliterated(c)),
+        }
+        is_after_capital = c.is_uppercase();
+    }
+    ascii
+}
+
+/// Whether a control acts on a comment with this text: it opens a file, prints, or runs a program.
+pub fn is_active_comment(text: &str) -> bool {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).take(LONGEST_WORD).collect();
+    ACTIVE.iter().any(|word| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word)))
+}
+
+/// What active comments begin with, blanks aside.
+const ACTIVE: [&str; 12] = [
+    "MSG",
+    "DEBUG",
+    "PRINT",
+    "LOG",
+    "PROBEOPEN",
+    "PROBECLOSE",
+    "PY,",
+    "ABORT",
+    "AXIS",
+    "STAT",
+    "TOUCH",
+    "PAUSE",
+];
+const LONGEST_WORD: usize = 16;

@@ -1,0 +1,274 @@
+//! Whether a text that was read makes the cuts of a job, move for move, and between them only ways that touch nothing else.
+//!
+//! Rapid moves of a post need not be those of the job: it may lift the tool higher, or leave out what is done in the air. A place is free
+//! of material above every place where the job itself goes by rapid, and above the clearance plane.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
+use pathbuild_gcode::verify::{Difference, Kind, Tolerance, compare};
+
+type Moves<'m> = &'m [(u32, Move)];
+type Checked<T> = Result<T, Box<Diagnostic>>;
+
+/// Holds what was read against the job's moves. `clearance` is the height above everything, mm.
+pub(crate) fn check(
+    found: Moves<'_>,
+    expected: Moves<'_>,
+    clearance: f64,
+    tolerance: &Tolerance,
+) -> Checked<()> {
+    let found = without_excursions(found, 2.0 * tolerance.place);
+    let (mut found, mut expected) = (found.as_slice(), expected);
+    let mut has_cut = false;
+    loop {
+        let (way, cuts) = split(expected, is_rapid);
+        let way = Way { expected: way, clearance, slack: 2.0 * tolerance.place };
+        let Some(next) = cuts.first() else { return way.is_last(found, has_cut) };
+        let length = way.length(found, next)?;
+        way.check(&found[..length])?;
+        let (run, rest) = split(cuts, |it| !is_rapid(it));
+        found = &found[length..];
+        found = &found[cut(found, run, tolerance)?..];
+        expected = rest;
+        has_cut = true;
+    }
+}
+
+fn is_rapid(it: &Move) -> bool {
+    it.pace == Pace::Rapid
+}
+
+/// The moves at the beginning that are as wanted, and the others.
+fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
+    let length = moves.iter().take_while(|(_, it)| is_wanted(it)).count();
+    moves.split_at(length)
+}
+
+/// Leaves out where the tool is lifted by rapid and comes back to the same place.
+fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
+    let mut kept = Vec::with_capacity(moves.len());
+    let mut rest = moves;
+    while let Some((_, first)) = rest.first() {
+        let (run, behind) = split(rest, |it| is_rapid(it) == is_rapid(first));
+        rest = behind;
+        let returns = is_rapid(first)
+            && run.iter().all(|(_, it)| {
+                it.named.is_none() && it.from.known == Axes::ALL && is_above(&it.to, &first.from, slack)
+            })
+            && run.last().is_some_and(|(_, last)| last.to.z() <= first.from.z() + slack);
+        if !returns {
+            kept.extend_from_slice(run);
+        }
+    }
+    kept
+}
+
+/// Whether a place is the other or straight above it.
+fn is_above(place: &Position, other: &Position, slack: f64) -> bool {
+    is_over(&place.at, &other.at, slack) && place.z() >= other.z() - slack
+}
+
+fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
+    (a[0] - b[0]).abs() <= slack && (a[1] - b[1]).abs() <= slack
+}
+
+/// How many of the moves at the beginning make these cuts.
+fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
+    let (run, _) = split(found, |it| !is_rapid(it));
+    match compare(run, expected, tolerance) {
+        None => Ok(run.len()),
+        // What comes after them may be a way that the post goes by feed.
+        Some(Difference { found: Some(next), expected: None, .. }) => {
+            Ok(run.iter().position(|it| *it == next).unwrap_or(run.len()))
+        }
+        Some(difference) => Err(Box::new(difference.diagnostic())),
+    }
+}
+
+/// The job's rapid moves between two cuts.
+struct Way<'m> {
+    expected: Moves<'m>,
+    clearance: f64,
+    slack: f64,
+}
+
+impl Way<'_> {
+    /// How many of the moves at the beginning lead to where the next cut begins.
+    fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> Checked<usize> {
+        let begin = &next.1.from;
+        if begin.known != Axes::ALL {
+            return Ok(split(found, is_rapid).0.len());
+        }
+        let is_there = |at: &Position| {
+            at.known == Axes::ALL
+                && is_over(&at.at, &begin.at, self.slack)
+                && (at.z() - begin.z()).abs() <= self.slack
+        };
+        let place = |index: usize| match found.get(index) {
+            Some((_, it)) => Some(it.from),
+            None => found.last().map(|(_, it)| it.to),
+        };
+        let goes_on = |index: usize| found.get(index).is_some_and(|(_, it)| is_rapid(it));
+        let is_end = |index: &usize| !goes_on(*index) && place(*index).as_ref().is_some_and(is_there);
+        let begins = (0..=found.len()).find(is_end);
+        begins.ok_or_else(|| self.difference(found.first().copied(), Some(*next)))
+    }
+
+    fn difference(&self, found: Option<(u32, Move)>, expected: Option<(u32, Move)>) -> Box<Diagnostic> {
+        let expected = expected.or_else(|| self.expected.last().copied());
+        Box::new(Difference { kind: Kind::Place, found, expected }.diagnostic())
+    }
+
+    /// Whether moves touch nothing that the job does not.
+    fn check(&self, found: Moves<'_>) -> Checked<()> {
+        let mut is_home = false;
+        for &(line, it) in found {
+            let is_fine = match it.named {
+                Some(_) => self.is_lift(&it) || self.is_free(&it, is_home),
+                None => {
+                    matches!(it.pace, Pace::Rapid | Pace::Feed(_))
+                        && it.path == Path::Line
+                        && self.is_free(&it, is_home)
+                }
+            };
+            if !is_fine {
+                return Err(self.difference(Some((line, it)), None));
+            }
+            // Behind a move to a place of the machine its height is not known, but above everything.
+            is_home = !it.to.known.has(Axes::Z) && (it.named.is_some() || is_home);
+        }
+        Ok(())
+    }
+
+    /// Behind the last cut: no more cuts, and the tool ends as high as in the job.
+    fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
+        if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it)) {
+            return Err(Box::new(
+                Difference { kind: Kind::Place, found: Some(*cut), expected: None }.diagnostic(),
+            ));
+        }
+        self.check(found)?;
+        let Some((_, expected)) = self.expected.last().filter(|_| has_cut) else { return Ok(()) };
+        let is_high = found.last().is_some_and(|(_, it)| {
+            !it.to.known.has(Axes::Z) || it.to.z() >= expected.to.z().min(self.clearance) - self.slack
+        });
+        if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
+    }
+
+    /// Straight up to a place of the machine.
+    fn is_lift(&self, it: &Move) -> bool {
+        let stays = it.to.known.has(Axes::XY) && is_over(&it.from.at, &it.to.at, self.slack);
+        let is_unknown = !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
+        (stays || is_unknown) && !it.to.known.has(Axes::Z)
+    }
+
+    /// Whether nothing stands in the way of a straight move.
+    fn is_free(&self, it: &Move, is_home: bool) -> bool {
+        let height = |at: &Position| {
+            if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
+        };
+        let is_upright = it.from.known.has(Axes::XY)
+            && it.to.known.has(Axes::XY)
+            && is_over(&it.from.at, &it.to.at, self.slack)
+            || !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
+        let lowest = match (height(&it.from), height(&it.to)) {
+            (Some(from), Some(to)) => from.min(to),
+            // From an unknown height straight up or down.
+            (None, Some(to)) if is_upright || to >= self.clearance - self.slack => to,
+            _ => return false,
+        };
+        if lowest >= self.clearance - self.slack {
+            return true;
+        }
+        if it.from.known.and(it.to.known) != Axes::ALL {
+            // Over a known place from a height that is above everything.
+            return it.to.known == Axes::ALL
+                && is_upright
+                && self.floor(&it.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+        }
+        if is_upright {
+            if it.to.z() >= it.from.z() {
+                return true;
+            }
+            return self.floor(&it.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+        }
+        self.is_covered(&it.from.at, &it.to.at)
+    }
+
+    /// The straight moves of the job between places that are known.
+    fn legs(&self) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+        self.expected
+            .iter()
+            .filter(|(_, it)| it.from.known.and(it.to.known) == Axes::ALL && it.named.is_none())
+            .map(|(_, it)| (it.from.at, it.to.at))
+    }
+
+    /// The lowest height at which the job is over a place.
+    fn floor(&self, place: &[f64; 3]) -> Option<f64> {
+        let ends =
+            self.expected.iter().map(|(_, it)| it.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
+        let begins = self.legs().map(|(from, _)| from);
+        let over = ends.chain(begins).filter(|at| is_over(at, place, self.slack)).map(|at| at[2]);
+        let along = self.legs().filter_map(|(from, to)| {
+            let share = share_of(&from, &to, place)?.clamp(0.0, 1.0);
+            let at = between(&from, &to, share);
+            is_over(&at, place, self.slack).then_some(at[2])
+        });
+        over.chain(along).reduce(f64::min)
+    }
+
+    /// Whether all of a straight move that is below the clearance plane runs above moves of the job.
+    fn is_covered(&self, from: &[f64; 3], to: &[f64; 3]) -> bool {
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        let grain = self.slack / length;
+        let low = below(from[2], to[2], self.clearance - self.slack);
+        let mut spans: Vec<[f64; 2]> = self.legs().filter_map(|leg| self.span(from, to, low, leg)).collect();
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let reached = spans.iter().fold(low[0], |reached, span| {
+            if span[0] <= reached + grain { reached.max(span[1]) } else { reached }
+        });
+        reached >= low[1] - grain
+    }
+
+    /// The shares of a move between which it runs above a leg of the job.
+    fn span(
+        &self,
+        from: &[f64; 3],
+        to: &[f64; 3],
+        low: [f64; 2],
+        leg: ([f64; 3], [f64; 3]),
+    ) -> Option<[f64; 2]> {
+        let shares = [share_of(from, to, &leg.0)?, share_of(from, to, &leg.1)?];
+        let begin = shares[0].min(shares[1]).max(low[0]);
+        let end = shares[0].max(shares[1]).min(low[1]);
+        let is_above_leg = |share: f64| {
+            let at = between(from, to, share);
+            let along = share_of(&leg.0, &leg.1, &at).map_or(0.0, |along| along.clamp(0.0, 1.0));
+            let other = between(&leg.0, &leg.1, along);
+            is_over(&at, &other, self.slack) && at[2] >= other[2] - self.slack
+        };
+        (begin <= end && is_above_leg(begin) && is_above_leg(end)).then_some([begin, end])
+    }
+}
+
+/// The shares between which a height that changes evenly is below another.
+fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
+    let crossing = if from == to { 0.0 } else { ((height - from) / (to - from)).clamp(0.0, 1.0) };
+    match (from < height, to < height) {
+        (true, true) => [0.0, 1.0],
+        (true, false) => [0.0, crossing],
+        (false, true) => [crossing, 1.0],
+        (false, false) => [0.0, 0.0],
+    }
+}
+
+/// Where, as a share of a line's length in the plane, a place is nearest to it; `None` for an upright line.
+fn share_of(from: &[f64; 3], to: &[f64; 3], place: &[f64; 3]) -> Option<f64> {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    (square > 0.0).then(|| ((place[0] - from[0]) * along[0] + (place[1] - from[1]) * along[1]) / square)
+}
+
+fn between(from: &[f64; 3], to: &[f64; 3], share: f64) -> [f64; 3] {
+    [0, 1, 2].map(|axis| from[axis] + share * (to[axis] - from[axis]))
+}
