@@ -10,6 +10,7 @@ const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
 search = ["components"]
+spindle = "manual"
 feed = 150
 rapid = 1000
 sweep-height = 20

@@ -28,6 +28,7 @@ M30
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["parts"]
+spindle = "manual"
 feed = 150
 rapid = 1000
 sweep-height = 20
@@ -241,6 +242,7 @@ fn built_in_posts_are_listed_and_shown() {
     let shown = place.run("post show grbl").stdout;
     let program = "G17 G21 G90 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F60\nG0 Z5\nM30\n";
     let place = place.file("copy.cbpp", shown).file("a.gcode", program);
+    let place = place.file("pathbuild.toml", "spindle = \"manual\"\n");
     let [own, copy] = ["grbl", "copy.cbpp"].map(|post| place.run(&format!("post a.gcode --post {post}")));
     assert_eq!((own.status, own.stdout), (Some(0), copy.stdout));
 }

@@ -13,7 +13,10 @@ sweep-height = 20
 diameter = 2
 number = 4
 spindle = 12000
-coolant = "mist"
+coolant = "flood"
+[tool.3mm]
+diameter = 3
+spindle = 9000
 [tool.slot]
 diameter = 2
 paths = 'T$'
@@ -80,7 +83,10 @@ fn the_configurations_post_is_the_default_and_native_can_be_asked_for() {
     assert!(place.run("emit 1234.1P -o - --post native").stdout.starts_with("%\n(pathbuild"));
     let below = Place::new()
         .file("posts/my.cbpp", "<PostProcessor><PostFile>(mine)\n{$mops}</PostFile></PostProcessor>")
-        .file("pathbuild.toml", "post = \"posts/my.cbpp\"\nfeed = 1\nrapid = 1\nsweep-height = 20\n")
+        .file(
+            "pathbuild.toml",
+            "post = \"posts/my.cbpp\"\nspindle = \"manual\"\nfeed = 1\nrapid = 1\nsweep-height = 20\n",
+        )
         .file("drawings/1234.dxf", std::fs::read(library("").path().join("1234.dxf")).unwrap());
     let run = below.run_in("drawings", &["emit", "1234.dxf", "-o", "-"]);
     assert!(run.stdout.starts_with("(mine)"), "a post's file is relative to the configuration: {run}");
@@ -94,14 +100,19 @@ fn tools_come_from_the_configuration() {
         let is_of_tools = |line: &&str| line.contains('T') && line.contains("M6") || line.starts_with('M');
         text.lines().filter(is_of_tools).collect::<Vec<_>>().join(" ")
     };
-    assert_eq!(tool("1234.1P"), "T4 M6 M3 S12000 M7 M5 M9 M30");
+    assert_eq!(tool("1234.1P"), "T4 M6 M3 S12000 M8 M5 M9 M30");
     assert_eq!(tool("1400.1T"), "T7 M6 M4 S6000 M5 M9 M30");
-    assert_eq!(tool("1300.1P"), "T1 M6 M5 M9 M30");
-    assert_snapshot!(place.run("emit 1300.1P --post linuxcnc --format concise"));
+    assert_eq!(tool("1300.1P"), "T1 M6 M3 S9000 M5 M9 M30");
+    let without = |head: &str| {
+        let text = LIBRARY.replace("[tool.3mm]\ndiameter = 3\nspindle = 9000\n", "");
+        Place::of(&text.replace("library =", &format!("{head}library =")))
+            .run("emit 1300.1P --post linuxcnc --format concise")
+    };
+    assert_snapshot!(without("spindle = \"manual\"\n"));
+    assert_snapshot!(without(""), "a spindle that nobody switches on");
     let notes = |path: &str| place.run(&format!("emit {path} --post xpertmill -o -")).stderr;
     let both = notes("1234.1P");
     assert!(both.contains("~ToolControl1~") && both.contains("~MillingSpindleDir~"), "{both}");
-    assert!(!notes("1300.1P").contains("~MillingSpindleDir~"), "nobody says what its spindle does");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::time::Duration;
 use crate::support::{Place, program};
 use pathbuild_testkit::sheet;
 
-const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
+const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
 
 /// A drawing of one path with T, which mills or embeds.
 fn dxf(name: &str, thickness: u32, embeds: &[&str]) -> Vec<u8> {

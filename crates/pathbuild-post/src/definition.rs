@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
 use super::built_in::Language;
-use super::job::{Coolant, Job, Spindle};
+use super::job::{Coolant, Job, Operation, Spindle};
 use super::options::PostOptions;
 use super::suggest::nearest;
 use super::target::{self, Target};
@@ -112,6 +112,7 @@ impl Post {
     /// Every macro that nobody defines, else the first thing that would make the text wrong.
     pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
         job.check().map_err(|error| vec![*error])?;
+        self.check_spindle(job, options).map_err(|error| vec![*error])?;
         let target = self.target(options)?;
         let options = &self.within(options, target.as_ref());
         let mut output = Output {
@@ -183,6 +184,30 @@ impl Post {
         }
     }
 
+    /// A spindle that the definition switches, and that nobody else does, has a speed wherever something is cut.
+    fn check_spindle(&self, job: &Job, options: &PostOptions<'_>) -> Result<(), Box<Diagnostic>> {
+        let is_switched = match &self.engine {
+            Engine::CamBam(definition) => definition.switches_spindle(),
+            Engine::Cad6(definition) => definition.uses("MillingSpindleDir"),
+        };
+        let stands = |operation: &&Operation| {
+            operation.cuts()
+                && (operation.speed.is_none() || matches!(operation.spindle, None | Some(Spindle::Off)))
+        };
+        if let Engine::Cad6(definition) = &self.engine
+            && definition.has_one_speed_a_tool()
+        {
+            one_speed_a_tool(job)?;
+        }
+        match job.operations.iter().find(stands).filter(|_| options.needs_speed && is_switched) {
+            Some(operation) => {
+                let diagnostic = Diagnostic::new(&posts::SPINDLE_UNKNOWN).with("operation", &*operation.name);
+                Err(Box::new(diagnostic.with("diameter", operation.tool.diameter)))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Whom the output is for, if that is said.
     fn target(&self, options: &PostOptions<'_>) -> Result<Option<Target>, Vec<Diagnostic>> {
         let Some(name) = options.dialect.as_deref().or(self.dialect()) else { return Ok(None) };
@@ -222,6 +247,22 @@ impl Post {
         }
         Ok(written.shadow)
     }
+}
+
+/// A speed that belongs to a tool cannot change while the tool does not.
+fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
+    let cutting = || job.operations.iter().filter(|operation| operation.cuts());
+    for operation in cutting() {
+        let other = cutting()
+            .find(|other| other.tool.index == operation.tool.index && other.speed != operation.speed);
+        if let (Some(other), Some(speed)) = (other, operation.speed) {
+            let diagnostic =
+                Diagnostic::new(&posts::ONE_SPEED_A_TOOL).with("index", u64::from(operation.tool.index));
+            let diagnostic = diagnostic.with("speed", speed).with("other", other.speed.unwrap_or(0.0));
+            return Err(Box::new(diagnostic.with("operation", &*other.name)));
+        }
+    }
+    Ok(())
 }
 
 fn unknown_dialect(name: &str) -> Diagnostic {

@@ -199,6 +199,11 @@ impl Operation {
             && self.steps.iter().all(Step::is_finite)
     }
 
+    /// Whether the tool cuts something in it.
+    pub(super) fn cuts(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step, Step::Feed { .. } | Step::Arc(_) | Step::Hole(_)))
+    }
+
     /// The holes in it.
     pub fn holes(&self) -> impl Iterator<Item = &Hole> {
         self.steps.iter().filter_map(|step| match step {

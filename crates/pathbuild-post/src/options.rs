@@ -25,8 +25,12 @@ pub struct PostOptions<'a> {
     pub dialect: Option<Box<str>>,
     /// Somebody answers for what cannot be read back.
     pub unchecked: bool,
+    /// The number of the program; `None`: the first number in the program's name.
+    pub program_number: Option<u32>,
     /// The operator sees to the spindle: no word of the definition's spindle macros is written.
     pub manual_spindle: bool,
+    /// A definition that switches the spindle needs its speed: without one it would not turn.
+    pub needs_speed: bool,
     /// The time in seconds that the spindle takes to reach its speed.
     pub spin_up: f64,
     /// Where files are that the definition inserts.
@@ -44,7 +48,9 @@ impl Default for PostOptions<'_> {
             charset: Charset::Ascii,
             dialect: None,
             unchecked: false,
+            program_number: None,
             manual_spindle: false,
+            needs_speed: false,
             spin_up: 0.0,
             files: &NoFiles,
         }

@@ -125,6 +125,7 @@ impl Way<'_> {
         for &(line, it) in found {
             let is_fine = match it.named {
                 Some(_) => self.is_lift(&it) || self.is_free(&it, is_home),
+                None if self.is_expected(&it) => true,
                 None => {
                     matches!(it.pace, Pace::Rapid | Pace::Feed(_))
                         && it.path == Path::Line
@@ -153,6 +154,18 @@ impl Way<'_> {
             !it.to.known.has(Axes::Z) || it.to.z() >= expected.to.z().min(self.clearance) - self.slack
         });
         if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
+    }
+
+    /// Whether it is one of the job's own rapid moves, from wherever that begins.
+    fn is_expected(&self, it: &Move) -> bool {
+        let is_same = |a: &Position, b: &Position| {
+            let is_near =
+                |axis: usize| (a.at[axis] - b.at[axis]).abs() <= self.slack || !a.known.has(Axes::of(axis));
+            a.known == b.known && (0..3).all(is_near)
+        };
+        let all = || self.expected.iter().map(|(_, expected)| expected);
+        is_rapid(it)
+            && all().any(|expected| is_same(&expected.from, &it.from) && is_same(&expected.to, &it.to))
     }
 
     /// Straight up to a place of the machine.

@@ -90,7 +90,11 @@ fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnost
 
 /// Half a unit of the last digit; `XpertMILL` knows no helices, so they become lines. The head and foot are the post's.
 fn tolerance(post: &str) -> Tolerance {
-    let (decimals, chord) = if post == "xpertmill" { (3, 0.01) } else { (4, 0.0) };
+    let (decimals, chord) = match post {
+        "xpertmill" => (3, 0.01),
+        "fanuc" | "haas" => (3, 0.0),
+        _ => (4, 0.0),
+    };
     Tolerance { ends: Ends::Cutting, chord, ..Tolerance::of_decimals(decimals) }
 }
 

@@ -213,6 +213,13 @@ messages! {
         help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
+    /// A second speed of one tool.
+    ONE_SPEED_A_TOOL: NothingToPost {
+        en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
+        de: "T{index} läuft mit {speed} und in {operation} mit {other} 1/min, dieser Postprozessor schreibt aber eine Drehzahl je Werkzeug",
+        help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
+        help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben, oder je Pfad ein Programm schreiben",
+    }
     /// A byte needs two hexadecimal digits.
     BYTE_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: two hexadecimal digits are missing here",

@@ -66,6 +66,14 @@ impl Definition {
         self.texts.iter().flatten().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
+    /// Whether only changes of tools have the spindle's speed.
+    pub(crate) fn has_one_speed_a_tool(&self) -> bool {
+        let mut with_speed =
+            self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
+        with_speed.peek().is_some()
+            && with_speed.all(|(kind, _)| matches!(kind, Kind::ToolChange | Kind::ProgramStart))
+    }
+
     /// Decimals of rounded numbers.
     pub(crate) fn decimals(&self) -> u8 {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)

@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::macros::Macro;
+use super::macros::{Macro, State};
 use super::names::MacroArguments;
 use super::options::{Options, Refusal};
 use super::registers::Form;
@@ -50,6 +50,13 @@ impl Definition {
     /// The dialect that it names.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.options.dialect.as_deref()
+    }
+
+    /// Whether it switches the spindle.
+    pub(crate) fn switches_spindle(&self) -> bool {
+        let is_spindle =
+            |what: &Macro| matches!(what, Macro::State(State::Spindle) | Macro::SpindleUp | Macro::Speed);
+        self.templates().flat_map(Template::macros).any(|(what, _)| is_spindle(what))
     }
 
     /// Whether axes are not the program's: wrapped round a cylinder, or with another sign.

@@ -17,6 +17,8 @@ pub(super) struct Machine {
     /// The T word that no M6 followed yet.
     selected: Option<u32>,
     pub(super) spindle: Option<Spindle>,
+    /// The last S.
+    pub(super) speed: Option<f64>,
     pub(super) coolant: Option<Coolant>,
     pub(super) velocity: Option<VelocityMode>,
     pub(super) plane: Option<Plane>,
@@ -66,6 +68,9 @@ impl Machine {
         let tenths =
             |letter: char| line.words.iter().filter(move |word| word.letter == letter).filter_map(tenths);
         tenths('G').for_each(|code| self.general(code, &mut moves));
+        if let Some(speed) = line.words.iter().find(|word| word.letter == 'S') {
+            self.speed = Some(speed.number);
+        }
         if let Some(tool) = tenths('T').next() {
             self.selected = Some(tool / 10);
         }

@@ -14,6 +14,8 @@ pub(super) enum Macro {
     Register(Register, Form),
     /// `S` with the spindle speed.
     Speed,
+    /// The spindle's direction with its speed, and the time that it takes, when either changes (pathbuild's own).
+    SpindleUp,
     /// The word of a motion or cycle; `modal`: only when it is not the one in force.
     Code {
         /// Which.
@@ -112,6 +114,7 @@ impl Value {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
     FileName,
+    ProgramNumber,
     Date,
     OutFile,
     PartName,

@@ -92,7 +92,7 @@ fn with_arguments(name: &str) -> Option<&'static With> {
 static WITH: &[With] = &[
     With { name: "cuttercomp", expected: "off, L or R", read: cutter_compensation },
     With { name: "toolchange", expected: "nothing or first", read: tool_change },
-    With { name: "spindle", expected: "nothing, cw, ccw or off", read: spindle },
+    With { name: "spindle", expected: "nothing, up, cw, ccw or off", read: spindle },
     With { name: "coolant", expected: "nothing, flood, mist or off", read: coolant },
     With { name: "check", expected: "three coordinates", read: check },
     With { name: "set", expected: "x, y or z and a number or NaN, or tool", read: set },
@@ -117,6 +117,9 @@ fn tool_change(argument: Option<&str>) -> Option<Macro> {
 
 fn spindle(argument: Option<&str>) -> Option<Macro> {
     let Some(argument) = argument else { return Some(Macro::State(State::Spindle)) };
+    if argument.eq_ignore_ascii_case("up") {
+        return Some(Macro::SpindleUp);
+    }
     Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
         "cw" => spindle_section(Spindle::Clockwise),
         "ccw" => spindle_section(Spindle::CounterClockwise),
@@ -195,6 +198,7 @@ static FIXED: &[(&str, Macro)] = &[
     ("arccentermode", Macro::Choice(Choice::ArcCentre)),
     ("lathexmode", Macro::Choice(Choice::LatheX)),
     ("cbfile.name", Macro::Value(Value::FileName)),
+    ("program.number", Macro::Value(Value::ProgramNumber)),
     ("date", Macro::Value(Value::Date)),
     ("outfile", Macro::Value(Value::OutFile)),
     ("part.name", Macro::Value(Value::PartName)),

@@ -6,6 +6,7 @@ use super::section::{Section, coolant_section, spindle_section};
 use super::writer::{Writer, Written};
 use crate::job::{Coolant, Plane, Spindle, Units, VelocityMode};
 use crate::number::NumberFormat;
+use crate::step::Step;
 
 impl Writer<'_> {
     pub(super) fn register(&mut self, register: Register, form: Form) -> Written {
@@ -28,10 +29,34 @@ impl Writer<'_> {
     }
 
     pub(super) fn speed(&mut self) -> Written {
-        match self.operation().speed {
+        match self.operation().speed.filter(|_| !self.plan.options.manual_spindle) {
             Some(speed) => self.text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
             None => Ok(()),
         }
+    }
+
+    /// Switches the spindle on, if it does not turn as the operation wants, and waits until it does.
+    pub(super) fn spindle_up(&mut self) -> Written {
+        let operation = self.operation();
+        let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {
+            return Ok(());
+        };
+        let turns_so = self.machine.speed.is_some() || operation.speed.is_none();
+        if self.machine.spindle == Some(spindle)
+            && turns_so
+            && self.machine.speed == operation.speed.map(f64::round)
+        {
+            return Ok(());
+        }
+        self.section(spindle_section(spindle))?;
+        if spindle != Spindle::Off {
+            self.text(" ")?;
+            self.speed()?;
+        }
+        self.end_line();
+        self.machine.spindle = Some(spindle);
+        let wait = self.plan.options.spin_up;
+        if wait > 0.0 && spindle != Spindle::Off { self.step(&Step::Dwell { seconds: wait }) } else { Ok(()) }
     }
 
     pub(super) fn code(&mut self, code: Code, modal: bool) -> Written {
@@ -49,6 +74,10 @@ impl Writer<'_> {
     }
 
     pub(super) fn named_section(&mut self, section: Section) -> Written {
+        let is_spindle = matches!(section, Section::SpindleCw | Section::SpindleCcw | Section::SpindleOff);
+        if is_spindle && self.plan.options.manual_spindle {
+            return Ok(());
+        }
         match section {
             Section::SpindleCw => self.machine.spindle = Some(Spindle::Clockwise),
             Section::SpindleCcw => self.machine.spindle = Some(Spindle::CounterClockwise),
@@ -83,6 +112,7 @@ impl Writer<'_> {
             State::WorkPlane if self.machine.plane.replace(operation.plane) != Some(operation.plane) => {
                 plane_section(operation.plane)
             }
+            State::Spindle if self.plan.options.manual_spindle => return Ok(()),
             State::Spindle if operation.spindle.is_some() && self.machine.spindle != operation.spindle => {
                 self.machine.spindle = operation.spindle;
                 operation.spindle.map_or(Section::SpindleOff, spindle_section)

@@ -18,6 +18,10 @@ impl Writer<'_> {
         let tool = self.tool;
         match value {
             Value::FileName => Some(self.plan.job.name.to_string()),
+            Value::ProgramNumber => {
+                let number = self.plan.options.program_number.or_else(|| first_number(&self.plan.job.name));
+                number.map(|number| format!("{number:04}"))
+            }
             Value::Date => self.plan.options.date.as_deref().map(str::to_owned),
             Value::OutFile => self.plan.options.output.as_deref().map(str::to_owned),
             Value::PartName => Some(operation.part.to_string()),
@@ -78,6 +82,11 @@ impl Writer<'_> {
             .with("operation", &*self.operation().name);
         Err(Box::new(self.plan.locate(diagnostic, section, line)))
     }
+}
+
+/// The first number in a name: of 8001.1P it is 8001.
+fn first_number(name: &str) -> Option<u32> {
+    name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
 }
 
 fn dwell(hole: &Hole) -> Option<f64> {

@@ -151,6 +151,7 @@ impl<'a> Writer<'a> {
             },
             Macro::Register(register, form) => self.register(*register, *form),
             Macro::Speed => self.speed(),
+            Macro::SpindleUp => self.spindle_up(),
             Macro::Code { code, modal } => self.code(*code, *modal),
             Macro::Choice(choice) => self.section(self.chosen(*choice)),
             Macro::State(state) => self.state(*state),

@@ -98,7 +98,7 @@ fn an_unknown_macro_is_an_error_with_its_line_and_the_nearest_name() {
 fn a_macro_with_wrong_arguments_is_an_error() {
     let text = definition("<Footer>{$spindle(left)} {$x(1)} {$set(q,1)} {$check(1,2)}</Footer>");
     let expected = [
-        "3: PB750 {$spindle(left)} in Footer has the wrong arguments; it takes nothing, cw, ccw or off",
+        "3: PB750 {$spindle(left)} in Footer has the wrong arguments; it takes nothing, up, cw, ccw or off",
         "3: PB750 {$x(1)} in Footer has the wrong arguments; it takes no arguments",
         "3: PB750 {$set(q,1)} in Footer has the wrong arguments; it takes x, y or z and a number or NaN, or tool",
         "3: PB750 {$check(1,2)} in Footer has the wrong arguments; it takes three coordinates",

@@ -217,6 +217,33 @@ pub struct Tool {
     pub coolant: Option<Coolant>,
 }
 
+/// The post-processor, and what its owner says about its programs. (spec/85-post-processors.md)
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PostChoice {
+    /// A built-in post-processor or a file.
+    pub name: Box<str>,
+    /// What cannot be read back is written all the same: its owner answers for it.
+    pub unchecked: bool,
+    /// The number of the program, for controls that call programs by numbers; `None`: the path's.
+    pub program_number: Option<u32>,
+}
+
+impl From<&str> for PostChoice {
+    fn from(name: &str) -> Self {
+        Self { name: name.into(), unchecked: false, program_number: None }
+    }
+}
+
+choice! {
+    /// Who sees to the spindle.
+    SpindleControl {
+        /// The program, by the tools of the configuration.
+        Tool = "tool",
+        /// Whoever stands at the machine.
+        Manual = "manual",
+    }
+}
+
 /// A text for post-processors, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Macro {

@@ -10,9 +10,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
-use pathbuild_post::{
-    BUILT_IN, Job, Language, Output, Post, PostFiles, PostMacro, PostOptions, Step, ToolTable,
-};
+use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable};
 
 use crate::config::{Origin, types};
 use crate::files::unreadable;
@@ -38,6 +36,16 @@ pub struct Poster {
     cycles: bool,
     charset: Charset,
     wishes: Wishes,
+    manner: Manner,
+}
+
+/// What the configuration says about how programs are written.
+#[derive(Clone, Copy, Debug)]
+struct Manner {
+    unchecked: bool,
+    program_number: Option<u32>,
+    manual_spindle: bool,
+    spin_up: f64,
 }
 
 /// What the command line says about a post's output.
@@ -67,8 +75,8 @@ impl Poster {
         let configured = &context.settings.general.post;
         let (name, base) = match (named, configured.origin, context.settings.directory()) {
             (Some(name), ..) => (name, &*context.working_directory),
-            (None, Origin::File(_), Some(directory)) => (&*configured.value, directory),
-            (None, ..) => (&*configured.value, &*context.working_directory),
+            (None, Origin::File(_), Some(directory)) => (&*configured.value.name, directory),
+            (None, ..) => (&*configured.value.name, &*context.working_directory),
         };
         if name == NATIVE {
             return Ok(None);
@@ -109,6 +117,12 @@ impl Poster {
                 types::Charset::Utf8 => Charset::Utf8,
             },
             wishes,
+            manner: Manner {
+                unchecked: general.post.value.unchecked,
+                program_number: general.post.value.program_number,
+                manual_spindle: general.spindle.value == types::SpindleControl::Manual,
+                spin_up: context.settings.machine.spin_up.value,
+            },
         })
     }
 
@@ -160,6 +174,11 @@ impl Poster {
             run_post_build: self.wishes.run_post_build,
             charset: self.charset,
             dialect: self.wishes.dialect.clone(),
+            unchecked: self.manner.unchecked,
+            program_number: self.manner.program_number,
+            manual_spindle: self.manner.manual_spindle,
+            needs_speed: !self.manner.manual_spindle,
+            spin_up: self.manner.spin_up,
             ..PostOptions::default()
         };
         if let Some(below) = &below {
@@ -168,29 +187,13 @@ impl Poster {
         self.post.write(job, &options)
     }
 
-    /// Makes the head of a job's text, or its first remark, tell these things.
-    pub fn say(&self, job: &mut Job, lines: &[String]) {
-        // Braces begin macros.
-        let lines = lines.iter().map(|line| line.replace('{', "[").replace('}', "]"));
-        match self.post.language() {
-            Language::CamBam => {
-                let comments = lines.map(|line| format!("{{$comment}}{line}{{$endcomment}}"));
-                job.texts.header = comments.collect::<Vec<_>>().join("\n").into();
-            }
-            Language::Cad6 | Language::Native => {
-                let comments = lines.map(|line| Step::Comment(line.as_str().into()));
-                if let Some(first) = job.operations.first_mut() {
-                    first.steps.splice(0..0, comments);
-                }
-            }
-        }
-    }
-
     /// Everything that a program's text depends on beside drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
-        let Self { definition, tools, macros, wishes, cycles, .. } = self;
+        let Self { definition, tools, macros, wishes, cycles, manner, .. } = self;
         let mut identity = definition.clone();
-        identity.extend(format!("{:?}", (tools, macros, cycles, &wishes.date, &wishes.dialect)).into_bytes());
+        identity.extend(
+            format!("{:?}", (tools, macros, cycles, &wishes.date, &wishes.dialect, manner)).into_bytes(),
+        );
         identity
     }
 }

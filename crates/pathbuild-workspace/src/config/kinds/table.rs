@@ -7,13 +7,13 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::number::{COUNT, POSITIVE};
+use super::number::{COUNT, POSITIVE, SWITCH};
 use super::pattern::{PATTERNS, REGEX};
-use super::text::{choice, choice_schema, name_of, quoted, read_choice};
+use super::text::{TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::kind::Kind;
 use crate::config::nearest::nearest;
 use crate::config::reader::{Reader, Table};
-use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
+use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
 
 /// Names of line types, each with what it stands for.
 pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
@@ -95,6 +95,40 @@ pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
                 "coolant": choice_schema::<Coolant>(),
             },
         } })
+    },
+};
+
+/// A post-processor: its name, or a table with more about it.
+pub(in crate::config) const POST: Kind<PostChoice> = Kind {
+    read: |value, reader| {
+        let Some(table) = value.get_ref().as_table() else {
+            return (TEXT.read)(value, reader).map(|name| (&*name).into());
+        };
+        let prefix = format!("{}.", reader.key());
+        Some(reader.table(table, &prefix, |table| PostChoice {
+            name: table.take("name", &TEXT).map_or_else(|| "native".into(), |it| it.value),
+            unchecked: table.take("unchecked", &SWITCH).is_some_and(|it| it.value),
+            program_number: table.take("program-number", &COUNT).and_then(|it| u32::try_from(it.value).ok()),
+        }))
+    },
+    show: |post| match post {
+        PostChoice { name, unchecked: false, program_number: None } => Some(quoted(name)),
+        PostChoice { name, unchecked, program_number } => inline([
+            ("name", Some(quoted(name))),
+            ("unchecked", Some(unchecked.to_string())),
+            ("program-number", program_number.map(|number| number.to_string())),
+        ]),
+    },
+    schema: || {
+        json!({ "oneOf": [(TEXT.schema)(), {
+            "type": "object",
+            "additionalProperties": false,
+            "properties": {
+                "name": (TEXT.schema)(),
+                "unchecked": (SWITCH.schema)(),
+                "program-number": (COUNT.schema)(),
+            },
+        }] })
     },
 };
 

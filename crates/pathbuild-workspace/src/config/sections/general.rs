@@ -6,11 +6,12 @@ use pathbuild_diagnostic::Lang;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
 use crate::config::kinds::pattern::{REGEX, RESTRICTIONS};
-use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, TEXT, choice};
+use crate::config::kinds::table::POST;
+use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, choice};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
-use crate::config::types::{Charset, Directories, Restriction, Units, ZModel};
+use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 
 /// What a path name is, unless the configuration says otherwise. (spec/20-paths-and-files.md)
 pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
@@ -53,8 +54,11 @@ section! {
     z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#;
     /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
     z_split: Option<f64> = "z-split", PIECE, None, "0";
-    /// a built-in post-processor or a file
-    post: Box<str> = "post", TEXT, "native".into(), r#""native""#;
+    /// a built-in post-processor or a file; with more to say { name = "...", unchecked = true, program-number = 8001 }
+    /// (unchecked: write also what cannot be read back; its owner answers for it)
+    post: PostChoice = "post", POST, "native".into(), r#""native""#;
+    /// tool (the tools' speeds, else PB754) | manual (posts neither start nor stop the spindle)
+    spindle: SpindleControl = "spindle", choice::<SpindleControl>(), SpindleControl::Tool, r#""tool""#;
     /// whether holes become canned cycles where the post has them
     cycles: bool = "cycles", SWITCH, false, "false";
     /// where files are written; empty: beside the drawing

@@ -8,6 +8,8 @@ use crate::config::show::Shown;
 use crate::config::types::Extent;
 
 section! {
+    /// s: how long the spindle takes to reach its speed; posts wait as long after M3
+    spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0";
     /// mm: from where to where the X axis goes, in the program's coordinates; without it any X is right
     x: Option<Extent> = "x", EXTENT, None, "[0, 300]";
     /// mm: the same for the Y axis

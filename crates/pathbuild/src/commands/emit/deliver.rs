@@ -245,7 +245,7 @@ fn posted(
     let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
     let (mut program, warnings) =
         PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
-    poster.say(&mut program, &[job.provenance.to_string(), job.title.clone()]);
+    program.remarks = vec![job.provenance.to_string().into(), job.title.as_str().into()];
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path));
     let output =
