@@ -28,7 +28,6 @@ M30
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["parts"]
-spindle = "manual"
 feed = 150
 rapid = 1000
 sweep-height = 20
