@@ -61,7 +61,7 @@ impl Sources {
     fn of(context: &Context) -> Self {
         let settings = &context.settings;
         let beside = settings.directory().unwrap_or(&context.working_directory);
-        let post = beside.join(&*settings.general.post.value);
+        let post = beside.join(&*settings.general.post.value.name);
         let limit = settings.limits.file_size.value;
         let read = |file: Utf8PathBuf| {
             let bytes = OsSystem.read(&file, limit).ok();

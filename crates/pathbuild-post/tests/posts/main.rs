@@ -8,6 +8,8 @@ mod cambam_lines;
 mod cambam_moves;
 mod cambam_outputs;
 mod jobs;
+mod mutilated;
+mod others_texts;
 mod read_programs;
 mod robustness;
 mod support;

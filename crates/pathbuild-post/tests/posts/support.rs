@@ -11,6 +11,39 @@ pub(crate) fn shared(name: &str) -> Option<String> {
     Some(std::fs::read_to_string(path).expect("a test's own file can be read"))
 }
 
+/// The manual's form of control texts: contours have a start and an end, and rapids no text of their own.
+pub(crate) const DIN: &str = r"[post]
+number-lines = false
+[text]
+program-start = 'G17 G21 G90'
+comment = '(~CommentText~)'
+tool-change = '''
+(tool ~ToolName~ ~PathName~ ~SourceFile~ ~PrgName~)
+T{#~MachineToolNo~} S{#~MillingSpindleRate~}
+G00 Z{+~ZClearance~}'''
+contour-start = '''
+G00 X{+~X1~} Y{+~Y1~}
+G00 Z{+~ZWorking~}
+G01 Z{+~Z1~} F{#~LoweringVel~}'''
+line = 'G01 X{+~X1~} Y{+~Y1~} Z{+~Z1~} F{#~MovingVel~}'
+arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~} I{+~IRel~} J{+~JRel~} F{#~MovingVel~}'
+contour-end = 'G00 Z{+~ZClearance~}'
+program-end = 'M30'
+";
+
+/// Real definitions with their names, where ../shared has them.
+pub(crate) fn real_definitions() -> Vec<(String, String)> {
+    let names = [
+        "default-reconstructed.cbpp",
+        "dialog-mei-tech.cbpp",
+        "grbl-okkcnc.cbpp",
+        "linuxcnc-touchoff-win7.cbpp",
+        "linuxcnc-touchoff.cbpp",
+        "pastebin-g43-linenumbers.cbpp",
+    ];
+    names.iter().filter_map(|name| Some(((*name).to_owned(), shared(&format!("posts/{name}"))?))).collect()
+}
+
 /// A CamBam definition with these elements.
 pub(crate) fn definition(elements: &str) -> String {
     format!("<?xml version=\"1.0\"?>\n<PostProcessor Version=\"0.9.8.0\">\n{elements}\n</PostProcessor>")
