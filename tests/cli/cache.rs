@@ -231,7 +231,7 @@ fn settings_that_matter_ask_another_question() {
 }
 
 fn results(place: &Place) -> Vec<PathBuf> {
-    let listed = fs::read_dir(place.path().join(".pathbuild")).unwrap().map(|entry| entry.unwrap().path());
+    let listed = fs::read_dir(place.cache()).unwrap().map(|entry| entry.unwrap().path());
     let mut results: Vec<PathBuf> =
         listed.filter(|path| path.extension().is_some_and(|it| it == "results")).collect();
     results.sort();
@@ -268,18 +268,54 @@ fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
 fn without_a_configuration_or_with_no_cache_nothing_is_kept() {
     let place = library();
     place.run("check --no-cache");
-    assert!(!place.path().join(".pathbuild").exists());
+    assert!(!place.cache().exists());
     fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
     place.run("check ./library");
-    assert!(!place.path().join(".pathbuild").exists());
+    assert!(!place.cache().exists());
 }
 
 #[test]
-fn the_cache_says_what_it_is_and_keeps_out_of_repositories() {
+fn the_cache_says_what_it_is_and_lies_outside_the_tree() {
     let place = library();
+    let before = fs::read_dir(place.path()).unwrap().count();
     place.run("check");
-    assert!(place.read(".pathbuild/CACHEDIR.TAG").starts_with("Signature: 8a477f597d28d172789f06886806bc55"));
-    assert_eq!(place.read(".pathbuild/.gitignore"), "*\n");
+    let tag = fs::read_to_string(place.cache().join("CACHEDIR.TAG")).unwrap();
+    assert!(tag.starts_with("Signature: 8a477f597d28d172789f06886806bc55"));
+    assert_eq!(fs::read_dir(place.path()).unwrap().count(), before);
+}
+
+#[test]
+fn what_a_repository_brings_is_not_believed_and_is_noted_once() {
+    let place = library().file(".pathbuild/anything.results", "forged");
+    let first = place.run("check");
+    assert!(first.stderr.contains(".pathbuild beside the configuration is not used any more"), "{first}");
+    assert!(!place.run("check").stderr.contains(".pathbuild"));
+    assert_eq!(place.read(".pathbuild/anything.results"), "forged");
+    assert_eq!(fs::read_dir(place.path().join(".pathbuild")).unwrap().count(), 1);
+}
+
+#[test]
+fn a_named_cache_holds_for_a_copy_of_the_tree() {
+    let (place, caches) = (library(), tempfile::TempDir::new().unwrap());
+    let cache = caches.path().join("cache").display().to_string();
+    let run = |place: &Place| place.run_with(&["check", "-v", "--cache-dir", &cache]).stderr;
+    assert!(run(&place).contains("0 / 5"));
+    let copy = library();
+    assert!(run(&copy).contains("5 / 5"));
+    assert!(!copy.cache().exists());
+    // Another drawing at the same place.
+    write(&copy.path().join("library/parts/1001.dxf"), &[path("1001.1P", 9, &[])]);
+    assert_same(&copy, "a copy that differs");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cache_that_is_a_link_is_not_used() {
+    let place = library().file("other/precious.txt", "precious");
+    std::os::unix::fs::symlink("other", place.path().join("cache")).unwrap();
+    let run = place.run("check --cache-dir cache");
+    assert!(run.stderr.contains("nothing is kept there: it is a link"), "{run}");
+    assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
 #[test]
@@ -303,7 +339,7 @@ fn the_cache_can_be_looked_at_and_removed() {
     let place = library();
     assert_eq!(place.run("cache size").stdout, "0 bytes\n");
     place.run("check");
-    assert_eq!(place.run("cache dir").stdout, "<PLACE>/.pathbuild\n");
+    assert_eq!(place.run("cache dir").stdout, "<CACHE>\n");
     let [file] = results(&place).try_into().unwrap();
     assert_eq!(place.run("cache size").stdout, format!("{} bytes\n", fs::metadata(&file).unwrap().len()));
     let run = place.run("cache verify");
@@ -318,16 +354,16 @@ fn the_cache_can_be_looked_at_and_removed() {
     assert_eq!(place.run("cache prune").stderr, "removed: 1\n");
 
     assert_eq!(place.run("cache clean").stderr, "removed: 1\n");
-    assert!(!place.path().join(".pathbuild").exists());
+    assert!(!place.cache().exists());
     assert_eq!(place.run("cache clean").stderr, "removed: 0\n");
 }
 
 #[test]
 fn a_directory_that_is_no_cache_is_not_removed() {
-    let place = library().file(".pathbuild/drawing.dxf", "precious");
-    let run = place.run("cache clean");
+    let place = library().file("other/drawing.dxf", "precious");
+    let run = place.run("cache clean --cache-dir other");
     assert_eq!(run.status, Some(1), "{run}");
-    assert_eq!(place.read(".pathbuild/drawing.dxf"), "precious");
+    assert_eq!(place.read("other/drawing.dxf"), "precious");
 }
 
 #[test]

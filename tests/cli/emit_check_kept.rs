@@ -256,8 +256,8 @@ fn severities_are_those_of_the_run_that_shows_them() {
 #[test]
 fn without_a_configuration_nothing_is_kept() {
     let place = emitted();
-    fs::remove_dir_all(place.path().join(".pathbuild")).unwrap();
+    fs::remove_dir_all(place.cache()).unwrap();
     fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
     place.run("emit --check ./projects --search components --feed 150 --rapid 1000 --sweep-height 20");
-    assert!(!place.path().join(".pathbuild").exists());
+    assert!(!place.cache().exists());
 }

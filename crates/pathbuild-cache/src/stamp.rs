@@ -13,6 +13,8 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use camino::Utf8Path;
 
+use crate::private;
+
 /// What the system says of a file, as bytes that are compared as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp([u8; Stamp::SIZE]);
@@ -76,8 +78,8 @@ impl Clock {
     /// # Errors
     /// When none can be made.
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
-        let probe = directory.join(format!(".clock-{}", std::process::id()));
-        let time = fs::write(&probe, []).and_then(|()| fs::metadata(&probe)?.modified());
+        let (probe, file) = private::create_beside(directory, "clock")?;
+        let time = file.metadata().and_then(|data| data.modified());
         // It may not even have been made.
         _ = fs::remove_file(&probe);
         time.map(Self)

@@ -12,8 +12,9 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Kept, Key, Listing, ListingKind,
-    Listings, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic, encode_diagnostic,
+    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Home, Kept, Key, Listing,
+    ListingKind, Listings, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic,
+    encode_diagnostic,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -46,7 +47,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
 /// What comes of keeping a catalogue.
 fn kept(catalogue: &Catalogue) -> Kept {
     let (_directory, base) = place();
-    let place = Place::beside(&base);
+    let place = cache(&base);
     let key = Key::new("build", "question");
     place.store(&key, catalogue).unwrap();
     place.load(&key).unwrap().unwrap()
@@ -92,6 +93,13 @@ fn covers(file: &str, path: &str) -> bool {
     path.starts_with(&file[..4])
 }
 
+/// A cache that is there.
+fn cache(base: &Utf8Path) -> Place {
+    let place = Place::of_tree(&Home::Named(base.join("cache")), base);
+    place.make().unwrap();
+    place
+}
+
 #[test]
 fn every_message_comes_back_with_all_its_values() {
     for message in messages::all() {
@@ -125,7 +133,7 @@ fn every_message_comes_back_with_all_its_values() {
 #[test]
 fn a_catalogue_is_found_under_its_key_and_build_only() {
     let (_directory, base) = place();
-    let place = Place::beside(&base);
+    let place = cache(&base);
     let kept = catalogue(&base, Stamp::MISSING, b"");
     let key = Key::new("build", "question");
     assert_eq!(place.load(&key), Ok(None));
@@ -140,7 +148,7 @@ fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     let file = base.join("a.dxf");
     fs::write(&file, "one").unwrap();
     sleep(rest);
-    (file, Place::beside(base).clock().unwrap())
+    (file, cache(base).clock().unwrap())
 }
 
 #[test]
@@ -269,7 +277,7 @@ fn what_is_kept_is_found_by_its_name() {
 #[test]
 fn a_file_that_is_not_whole_is_not_used() {
     let (_directory, base) = place();
-    let place = Place::beside(&base);
+    let place = cache(&base);
     let key = Key::new("build", "question");
     place.store(&key, &larger(&base)).unwrap();
     let file = place.directory().join(key.file_name());
@@ -295,7 +303,7 @@ const HEAD: usize = 16 + 64 + 32;
 #[test]
 fn numbers_out_of_bounds_are_refused() {
     let (_directory, base) = place();
-    let place = Place::beside(&base);
+    let place = cache(&base);
     let key = Key::new("build", "question");
     place.store(&key, &larger(&base)).unwrap();
     let file = place.directory().join(key.file_name());

@@ -9,6 +9,8 @@ mod reporter;
 pub mod session;
 mod workspace;
 
+pub use pathbuild_cache::Home as CacheHome;
+
 pub use inputs::{Input, Inputs};
 pub use reporter::{Advance, Reporter, Silent};
 pub use workspace::Workspace;

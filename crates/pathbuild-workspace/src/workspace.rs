@@ -1,6 +1,7 @@
 use std::rc::Rc;
 
 use camino::Utf8PathBuf;
+use pathbuild_cache::{Home, Place};
 use pathbuild_diagnostic::Lang;
 
 use crate::config::Settings;
@@ -15,8 +16,8 @@ pub struct Workspace {
     pub working_directory: Utf8PathBuf,
     /// With how many threads to work; `None`: as many as there are cores.
     pub jobs: Option<u16>,
-    /// Whether results of earlier runs may be used and this one's kept.
-    pub use_cache: bool,
+    /// Where results of runs are kept for later ones; `None`: nowhere.
+    pub cache: Option<Home>,
     /// Who hears how the run goes on.
     pub reporter: Rc<dyn Reporter>,
 }
@@ -27,9 +28,14 @@ impl Workspace {
         !self.settings.general.library.value.is_empty()
     }
 
-    /// Whether results are kept for later runs: there must be a configuration, beside which they lie.
+    /// Whether results are kept for later runs: there must be a configuration.
     pub fn keeps_results(&self) -> bool {
-        self.use_cache && self.settings.directory().is_some()
+        self.cache_place().is_some()
+    }
+
+    /// Where they are kept.
+    pub fn cache_place(&self) -> Option<Place> {
+        Some(Place::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
     /// The language of everything that is said.

@@ -2,6 +2,7 @@
 //! crates below; this one holds no logic of theirs. (spec/05-command-line.md, spec/06-configuration.md)
 
 pub mod args;
+mod cache;
 pub mod commands;
 mod context;
 mod exit;
@@ -78,9 +79,13 @@ fn context_of(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
     let printer = Rc::new(Printer::new(common.verbosity(), common.color.unwrap_or_default()));
     let workspace = Workspace {
         settings,
-        working_directory,
         jobs: common.jobs,
-        use_cache: !common.no_cache,
+        cache: if common.no_cache {
+            None
+        } else {
+            cache::home(common.cache_dir.as_deref(), &working_directory)
+        },
+        working_directory,
         reporter: printer.clone(),
     };
     let context = Context { printer, format: common.format.unwrap_or_default(), workspace };

@@ -61,7 +61,7 @@ fn of_run(run: &Run) -> Vec<Named> {
         settings,
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
-        use_cache: false,
+        cache: None,
         reporter: Rc::new(Silent),
     };
     let session = Session::new(&workspace);

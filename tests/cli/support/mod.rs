@@ -16,11 +16,13 @@ use tempfile::TempDir;
 /// A directory with files in it, in which the program is run.
 pub struct Place {
     directory: TempDir,
+    /// The user's cache directory.
+    caches: TempDir,
 }
 
 impl Place {
     pub fn new() -> Self {
-        Self { directory: TempDir::new().unwrap() }
+        Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() }
     }
 
     /// A directory with the files of a fixture (crates/pathbuild-testkit, README.md).
@@ -41,6 +43,12 @@ impl Place {
         self.directory.path()
     }
 
+    /// Where results of this tree are kept.
+    pub fn cache(&self) -> PathBuf {
+        let mut trees = fs::read_dir(self.caches.path().join("pathbuild")).into_iter().flatten();
+        trees.next().map_or_else(|| self.caches.path().join("none"), |tree| tree.unwrap().path())
+    }
+
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path().join(name)).unwrap()
     }
@@ -57,9 +65,12 @@ impl Place {
 
     /// Runs `pathbuild` in a directory below.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
-        let output = program().args(arguments).current_dir(self.path().join(directory)).output().unwrap();
+        let mut program = program();
+        program.env("XDG_CACHE_HOME", self.caches.path());
+        let output = program.args(arguments).current_dir(self.path().join(directory)).output().unwrap();
         let text = |bytes: Vec<u8>| {
             let text = String::from_utf8(bytes).unwrap().replace(&*self.path().to_string_lossy(), "<PLACE>");
+            let text = text.replace(&*self.cache().to_string_lossy(), "<CACHE>");
             // How long it took is another number on another day.
             Regex::new(r"(?m)\(\d+\.\d s\)$").unwrap().replace_all(&text, "(0.0 s)").into_owned()
         };

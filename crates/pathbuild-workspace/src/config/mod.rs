@@ -10,6 +10,7 @@
 //! `init` writes, the JSON schema and `config show`, so none of them can know a key that another does not.
 
 mod arguments;
+mod concerns;
 mod discover;
 mod kind;
 mod kinds;
@@ -27,6 +28,7 @@ mod template;
 pub mod types;
 
 pub use arguments::{Overrides, number, positive, regex};
+pub use concerns::Concerns;
 pub use load::{faults, load};
 pub use options::Options;
 pub use origin::{Origin, Sourced};

@@ -67,6 +67,9 @@ pub struct CommonArgs {
     /// Neither read nor write the cache
     #[arg(long, global = true)]
     pub no_cache: bool,
+    /// Keep results here, for copies of the tree too (also: `PATHBUILD_CACHE_DIR`)
+    #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
+    pub cache_dir: Option<Utf8PathBuf>,
 }
 
 const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";

@@ -13,10 +13,12 @@ use pathbuild_workspace::session::BUILD;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
-    let Some(directory) = context.settings.directory() else {
+    if context.settings.directory().is_none() {
         return context.usage("there is no pathbuild.toml here or above, and without one nothing is kept");
+    }
+    let (Some(home), Some(place)) = (&context.cache, context.cache_place()) else {
+        return context.usage("nothing is kept: there is no cache directory, or --no-cache was given");
     };
-    let place = Place::beside(directory);
     let build = Key::new(BUILD, "");
     match args.command {
         CacheCommand::Dir => context.printer.result_line(place.directory()),
@@ -24,7 +26,10 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
             let size: u64 = place.entries(&build).iter().map(|entry| entry.size).sum();
             context.printer.result_line(format_args!("{size} {}", context.choose("bytes", "Bytes")));
         }
-        CacheCommand::Prune => return report(context, &place, place.prune(&build)),
+        CacheCommand::Prune => {
+            let gone = home.prune();
+            return report(context, &place, gone.and_then(|gone| Ok(gone + place.prune(&build)?)));
+        }
         CacheCommand::Clean => {
             let cleaned = place.clean().map(usize::from);
             return report(context, &place, cleaned);

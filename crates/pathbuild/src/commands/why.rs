@@ -10,6 +10,7 @@ use super::check::question;
 use crate::args::{CheckArgs, Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use pathbuild_workspace::config::Concerns;
 use pathbuild_workspace::session::{Keeper, Session};
 
 /// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
@@ -19,7 +20,8 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
-    let Some(keeper) = Keeper::open(context, &session, &question(&CheckArgs::default()), Listings::new())
+    let Some(keeper) =
+        Keeper::open(context, Concerns::Check, &question(&CheckArgs::default()), Listings::new())
     else {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");

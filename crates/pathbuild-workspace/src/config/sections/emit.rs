@@ -1,5 +1,8 @@
 //! `[emit]`: what is written when nothing is named.
 
+use std::fmt::Debug;
+
+use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::pattern::PATTERNS;
 use crate::config::origin::Sourced;
@@ -9,5 +12,5 @@ use crate::config::types::Pattern;
 
 section! {
     /// globs of path names: what `emit` without arguments and `watch --emit` write
-    targets: Vec<Pattern> = "targets", PATTERNS, Vec::new(), "[]";
+    targets: Vec<Pattern> = "targets", PATTERNS, Vec::new(), "[]", Neither;
 }

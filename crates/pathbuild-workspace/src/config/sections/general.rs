@@ -1,8 +1,11 @@
 //! Keys outside any table.
 
+use std::fmt::Debug;
+
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Lang;
 
+use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
 use crate::config::kinds::pattern::{REGEX, RESTRICTIONS};
@@ -20,47 +23,47 @@ pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";
 
 section! {
     /// mm/min: F where no path gives one; needed to emit, not to check
-    feed: Option<f64> = "feed", POSITIVE, None, "150";
+    feed: Option<f64> = "feed", POSITIVE, None, "150", Check;
     /// mm/min: for times; needed to emit
-    rapid: Option<f64> = "rapid", POSITIVE, None, "1000";
+    rapid: Option<f64> = "rapid", POSITIVE, None, "1000", Emit;
     /// mm: S of an emitted path without S; needed to emit
-    sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20";
+    sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check;
     /// mm/min: Z where no probe gives one; else as feed
-    probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40";
+    probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit;
     /// what `check` and `emit` without arguments mean, and where path names are found;
     /// directories are walked below, .gitignore and .ignore respected
-    library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#;
+    library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
     /// further directories for embedded paths, in order, flat
-    search: Directories = "search", DIRECTORIES, Vec::new(), "[]";
+    search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check;
     /// what a path name is
-    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'";
+    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check;
     /// what path names in a file name are
-    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'";
+    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check;
     /// PARENT:CHILD, split at the first colon: what may embed what, such as "8*:[0-9.]*P"
-    restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]";
+    restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check;
     /// en | de; the environment is not asked
-    lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#;
+    lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
     /// header (mm or none, else PB113) | drawing (converted) | mm (the header is not believed)
-    units: Units = "units", choice::<Units>(), Units::Header, r#""header""#;
+    units: Units = "units", choice::<Units>(), Units::Header, r#""header""#, Check;
     /// ascii (umlauts transliterated) | utf-8, for what is written
-    charset: Charset = "charset", choice::<Charset>(), Charset::Ascii, r#""ascii""#;
+    charset: Charset = "charset", choice::<Charset>(), Charset::Ascii, r#""ascii""#, Emit;
     /// mm: tolerance for ELLIPSE and SPLINE on path layers; 0: PB111, they are no part of the path
-    approximate_curves: f64 = "approximate-curves", NOT_NEGATIVE, 0.0, "0";
+    approximate_curves: f64 = "approximate-curves", NOT_NEGATIVE, 0.0, "0", Check;
     /// mm: ends this near count as joined, with a warning (PB115) each
-    join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0";
+    join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0", Check;
     /// true: programs exactly as PathDxf2GCode writes them, also where that deviates from its manuals
-    compatible: bool = "compatible", SWITCH, false, "false";
+    compatible: bool = "compatible", SWITCH, false, "false", Check;
     /// idw4 | plane | tin: how heights between probes are found
-    z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#;
+    z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#, Emit;
     /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
-    z_split: Option<f64> = "z-split", PIECE, None, "0";
+    z_split: Option<f64> = "z-split", PIECE, None, "0", Emit;
     /// a built-in post-processor or a file; with more to say { name = "...", unchecked = true, program-number = 8001 }
     /// (unchecked: write also what cannot be read back; its owner answers for it)
-    post: PostChoice = "post", POST, "native".into(), r#""native""#;
+    post: PostChoice = "post", POST, "native".into(), r#""native""#, Emit;
     /// tool (the tools' speeds, else PB754) | manual (posts neither start nor stop the spindle)
-    spindle: SpindleControl = "spindle", choice::<SpindleControl>(), SpindleControl::Tool, r#""tool""#;
+    spindle: SpindleControl = "spindle", choice::<SpindleControl>(), SpindleControl::Tool, r#""tool""#, Emit;
     /// whether holes become canned cycles where the post has them
-    cycles: bool = "cycles", SWITCH, false, "false";
+    cycles: bool = "cycles", SWITCH, false, "false", Emit;
     /// where files are written; empty: beside the drawing
-    out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#;
+    out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit;
 }

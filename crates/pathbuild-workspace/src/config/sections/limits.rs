@@ -1,7 +1,9 @@
 //! `[limits]`: how large anything may be. PB005 names the key when one is met.
 
+use std::fmt::Debug;
 use std::time::Duration;
 
+use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{COUNT, SECONDS, SIZE};
 use crate::config::origin::Sourced;
@@ -10,21 +12,21 @@ use crate::config::show::Shown;
 
 section! {
     /// largest drawing
-    file_size: u64 = "file-size", SIZE, 256 << 20, r#""256 MiB""#;
+    file_size: u64 = "file-size", SIZE, 256 << 20, r#""256 MiB""#, Check;
     /// most entities in a drawing
-    entities: u64 = "entities", COUNT, 2_000_000, "2_000_000";
+    entities: u64 = "entities", COUNT, 2_000_000, "2_000_000", Check;
     /// most moves of a program, with everything that it embeds
-    embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000";
+    embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000", Check;
     /// most cells of the material's map that `verify` visits
-    verify_cells: u64 = "verify-cells", COUNT, 1_000_000_000, "1_000_000_000";
+    verify_cells: u64 = "verify-cells", COUNT, 1_000_000_000, "1_000_000_000", Neither;
     /// most different paths, each with its values, in a program
-    embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000";
+    embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000", Check;
     /// most files and directories below one that is searched for drawings
-    library_entries: u64 = "library-entries", COUNT, 200_000, "200_000";
+    library_entries: u64 = "library-entries", COUNT, 200_000, "200_000", Neither;
     /// largest .gitignore or .ignore file
-    ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#;
+    ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#, Neither;
     /// characters: longest parameter text
-    text_length: u64 = "text-length", COUNT, 65_536, "65_536";
+    text_length: u64 = "text-length", COUNT, 65_536, "65_536", Check;
     /// longest time for one path
-    seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60";
+    seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60", Check;
 }

@@ -1,5 +1,8 @@
 //! `[machine]`: what the machine can do, for `verify` and for times. (spec/90-gcode-import.md)
 
+use std::fmt::Debug;
+
+use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE};
 use crate::config::origin::Sourced;
@@ -9,23 +12,23 @@ use crate::config::types::Extent;
 
 section! {
     /// s: how long the spindle takes to reach its speed; posts wait as long after M3
-    spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0";
+    spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0", Emit;
     /// mm: from where to where the X axis goes, in the program's coordinates; without it any X is right
-    x: Option<Extent> = "x", EXTENT, None, "[0, 300]";
+    x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Neither;
     /// mm: the same for the Y axis
-    y: Option<Extent> = "y", EXTENT, None, "[0, 200]";
+    y: Option<Extent> = "y", EXTENT, None, "[0, 200]", Neither;
     /// mm: the same for the Z axis
-    z: Option<Extent> = "z", EXTENT, None, "[0, 60]";
+    z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Neither;
     /// mm/min: largest feed
-    max_feed: Option<f64> = "max-feed", POSITIVE, None, "1500";
+    max_feed: Option<f64> = "max-feed", POSITIVE, None, "1500", Neither;
     /// mm: how far X, Y and Z go, wherever the part is clamped; x, y and z say more
-    travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]";
+    travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Neither;
     /// 1/min: the spindle's slowest and fastest speed
-    spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]";
+    spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Neither;
     /// mm/min: the fastest that X, Y and Z go; with accelerations, times are those of the machine
-    rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]";
+    rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
     /// mm/s²: the most that X, Y and Z gain in speed
-    accelerations: Option<[f64; 3]> = "accelerations", AXES, None, "[200, 200, 50]";
+    accelerations: Option<[f64; 3]> = "accelerations", AXES, None, "[200, 200, 50]", Neither;
     /// mm: how far a corner could be cut for the speed at which it is taken (GRBL's $11); 0: full stop
-    junction_deviation: f64 = "junction-deviation", NOT_NEGATIVE, 0.01, "0.01";
+    junction_deviation: f64 = "junction-deviation", NOT_NEGATIVE, 0.01, "0.01", Neither;
 }

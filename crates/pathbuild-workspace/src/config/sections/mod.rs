@@ -1,13 +1,13 @@
 //! The keys, table by table: each with its type, its default and its meaning.
 
 /// Declares a table of the configuration. For each key: its field with its meaning, its name in the file, its [`Kind`], the value when
-/// nobody gives one, and a value as TOML for the file that `init` writes.
+/// nobody gives one, a value as TOML for the file that `init` writes, and whose results depend on it ([`Concerns`]).
 ///
 /// [`Kind`]: super::kind::Kind
 macro_rules! section {
     ($(
         $(#[doc = $meaning:literal])+
-        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal;
+        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident;
     )*) => {
         /// What the configuration, or the command line, gives.
         #[derive(Clone, Debug, Default)]
@@ -39,6 +39,15 @@ macro_rules! section {
             /// Each key with its value as TOML, where there is one.
             pub(in crate::config) fn shown(&self) -> Vec<Shown> {
                 vec![$(Shown { name: $name, value: ($kind.show)(&self.$field.value), origin: self.$field.origin },)*]
+            }
+        }
+
+        impl Settings {
+            /// Each key with its value, where results depend on it.
+            pub(in crate::config) fn concerning(&self, whose: Concerns, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
+                $(if Concerns::$concerns.is_part_of(whose) {
+                    add($name, &self.$field.value);
+                })*
             }
         }
 

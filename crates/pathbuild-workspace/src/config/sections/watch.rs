@@ -1,7 +1,9 @@
 //! `[watch]`: how changes are noticed.
 
+use std::fmt::Debug;
 use std::time::Duration;
 
+use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{DURATION, SWITCH};
 use crate::config::origin::Sourced;
@@ -10,7 +12,7 @@ use crate::config::show::Shown;
 
 section! {
     /// how long nothing must change before drawings are read again
-    debounce: Duration = "debounce", DURATION, Duration::from_millis(50), r#""50 ms""#;
+    debounce: Duration = "debounce", DURATION, Duration::from_millis(50), r#""50 ms""#, Neither;
     /// look for changes from time to time (network drives)
-    poll: bool = "poll", SWITCH, false, "false";
+    poll: bool = "poll", SWITCH, false, "false", Neither;
 }

@@ -14,8 +14,10 @@ use pathbuild_cache::{
     Clock, Kept, Key, Listings, Lookup, Place, Reason, Unusable, Verdict, reasons, verify,
 };
 use pathbuild_db::Trace;
+use pathbuild_db::system::{Kind, OsSystem, System};
 
 use super::Session;
+use crate::config::Concerns;
 use crate::workspace::Workspace;
 
 pub use payload::{DrawingResult, is_passing};
@@ -89,15 +91,19 @@ impl Content {
 impl Keeper {
     /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
     /// `listings`: directories that were listed just now.
-    pub fn open(
-        context: &Workspace,
-        session: &Session<'_>,
-        question: &str,
-        listings: Listings,
-    ) -> Option<Self> {
-        let base = context.settings.directory().filter(|_| context.use_cache)?.to_owned();
-        let place = Place::beside(&base);
-        let key = Key::new(BUILD, &whole_question(context, session, question));
+    pub fn open(context: &Workspace, whose: Concerns, question: &str, listings: Listings) -> Option<Self> {
+        let base = context.settings.directory()?.to_owned();
+        let place = context.cache_place()?;
+        if let Some(reason) = place.refusal() {
+            let phrase = context.choose("nothing is kept there", "dort wird nichts aufgehoben");
+            context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
+            return None;
+        }
+        // Whoever cannot write goes without.
+        if place.make().is_ok_and(|is_new| is_new) {
+            note_old(context, &base);
+        }
+        let key = Key::new(BUILD, &whole_question(context, whose, question));
         // Before the first file is looked at: what changes from here on shows.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
@@ -156,6 +162,19 @@ impl Keeper {
         _ = self.place.store(&self.key, &writing.finish());
     }
 }
+
+/// Earlier versions kept results beside the configuration.
+fn note_old(context: &Workspace, base: &Utf8Path) {
+    if OsSystem.kind(&base.join(OLD)) == Kind::Directory {
+        context.reporter.status(context.choose(
+            "results are kept in your cache directory now: .pathbuild beside the configuration is not used any more and can be deleted",
+            "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis aufgehoben: .pathbuild neben der Konfiguration wird nicht mehr gebraucht und kann gelöscht werden",
+        ));
+    }
+}
+
+/// Where that was.
+const OLD: &str = ".pathbuild";
 
 fn note(context: &Workspace, reason: Unusable) {
     let phrase = match reason {

@@ -4,33 +4,23 @@ use std::fmt::Write;
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 
-use crate::session::Session;
+use crate::config::Concerns;
 use crate::workspace::Workspace;
 
 /// Which build of the program this is.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
-/// The question with the settings that results depend on. Directories are told as the run spells them, so that a tree that is moved as a whole
-/// keeps its results.
-pub(super) fn whole_question(context: &Workspace, session: &Session<'_>, question: &str) -> String {
-    let general = &context.settings.general;
-    let limits = &context.settings.limits;
-    let directories = |directories: &[camino::Utf8PathBuf]| -> Vec<_> {
-        directories.iter().map(|directory| session.normal(directory)).collect()
-    };
+/// The question with the settings that results depend on. Directories are told from the configuration, so that a tree that is moved or copied as
+/// a whole keeps its results.
+pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &str) -> String {
     let mut text = question.to_owned();
-    let mut add = |value: &dyn std::fmt::Debug| _ = write!(text, "\n{value:?}");
-    add(&(directories(&general.library.value), directories(&general.search.value)));
-    add(&(&general.path_pattern.value, &general.file_pattern.value, &general.restrict.value));
-    add(&(general.units.value, general.approximate_curves.value, general.join_tolerance.value));
-    add(&(general.feed.value, general.rapid.value, general.sweep_height.value, general.probe_feed.value));
-    add(&(general.compatible.value, general.z_model.value, context.settings.z_split()));
-    add(&(general.lang.value, general.charset.value, &general.post.value, general.cycles.value));
-    add(&general.out_dir.value.as_ref().map(|directory| session.normal(directory)));
-    add(&(limits.file_size.value, limits.entities.value, limits.text_length.value));
-    add(&(limits.embedding_moves.value, limits.embedded_paths.value, limits.seconds_per_path.value));
-    add(&(&context.settings.tables.line_types.value, &context.settings.emit.targets.value));
-    add(&place_of(context));
+    let base = context.settings.directory().map(|base| format!("\"{base}/")).unwrap_or_default();
+    context.settings.concerning(whose, &mut |name, value| {
+        let value = format!("{value:?}");
+        let value = if base.is_empty() { value } else { value.replace(&base, "\"./") };
+        _ = write!(text, "\n{name} = {value}");
+    });
+    _ = write!(text, "\n{}", place_of(context));
     text
 }
 

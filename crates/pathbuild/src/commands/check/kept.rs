@@ -12,6 +12,7 @@ use super::{leave, question};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::report::{Checked, CheckedFile};
+use pathbuild_workspace::config::Concerns;
 use pathbuild_workspace::session::timings::{KEEPING, VERIFYING};
 use pathbuild_workspace::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
 
@@ -27,8 +28,9 @@ pub(super) fn check(
 ) -> Result<Checked, String> {
     let since = |revision: &String| Changed::since(context, session, revision);
     let changed = args.changed_since.as_ref().map(since).transpose()?;
-    let opened =
-        session.timings().measure(&VERIFYING, || Keeper::open(context, session, &question(args), listings));
+    let opened = session
+        .timings()
+        .measure(&VERIFYING, || Keeper::open(context, Concerns::Check, &question(args), listings));
     let keeper = opened.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();

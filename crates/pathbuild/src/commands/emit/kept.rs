@@ -19,6 +19,7 @@ use super::job::Job;
 use super::stale::Looked;
 use crate::args::EmitArgs;
 use crate::context::Context;
+use pathbuild_workspace::config::Concerns;
 use pathbuild_workspace::posting::Poster;
 use pathbuild_workspace::session::{
     CheckedTarget, Content, Found, Keeper, Made, Programs, Session, is_passing,
@@ -61,7 +62,7 @@ impl<'a> Memory<'a> {
         }
         let found = session.directories_only(&args.inputs)?;
         let surroundings = surroundings(session, args, &found);
-        let keeper = Keeper::open(context, session, &question(context, args, poster), found.listings)?;
+        let keeper = Keeper::open(context, Concerns::Emit, &question(context, args, poster), found.listings)?;
         Some(Self { keeper, surroundings, poster })
     }
 

@@ -1,0 +1,142 @@
+//! Looking after what is kept: how much there is, whether it is whole, and removing it.
+#![expect(clippy::disallowed_methods, reason = "the cache's own files, which no result depends on")]
+
+use std::fs;
+use std::io;
+use std::time::{Duration, SystemTime};
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use crate::format::{self, Key, SUFFIX, Unusable};
+use crate::place::{Home, Place, SIGNATURE, TAG, TREE};
+use crate::private::{self, remove};
+
+/// A file of kept results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Where it is.
+    pub path: Utf8PathBuf,
+    /// Its size in bytes.
+    pub size: u64,
+    /// Why it cannot be used; `None` where it can.
+    pub fault: Option<Unusable>,
+}
+
+/// How long results that nobody asked for are kept when the cache is pruned.
+const UNUSED: Duration = Duration::from_hours(30 * 24);
+/// After which time a file that a process was writing must have been left behind.
+const LEFT_BEHIND: Duration = Duration::from_hours(1);
+
+impl Place {
+    /// Every file of results, in order of name, and whether this build of the program can use it.
+    pub fn entries(&self, build: &Key) -> Vec<Entry> {
+        let mut entries: Vec<Entry> = names(self.directory())
+            .filter(|name| name.ends_with(SUFFIX))
+            .map(|name| self.directory().join(name))
+            .map(|path| Entry {
+                size: fs::symlink_metadata(&path).map_or(0, |data| data.len()),
+                fault: fault(&path, build),
+                path,
+            })
+            .collect();
+        entries.sort_by(|a, b| a.path.cmp(&b.path));
+        entries
+    }
+
+    /// Removes what no longer serves: what cannot be used, what was not written for a month, and what a process left that was killed. Gives
+    /// back how many files that were.
+    ///
+    /// # Errors
+    /// When one of them cannot be removed.
+    pub fn prune(&self, build: &Key) -> io::Result<usize> {
+        let unused = self.entries(build).into_iter();
+        let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED));
+        let left = names(self.directory()).filter(|name| is_temporary(name));
+        let left = left.map(|name| self.directory().join(name)).filter(|path| is_older(path, LEFT_BEHIND));
+        let all: Vec<Utf8PathBuf> = unused.map(|entry| entry.path).chain(left).collect();
+        all.iter().try_for_each(|path| remove(path))?;
+        Ok(all.len())
+    }
+
+    /// Removes all of it; whether there was anything.
+    ///
+    /// # Errors
+    /// When it cannot be removed, or is no cache: then nothing is.
+    pub fn clean(&self) -> io::Result<bool> {
+        let is_there = fs::symlink_metadata(self.directory()).is_ok();
+        if is_there {
+            clean(self.directory())?;
+        }
+        Ok(is_there)
+    }
+}
+
+impl Home {
+    /// Removes the results of trees that are gone; how many trees that were.
+    ///
+    /// # Errors
+    /// When they cannot be removed.
+    pub fn prune(&self) -> io::Result<usize> {
+        let Self::User(caches) = self else { return Ok(0) };
+        let mut removed = 0;
+        for directory in names(caches).map(|name| caches.join(name)) {
+            let tree = private::read(&directory.join(TREE)).ok().flatten();
+            let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
+            if tree.is_some_and(|tree| !Utf8Path::new(&tree).as_std_path().exists()) {
+                clean(&directory)?;
+                removed += 1;
+            }
+        }
+        Ok(removed)
+    }
+}
+
+/// Whether a name is one that pathbuild gives in a directory of kept results.
+pub(crate) fn is_ours(name: &str) -> bool {
+    name.ends_with(SUFFIX) || is_temporary(name) || matches!(name, TAG | TREE)
+}
+
+fn is_temporary(name: &str) -> bool {
+    let word = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
+    word.and_then(|word| word.rsplit_once('.')).is_some_and(|(name, number)| {
+        !name.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-')
+    })
+}
+
+/// Removes what pathbuild made in a directory, and the directory where nothing else is in it.
+fn clean(directory: &Utf8Path) -> io::Result<()> {
+    if let Some(reason) = private::refusal(directory) {
+        return Err(io::Error::other(reason));
+    }
+    let tag = private::read(&directory.join(TAG))?.unwrap_or_default();
+    if !tag.starts_with(SIGNATURE.as_bytes()) {
+        return Err(io::Error::other("it has no CACHEDIR.TAG, so it is no cache"));
+    }
+    // What says that it is a cache goes last.
+    for name in names(directory).filter(|name| is_ours(name) && name != TAG).chain([TAG.to_owned()]) {
+        remove(&directory.join(name))?;
+    }
+    match fs::remove_dir(directory) {
+        Err(error) if error.kind() != io::ErrorKind::DirectoryNotEmpty => Err(error),
+        _ => Ok(()),
+    }
+}
+
+fn names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
+    let listed = directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
+    listed.map(|entry| entry.file_name().to_owned()).collect::<Vec<_>>().into_iter()
+}
+
+fn fault(path: &Utf8Path, build: &Key) -> Option<Unusable> {
+    let Ok(Some(file)) = private::read(path) else { return Some(Unusable::Damaged) };
+    let Some(key) = format::key_of(&file) else { return Some(Unusable::Damaged) };
+    if key.build != build.build {
+        return Some(Unusable::Foreign);
+    }
+    format::decode(&key, file).err()
+}
+
+fn is_older(path: &Utf8Path, age: Duration) -> bool {
+    let modified = fs::symlink_metadata(path).and_then(|data| data.modified());
+    modified.is_ok_and(|time| SystemTime::now().duration_since(time).is_ok_and(|since| since > age))
+}

@@ -1,0 +1,116 @@
+//! Where results lie: only the user's own files, never through links.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::{Catalogue, Home, Key, Place};
+use tempfile::TempDir;
+
+/// A directory for caches and two trees.
+fn world() -> (TempDir, Utf8PathBuf) {
+    let directory = TempDir::new().unwrap();
+    let base = Utf8PathBuf::from_path_buf(directory.path().canonicalize().unwrap()).unwrap();
+    for tree in ["one", "two"] {
+        fs::create_dir(base.join(tree)).unwrap();
+    }
+    (directory, base)
+}
+
+fn store(place: &Place) {
+    place.store(&Key::new("build", "question"), &Catalogue::default()).unwrap();
+}
+
+fn mode(path: &Utf8Path) -> u32 {
+    fs::metadata(path).unwrap().permissions().mode() & 0o777
+}
+
+#[test]
+fn each_tree_has_its_own_results_by_its_real_path() {
+    let (_directory, base) = world();
+    let home = Home::User(base.join("caches"));
+    let one = Place::of_tree(&home, &base.join("one"));
+    assert_ne!(one, Place::of_tree(&home, &base.join("two")));
+    symlink("one", base.join("link")).unwrap();
+    assert_eq!(one, Place::of_tree(&home, &base.join("link")));
+    let named = Home::Named(base.join("named"));
+    assert_eq!(Place::of_tree(&named, &base.join("one")), Place::of_tree(&named, &base.join("two")));
+}
+
+#[test]
+fn what_is_made_is_for_its_owner_only() {
+    let (_directory, base) = world();
+    let place = Place::of_tree(&Home::User(base.join("caches")), &base.join("one"));
+    store(&place);
+    assert_eq!((mode(&base.join("caches")), mode(place.directory())), (0o700, 0o700));
+    for entry in place.directory().read_dir_utf8().unwrap() {
+        assert_eq!(mode(entry.unwrap().path()), 0o600);
+    }
+}
+
+#[test]
+fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
+    let (_directory, base) = world();
+    let place = Place::of_tree(&Home::Named(base.join("named")), &base);
+    assert_eq!(place.refusal(), None);
+    symlink("one", place.directory()).unwrap();
+    assert_eq!(place.refusal(), Some("it is a link"));
+    fs::remove_file(place.directory()).unwrap();
+    fs::write(place.directory(), "").unwrap();
+    assert_eq!(place.refusal(), Some("it is no directory"));
+    fs::remove_file(place.directory()).unwrap();
+    store(&place);
+    assert_eq!(place.refusal(), None);
+    fs::set_permissions(place.directory(), fs::Permissions::from_mode(0o777)).unwrap();
+    assert_eq!(place.refusal(), Some("everybody may write into it"));
+}
+
+#[test]
+fn a_directory_of_other_things_is_refused_and_stays() {
+    let (_directory, base) = world();
+    let place = Place::of_tree(&Home::Named(base.join("one")), &base);
+    fs::write(base.join("one/.bashrc"), "precious").unwrap();
+    assert_eq!(place.refusal(), Some("it holds other things and no CACHEDIR.TAG"));
+    assert!(place.clean().is_err());
+    fs::remove_file(base.join("one/.bashrc")).unwrap();
+    store(&place);
+    fs::write(base.join("one/.bashrc"), "precious").unwrap();
+    assert_eq!((place.refusal(), place.clean().unwrap()), (None, true));
+    assert_eq!(fs::read_to_string(base.join("one/.bashrc")).unwrap(), "precious");
+    assert_eq!(base.join("one").read_dir_utf8().unwrap().count(), 1);
+}
+
+#[test]
+fn links_are_neither_read_nor_written_through() {
+    let (_directory, base) = world();
+    let place = Place::of_tree(&Home::Named(base.join("named")), &base);
+    store(&place);
+    let key = Key::new("build", "question");
+    let results = place.directory().join(key.file_name());
+    fs::rename(&results, base.join("victim")).unwrap();
+    symlink(base.join("victim"), &results).unwrap();
+    assert!(place.load(&key).is_err());
+    let before = fs::read(base.join("victim")).unwrap();
+    for attempt in 0..3 {
+        let name = format!(".clock.{}-{attempt}.tmp", std::process::id());
+        symlink(base.join("victim"), place.directory().join(name)).unwrap();
+    }
+    place.clock().unwrap();
+    store(&place);
+    assert_eq!(fs::read(base.join("victim")).unwrap(), before);
+    assert!(place.load(&key).unwrap().is_some());
+}
+
+#[test]
+fn pruning_removes_the_results_of_trees_that_are_gone() {
+    let (_directory, base) = world();
+    let home = Home::User(base.join("caches"));
+    let [one, two] = ["one", "two"].map(|tree| Place::of_tree(&home, &base.join(tree)));
+    store(&one);
+    store(&two);
+    assert_eq!(home.prune().unwrap(), 0);
+    fs::remove_dir(base.join("two")).unwrap();
+    assert_eq!(home.prune().unwrap(), 1);
+    assert!(one.directory().is_dir() && !two.directory().exists());
+}

@@ -1,0 +1,112 @@
+//! Which settings ask another question: each is changed alone, and the key of checks and that of programs must change, or not.
+//! (spec/06-configuration.md)
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::config::{self, Concerns, Overrides, Settings};
+use tempfile::TempDir;
+
+/// Whose results depend on it.
+const BOTH: [bool; 2] = [true, true];
+const PROGRAMS: [bool; 2] = [false, true];
+const NONE: [bool; 2] = [false, false];
+
+/// Each key with another value than its default.
+const CHANGES: &[(&str, &str, [bool; 2])] = &[
+    ("feed", "feed = 1", BOTH),
+    ("rapid", "rapid = 1", PROGRAMS),
+    ("sweep-height", "sweep-height = 1", BOTH),
+    ("probe-feed", "probe-feed = 1", PROGRAMS),
+    ("library", "library = ['other']", NONE),
+    ("search", "search = ['other']", BOTH),
+    ("path-pattern", "path-pattern = 'a'", BOTH),
+    ("file-pattern", "file-pattern = 'a'", BOTH),
+    ("restrict", "restrict = ['8:9']", BOTH),
+    ("lang", "lang = 'de'", PROGRAMS),
+    ("units", "units = 'mm'", BOTH),
+    ("charset", "charset = 'utf-8'", PROGRAMS),
+    ("approximate-curves", "approximate-curves = 1", BOTH),
+    ("join-tolerance", "join-tolerance = 1", BOTH),
+    ("compatible", "compatible = true", BOTH),
+    ("z-model", "z-model = 'plane'", PROGRAMS),
+    ("z-split", "z-split = 1", PROGRAMS),
+    ("post", "post = 'grbl'", PROGRAMS),
+    ("spindle", "spindle = 'manual'", PROGRAMS),
+    ("cycles", "cycles = true", PROGRAMS),
+    ("out-dir", "out-dir = 'other'", PROGRAMS),
+    ("line-types", "[line-types]\nMITTE = 'CENTER'", BOTH),
+    ("severity", "[severity]\nPB210 = 'ignore'", NONE),
+    ("severity-in", "[[severity-in]]\nfiles = ['a']\nPB210 = 'ignore'", NONE),
+    ("tool", "[tool.2mm]\ndiameter = 2", PROGRAMS),
+    ("macros", "[macros]\na = 'b'", PROGRAMS),
+    ("emit.targets", "[emit]\ntargets = ['8*']", NONE),
+    ("limits.file-size", "[limits]\nfile-size = '1 MiB'", BOTH),
+    ("limits.entities", "[limits]\nentities = 1", BOTH),
+    ("limits.embedding-moves", "[limits]\nembedding-moves = 1", BOTH),
+    ("limits.embedded-paths", "[limits]\nembedded-paths = 1", BOTH),
+    ("limits.library-entries", "[limits]\nlibrary-entries = 1", NONE),
+    ("limits.verify-cells", "[limits]\nverify-cells = 1", NONE),
+    ("limits.ignore-file-size", "[limits]\nignore-file-size = '1 KiB'", NONE),
+    ("limits.text-length", "[limits]\ntext-length = 1", BOTH),
+    ("limits.seconds-per-path", "[limits]\nseconds-per-path = 1", BOTH),
+    ("machine.spin-up", "[machine]\nspin-up = 1", PROGRAMS),
+    ("machine.x", "[machine]\nx = [0, 1]", NONE),
+    ("machine.y", "[machine]\ny = [0, 1]", NONE),
+    ("machine.z", "[machine]\nz = [0, 1]", NONE),
+    ("machine.max-feed", "[machine]\nmax-feed = 1", NONE),
+    ("machine.travel", "[machine]\ntravel = [1, 1, 1]", NONE),
+    ("machine.spindle-speeds", "[machine]\nspindle-speeds = [1, 2]", NONE),
+    ("machine.rates", "[machine]\nrates = [1, 1, 1]", NONE),
+    ("machine.accelerations", "[machine]\naccelerations = [1, 1, 1]", NONE),
+    ("machine.junction-deviation", "[machine]\njunction-deviation = 1", NONE),
+    ("watch.debounce", "[watch]\ndebounce = '1 s'", NONE),
+    ("watch.poll", "[watch]\npoll = true", NONE),
+];
+
+#[test]
+fn each_setting_asks_another_question_of_those_whom_it_concerns() {
+    let directory = TempDir::new().unwrap();
+    let base = Utf8Path::from_path(directory.path()).unwrap();
+    let defaults = questions(&settings(base, ""));
+    for (name, text, expected) in CHANGES {
+        let changed = questions(&settings(base, text));
+        let differs = [defaults[0] != changed[0], defaults[1] != changed[1]];
+        assert_eq!(differs, *expected, "{name}");
+    }
+}
+
+#[test]
+fn every_setting_is_tried() {
+    let schema = config::schema();
+    let keys = |table: &serde_json::Value| -> Vec<String> {
+        table["properties"].as_object().unwrap().keys().cloned().collect()
+    };
+    let mut expected = BTreeSet::new();
+    for name in keys(&schema) {
+        if matches!(&*name, "emit" | "limits" | "machine" | "watch") {
+            expected.extend(keys(&schema["properties"][&name]).iter().map(|key| format!("{name}.{key}")));
+        } else {
+            expected.insert(name);
+        }
+    }
+    assert_eq!(CHANGES.iter().map(|(name, ..)| (*name).to_owned()).collect::<BTreeSet<_>>(), expected);
+}
+
+fn settings(base: &Utf8Path, text: &str) -> Settings {
+    fs::write(base.join("pathbuild.toml"), text).unwrap();
+    let (settings, faults) = config::load(&Overrides::default(), &Inputs::default(), base);
+    assert!(faults.is_empty(), "{text}: {faults:?}");
+    Settings { file: Some(Utf8PathBuf::from("pathbuild.toml")), ..settings }
+}
+
+/// What a check and an emit ask.
+fn questions(settings: &Settings) -> [String; 2] {
+    [Concerns::Check, Concerns::Emit].map(|whose| {
+        let mut text = String::new();
+        settings.concerning(whose, &mut |name, value| text += &format!("{name} = {value:?}\n"));
+        text
+    })
+}
