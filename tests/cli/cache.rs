@@ -151,6 +151,9 @@ fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
             0 | 1 => {
                 place.run(&format!("emit {OPTIONS}"));
                 programs = written(&place);
+                let run = place.run(&format!("emit --check --no-cache {OPTIONS}"));
+                let is_old = run.stdout.contains("not current") || run.stdout.contains("missing");
+                assert!(!is_old, "step {step}: {run}");
                 "emit".to_owned()
             }
             2 if !programs.is_empty() => {

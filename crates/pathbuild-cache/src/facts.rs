@@ -1,6 +1,6 @@
 //! What a kept result was made from.
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8PathBuf;
 
 use crate::names::Names;
 use crate::stamp::Stamp;
@@ -32,23 +32,12 @@ pub struct FileFact {
 pub struct DirectoryFact {
     /// As the run spelt it.
     pub path: Utf8PathBuf,
-    /// Which of its names count.
-    pub kind: ListingKind,
-    /// Those names, sorted.
+    /// The names of its drawings, sorted.
     pub names: Names,
     /// Where it really is, relative to the configuration where it lies below it: links on the way to it decide whether two files are one.
     pub canonical: Box<str>,
     /// Whether what is asked of it is asked again in any case: there are links among the names, or they changed while they were read.
     pub is_doubtful: bool,
-}
-
-/// Which names of a directory count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ListingKind {
-    /// Those of drawings.
-    Drawings,
-    /// Those of all files: programs of any post may be among them, and drawings that programs say they are made from.
-    Files,
 }
 
 /// A result.
@@ -60,6 +49,8 @@ pub struct Record {
     pub files: Vec<usize>,
     /// What was looked for.
     pub lookups: Vec<Lookup>,
+    /// The files that were written of it, by their numbers: it holds without them, but then they are to be written again.
+    pub outputs: Vec<usize>,
     /// The result itself, which only its maker can read.
     pub payload: Vec<u8>,
 }
@@ -69,23 +60,16 @@ pub struct Record {
 pub struct Lookup {
     /// The directory's number.
     pub directory: usize,
-    /// The path's name; empty for all names that count.
+    /// The path's name.
     pub name: Box<str>,
 }
 
-impl ListingKind {
-    /// Whether the name of a file counts.
-    pub fn counts(self, name: &str) -> bool {
-        const EXTENSION: &str = "dxf";
-        if self == Self::Files {
-            // What is written beside before it is renamed does not.
-            let is_temporary = Utf8Path::new(name).extension() == Some("tmp");
-            return !(is_temporary && name.starts_with('.'));
-        }
-        let stem = name.len().checked_sub(EXTENSION.len() + 1).filter(|stem| *stem > 0);
-        stem.is_some_and(|stem| {
-            let bytes = name.as_bytes();
-            bytes[stem] == b'.' && bytes[stem + 1..].eq_ignore_ascii_case(EXTENSION.as_bytes())
-        })
-    }
+/// Whether the name of a file is a drawing's.
+pub(crate) fn is_drawing(name: &str) -> bool {
+    const EXTENSION: &str = "dxf";
+    let stem = name.len().checked_sub(EXTENSION.len() + 1).filter(|stem| *stem > 0);
+    stem.is_some_and(|stem| {
+        let bytes = name.as_bytes();
+        bytes[stem] == b'.' && bytes[stem + 1..].eq_ignore_ascii_case(EXTENSION.as_bytes())
+    })
 }

@@ -5,16 +5,17 @@
 //! | table | a row |
 //! | --- | --- |
 //! | [`FILES`], by path | path, stamp, whether there is a hash, hash |
-//! | [`DIRECTORIES`] | path, canonical path, kind and doubt, the first of its names and their number |
+//! | [`DIRECTORIES`] | path, canonical path, doubt, the first of its names and their number |
 //! | [`NAMES`] | a name in a directory |
-//! | [`RECORDS`], by what they are of | what it is of, its files, its questions, its payload: place and number of each |
+//! | [`RECORDS`], by what they are of | what it is of, its files, its questions, its payload, its outputs: place and number of each |
 //! | [`RECORD_FILES`] | the number of a file |
 //! | [`RECORD_LOOKUPS`] | the number of a question |
 //! | [`LOOKUPS`] | directory, name |
+//! | [`RECORD_OUTPUTS`] | the number of a file |
 
 use std::collections::HashMap;
 
-use crate::facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
+use crate::facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
 use crate::stamp::Stamp;
 
 /// Size of a number, and of a place with its length.
@@ -23,8 +24,8 @@ const SPAN: usize = 2 * WORD;
 
 /// The size of a table's rows.
 pub(crate) const SIZES: [usize; TABLES] =
-    [SPAN + Stamp::SIZE + WORD + HASH, 3 * SPAN + WORD, SPAN, 4 * SPAN, WORD, WORD, WORD + SPAN];
-pub(crate) const TABLES: usize = 7;
+    [SPAN + Stamp::SIZE + WORD + HASH, 3 * SPAN + WORD, SPAN, 5 * SPAN, WORD, WORD, WORD + SPAN, WORD];
+pub(crate) const TABLES: usize = 8;
 pub(crate) const HASH: usize = 32;
 
 pub(crate) const FILES: usize = 0;
@@ -34,13 +35,10 @@ pub(crate) const RECORDS: usize = 3;
 pub(crate) const RECORD_FILES: usize = 4;
 pub(crate) const RECORD_LOOKUPS: usize = 5;
 pub(crate) const LOOKUPS: usize = 6;
+pub(crate) const RECORD_OUTPUTS: usize = 7;
 
 /// What stands before the tables: how many rows each has, then the sizes of the payloads and the texts.
 pub(crate) const COUNTS: usize = TABLES + 2;
-
-/// The bits of a directory's state.
-pub(crate) const IS_FILES: u32 = 1;
-pub(crate) const IS_DOUBTFUL: u32 = 2;
 
 /// More than a file of kept results can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,24 +112,24 @@ impl<'a> Flat<'a> {
             let name = self.text(name)?;
             self.add(NAMES, &name);
         }
-        let kind = if directory.kind == ListingKind::Files { IS_FILES } else { 0 };
-        let doubt = if directory.is_doubtful { IS_DOUBTFUL } else { 0 };
         self.add(DIRECTORIES, &path);
         self.add(DIRECTORIES, &canonical);
-        self.add(DIRECTORIES, &[kind | doubt, word(first)?, word(directory.names.len())?]);
+        let doubt = u32::from(directory.is_doubtful);
+        self.add(DIRECTORIES, &[doubt, word(first)?, word(directory.names.len())?]);
         Ok(())
     }
 
     fn record(&mut self, record: &'a Record, numbers: &[u32]) -> Result<(), TooMuch> {
         let of = self.text(&record.of)?;
-        let files: Vec<u32> = record.files.iter().map(|file| numbers[*file]).collect();
-        let files = self.rows(RECORD_FILES, &files)?;
+        let renumbered = |files: &[usize]| files.iter().map(|file| numbers[*file]).collect::<Vec<u32>>();
+        let files = self.rows(RECORD_FILES, &renumbered(&record.files))?;
+        let outputs = self.rows(RECORD_OUTPUTS, &renumbered(&record.outputs))?;
         let lookups: Vec<u32> =
             record.lookups.iter().map(|lookup| self.lookup(lookup)).collect::<Result<_, _>>()?;
         let lookups = self.rows(RECORD_LOOKUPS, &lookups)?;
         let payload = [word(self.payloads.len())?, word(record.payload.len())?];
         self.payloads.extend_from_slice(&record.payload);
-        for span in [of, files, lookups, payload] {
+        for span in [of, files, lookups, payload, outputs] {
             self.add(RECORDS, &span);
         }
         Ok(())

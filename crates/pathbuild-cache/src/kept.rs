@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 
-use crate::facts::{ListingKind, Lookup};
+use crate::facts::Lookup;
 use crate::flat::{
-    COUNTS, DIRECTORIES, FILES, HASH, IS_DOUBTFUL, IS_FILES, LOOKUPS, NAMES, RECORD_FILES, RECORD_LOOKUPS,
-    RECORDS, SIZES, TABLES, WORD,
+    COUNTS, DIRECTORIES, FILES, HASH, LOOKUPS, NAMES, RECORD_FILES, RECORD_LOOKUPS, RECORD_OUTPUTS, RECORDS,
+    SIZES, TABLES, WORD,
 };
 use crate::stamp::Stamp;
 
@@ -172,7 +172,9 @@ impl Kept {
                     && are_rows(row, 2, RECORD_FILES)
                     && are_rows(row, 4, RECORD_LOOKUPS)
                     && row.range(6).end <= self.payloads.len()
+                    && are_rows(row, 8, RECORD_OUTPUTS)
             })
+            && all(RECORD_OUTPUTS, &|row| is_row(row, 0, FILES))
             && all(RECORD_FILES, &|row| is_row(row, 0, FILES))
             && all(RECORD_LOOKUPS, &|row| is_row(row, 0, LOOKUPS))
             && all(LOOKUPS, &|row| is_row(row, 0, DIRECTORIES) && is_text(row, 1))
@@ -208,14 +210,9 @@ impl<'a> KeptDirectory<'a> {
         self.kept.text(self.row, 2)
     }
 
-    /// Which of its names count.
-    pub fn kind(self) -> ListingKind {
-        if self.row.word(4) & IS_FILES == 0 { ListingKind::Drawings } else { ListingKind::Files }
-    }
-
     /// Whether what is asked of it is asked again in any case.
     pub fn is_doubtful(self) -> bool {
-        self.row.word(4) & IS_DOUBTFUL != 0
+        self.row.word(4) != 0
     }
 
     /// Its names, sorted.
@@ -246,6 +243,11 @@ impl<'a> KeptRecord<'a> {
             let (directory, name) = self.kept.lookup(number);
             Lookup { directory, name: name.into() }
         })
+    }
+
+    /// The numbers of the files that were written of it.
+    pub fn outputs(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
+        self.kept.numbers(RECORD_OUTPUTS, self.row.range(8))
     }
 
     /// The result itself, which only its maker can read.

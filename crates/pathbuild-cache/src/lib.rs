@@ -21,7 +21,7 @@ mod upkeep;
 mod verify;
 
 pub use codec::{Corrupt, Decoder, Encoder};
-pub use facts::{Catalogue, DirectoryFact, FileFact, ListingKind, Lookup, Record};
+pub use facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
 pub use findings::{decode_diagnostic, decode_note, encode_diagnostic, encode_note};
 pub use format::{Key, Unusable};
 pub use kept::{Kept, KeptDirectory, KeptFile, KeptRecord};
@@ -31,4 +31,4 @@ pub use place::{Home, Place};
 pub use reasons::{Reason, reasons};
 pub use stamp::{Clock, Stamp};
 pub use upkeep::Entry;
-pub use verify::{Covers, FileState, Verdict, verify};
+pub use verify::{Covers, FileState, Looking, Verdict, verify};

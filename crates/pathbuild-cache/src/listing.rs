@@ -9,10 +9,10 @@ use std::fs;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use crate::facts::{DirectoryFact, ListingKind};
+use crate::facts::{DirectoryFact, is_drawing};
 use crate::names::Names;
 
-/// The names of files in a directory that count.
+/// The names of drawings in a directory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
     /// The names, sorted once all are there.
@@ -25,21 +25,21 @@ pub struct Listing {
 pub type Listings = HashMap<Utf8PathBuf, Listing>;
 
 impl Listing {
-    /// Adds something in a directory that is no directory itself, if it counts.
-    pub fn add(&mut self, kind: ListingKind, name: &str, is_link: bool) {
-        if kind.counts(name) {
+    /// Adds something in a directory that is no directory itself, if it is a drawing.
+    pub fn add(&mut self, name: &str, is_link: bool) {
+        if is_drawing(name) {
             self.is_doubtful |= is_link;
             self.names.push(name);
         }
     }
 
     /// A directory's; one that cannot be listed holds nothing.
-    fn of(directory: &Utf8Path, kind: ListingKind) -> Self {
+    fn of(directory: &Utf8Path) -> Self {
         let mut listing = Self::default();
         for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
             // As System lists them: of names that are no UTF-8 a lossy spelling.
             if let Some(file_type) = entry.file_type().ok().filter(|file_type| !file_type.is_dir()) {
-                listing.add(kind, &entry.file_name().to_string_lossy(), file_type.is_symlink());
+                listing.add(&entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
         }
         listing.names.sort_by(Ord::cmp);
@@ -49,20 +49,15 @@ impl Listing {
 
 impl DirectoryFact {
     /// A directory as it is now. `base` is the configuration's directory.
-    pub fn now(path: &Utf8Path, kind: ListingKind, base: &Utf8Path) -> Self {
-        Self::from_listing(path, kind, base, None)
+    pub fn now(path: &Utf8Path, base: &Utf8Path) -> Self {
+        Self::from_listing(path, base, None)
     }
 
     /// The same, if it was listed already without listing it again.
-    pub(crate) fn from_listing(
-        path: &Utf8Path,
-        kind: ListingKind,
-        base: &Utf8Path,
-        listed: Option<Listing>,
-    ) -> Self {
+    pub(crate) fn from_listing(path: &Utf8Path, base: &Utf8Path, listed: Option<Listing>) -> Self {
         let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
-        let Listing { names, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place, kind));
-        Self { path: path.to_owned(), kind, names, canonical: canonical(place, base), is_doubtful }
+        let Listing { names, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
+        Self { path: path.to_owned(), names, canonical: canonical(place, base), is_doubtful }
     }
 }
 

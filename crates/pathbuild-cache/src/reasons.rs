@@ -20,7 +20,7 @@ pub enum Reason {
     Name {
         /// Where.
         file: Utf8PathBuf,
-        /// The path; empty where every name counts.
+        /// The path.
         path: Box<str>,
         /// Whether it went.
         is_gone: bool,
@@ -70,7 +70,7 @@ fn of_lookup(kept: &Kept, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>
         DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],
         DirectoryChange::Names(names) => {
             let names = names.iter().map(|name| &**name);
-            let asked = names.filter(|name| lookup.name.is_empty() || covers(name, &lookup.name));
+            let asked = names.filter(|name| covers(name, &lookup.name));
             let reason = |name: &str| Reason::Name {
                 file: directory.join(name),
                 path: lookup.name.clone(),

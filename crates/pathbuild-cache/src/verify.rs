@@ -10,7 +10,7 @@ use std::fs;
 use camino::Utf8Path;
 use rayon::prelude::*;
 
-use crate::facts::{DirectoryFact, ListingKind};
+use crate::facts::DirectoryFact;
 use crate::kept::{Kept, KeptDirectory, KeptFile};
 use crate::listing::{Listing, Listings};
 use crate::stamp::Stamp;
@@ -21,7 +21,7 @@ pub type Covers<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 /// What became of what was kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// For each record, whether it still holds.
+    /// For each record, whether it was asked for and still holds, whatever became of its outputs.
     pub holds: Vec<bool>,
     /// For each file, what became of it.
     pub files: Vec<FileState>,
@@ -31,23 +31,28 @@ pub struct Verdict {
     pub is_current: bool,
 }
 
-/// Holds what was kept against the files as they are now. `base` is the configuration's directory; directories that are among the listings are
-/// not listed again.
-pub fn verify(kept: &Kept, base: &Utf8Path, covers: Covers<'_>, mut listings: Listings) -> Verdict {
-    // Asking the system for ten thousand files is most of the work.
-    let files: Vec<FileState> =
-        (0..kept.files()).into_par_iter().with_min_len(256).map(|file| state(kept.file(file))).collect();
-    let listed: Vec<Option<Listing>> = (0..kept.directories())
-        .map(|number| {
-            let directory = kept.directory(number);
-            let is_listed = directory.kind() == ListingKind::Drawings;
-            if is_listed { listings.remove(directory.path()) } else { None }
-        })
-        .collect();
-    let now = |(number, listed)| {
-        let directory = kept.directory(number);
-        DirectoryFact::from_listing(directory.path(), directory.kind(), base, listed)
-    };
+/// How what was kept is looked at.
+#[derive(Clone, Copy)]
+pub struct Looking<'a> {
+    /// The directory that names are relative to.
+    pub base: &'a Utf8Path,
+    /// Which file may hold which path.
+    pub covers: Covers<'a>,
+    /// Which records are looked at, by what they are of.
+    pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
+    /// What the content of an output is hashed to: some is written by people.
+    pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
+}
+
+/// Holds what was kept against the files as they are now. Directories that are among the listings are not listed again.
+pub fn verify(kept: &Kept, looking: Looking<'_>, mut listings: Listings) -> Verdict {
+    let is_asked: Vec<bool> =
+        (0..kept.records()).map(|number| (looking.is_asked)(kept.record(number).of())).collect();
+    let files = files(kept, &is_asked, looking);
+    let listed: Vec<Option<Listing>> =
+        (0..kept.directories()).map(|number| listings.remove(kept.directory(number).path())).collect();
+    let now =
+        |(number, listed)| DirectoryFact::from_listing(kept.directory(number).path(), looking.base, listed);
     let directories: Vec<DirectoryFact> = listed.into_par_iter().enumerate().map(now).collect();
     let changes: Vec<DirectoryChange> = directories
         .iter()
@@ -55,24 +60,57 @@ pub fn verify(kept: &Kept, base: &Utf8Path, covers: Covers<'_>, mut listings: Li
         .map(|(number, now)| DirectoryChange::of(kept.directory(number), now))
         .collect();
     let are_same = !changes.iter().any(DirectoryChange::is_some);
-    let is_current = are_same && files.iter().all(|state| *state == FileState::Resting);
-    let holds = if is_current { vec![true; kept.records()] } else { holding(kept, &files, &changes, covers) };
+    let is_current =
+        are_same && files.iter().all(|state| matches!(state, FileState::Resting | FileState::Unlooked));
+    let holds =
+        if is_current { is_asked } else { holding(kept, &is_asked, &files, &changes, looking.covers) };
     Verdict { holds, files, directories, is_current }
 }
 
-/// For each record, whether it still holds.
-fn holding(kept: &Kept, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
+/// What became of the files of the records that are asked for: to ask the system for ten thousand is most of the work.
+fn files(kept: &Kept, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileState> {
+    let mut roles = vec![Role::None; kept.files()];
+    for (number, _) in is_asked.iter().enumerate().filter(|(_, is_asked)| **is_asked) {
+        let record = kept.record(number);
+        record.outputs().for_each(|file| roles[file] = Role::Output);
+        record.files().for_each(|file| roles[file] = Role::Source);
+    }
+    let state = |(number, role): (usize, &Role)| match role {
+        Role::None => FileState::Unlooked,
+        Role::Source => state(kept.file(number), &|_, bytes| *blake3::hash(bytes).as_bytes()),
+        Role::Output => state(kept.file(number), looking.hash_output),
+    };
+    roles.par_iter().enumerate().with_min_len(256).map(state).collect()
+}
+
+/// What a file is to the records that are asked for.
+#[derive(Clone, Copy)]
+enum Role {
+    None,
+    Source,
+    Output,
+}
+
+/// For each record that is asked for, whether it still holds.
+fn holding(
+    kept: &Kept,
+    is_asked: &[bool],
+    files: &[FileState],
+    changes: &[DirectoryChange],
+    covers: Covers<'_>,
+) -> Vec<bool> {
     let is_anew = |number| {
         let (directory, name) = kept.lookup(number);
         changes[directory].concerns(name, covers)
     };
     let anew: Vec<bool> = (0..kept.lookups()).map(is_anew).collect();
-    let holds = |number| {
+    let holds = |(number, is_asked): (usize, &bool)| {
         let record = kept.record(number);
-        record.files().all(|file| files[file] != FileState::Changed)
+        *is_asked
+            && record.files().all(|file| files[file] != FileState::Changed)
             && !record.lookup_numbers().any(|lookup| anew[lookup])
     };
-    (0..kept.records()).map(holds).collect()
+    is_asked.iter().enumerate().map(holds).collect()
 }
 
 /// What became of a file.
@@ -84,15 +122,17 @@ pub enum FileState {
     Restored,
     /// It is not what it was.
     Changed,
+    /// Nobody asked.
+    Unlooked,
 }
 
-fn state(file: KeptFile<'_>) -> FileState {
+fn state(file: KeptFile<'_>, hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32]) -> FileState {
     let (path, stamp) = (file.path(), Stamp::of(file.path()));
     if stamp == file.stamp() && stamp != Stamp::UNKNOWN {
         return FileState::Resting;
     }
     let Some(hash) = file.hash().filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
-    let is_restored = fs::read(path).is_ok_and(|bytes| *blake3::hash(&bytes).as_bytes() == hash);
+    let is_restored = fs::read(path).is_ok_and(|bytes| hash_of(path, &bytes) == hash);
     if is_restored { FileState::Restored } else { FileState::Changed }
 }
 
@@ -128,7 +168,7 @@ impl DirectoryChange {
         match self {
             Self::None => false,
             Self::Links => true,
-            Self::Names(names) => path.is_empty() || names.iter().any(|name| covers(name, path)),
+            Self::Names(names) => names.iter().any(|name| covers(name, path)),
         }
     }
 }

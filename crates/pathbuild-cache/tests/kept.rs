@@ -13,8 +13,7 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
     Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Home, Kept, Key, Listing,
-    ListingKind, Listings, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic,
-    encode_diagnostic,
+    Listings, Looking, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic, encode_diagnostic,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -35,11 +34,12 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
         files: vec![0],
         lookups: vec![Lookup { directory: 0, name: "1234.1P".into() }],
         payload: b"result".to_vec(),
+        ..Record::default()
     };
     let hash = Some(*blake3::hash(bytes).as_bytes());
     Catalogue {
         files: vec![FileFact { path: base.join("a.dxf"), stamp, hash }],
-        directories: vec![DirectoryFact::now(base, ListingKind::Drawings, base)],
+        directories: vec![DirectoryFact::now(base, base)],
         records: vec![record],
     }
 }
@@ -54,7 +54,7 @@ fn kept(catalogue: &Catalogue) -> Kept {
 }
 
 fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: pathbuild_cache::Covers<'_>) -> Verdict {
-    pathbuild_cache::verify(&kept(catalogue), base, covers, Listings::new())
+    pathbuild_cache::verify(&kept(catalogue), looking(base, covers), Listings::new())
 }
 
 /// A catalogue again, as it lies in a file.
@@ -67,7 +67,6 @@ fn catalogue_of(kept: &Kept) -> Catalogue {
         let directory = kept.directory(number);
         DirectoryFact {
             path: directory.path().to_owned(),
-            kind: directory.kind(),
             names: directory.names().collect(),
             canonical: directory.canonical().into(),
             is_doubtful: directory.is_doubtful(),
@@ -79,6 +78,7 @@ fn catalogue_of(kept: &Kept) -> Catalogue {
             of: record.of().into(),
             files: record.files().collect(),
             lookups: record.lookups().collect(),
+            outputs: record.outputs().collect(),
             payload: record.payload().to_vec(),
         }
     };
@@ -91,6 +91,11 @@ fn catalogue_of(kept: &Kept) -> Catalogue {
 
 fn covers(file: &str, path: &str) -> bool {
     path.starts_with(&file[..4])
+}
+
+/// Everything is looked at; of outputs all counts.
+fn looking<'a>(base: &'a Utf8Path, covers: pathbuild_cache::Covers<'a>) -> Looking<'a> {
+    Looking { base, covers, is_asked: &|_| true, hash_output: &|_, bytes| *blake3::hash(bytes).as_bytes() }
 }
 
 /// A cache that is there.
@@ -214,6 +219,35 @@ fn where_links_decide_what_is_what_everything_is_asked_again() {
     assert_eq!(verify(&kept, &base, &covers).holds, [false]);
 }
 
+/// A result holds without what was written of it, and nothing is known of what nobody asks for.
+#[test]
+fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
+    let (_directory, base) = place();
+    for name in ["a.dxf", "a.gcode", "b.dxf"] {
+        fs::write(base.join(name), "one").unwrap();
+    }
+    let file = |name| FileFact {
+        path: base.join(name),
+        stamp: Stamp::UNKNOWN,
+        hash: Some(*blake3::hash(b"one").as_bytes()),
+    };
+    let record =
+        |of: &str, file, outputs| Record { of: of.into(), files: vec![file], outputs, ..Record::default() };
+    let kept = kept(&Catalogue {
+        files: vec![file("a.dxf"), file("a.gcode"), file("b.dxf")],
+        directories: Vec::new(),
+        records: vec![record("a", 0, vec![1]), record("b", 2, Vec::new())],
+    });
+    let looking = Looking { is_asked: &|of| of == "a", ..looking(&base, &covers) };
+    let states = || pathbuild_cache::verify(&kept, looking, Listings::new());
+    assert_eq!(states().files, [FileState::Restored, FileState::Restored, FileState::Unlooked]);
+    assert_eq!(states().holds, [true, false]);
+    fs::write(base.join("a.gcode"), "two").unwrap();
+    assert_eq!((states().files[1], states().holds[0]), (FileState::Changed, true));
+    let people = Looking { hash_output: &|_, _| *blake3::hash(b"one").as_bytes(), ..looking };
+    assert_eq!(pathbuild_cache::verify(&kept, people, Listings::new()).files[1], FileState::Restored);
+}
+
 /// Files and results in no order, several of one file, with texts that begin alike and are no ASCII.
 fn larger(base: &Utf8Path) -> Catalogue {
     let names = ["b.dxf", "a.dxf", "ä.dxf", "a.dxf.dxf", "c/a.dxf"];
@@ -227,20 +261,17 @@ fn larger(base: &Utf8Path) -> Catalogue {
         files: vec![index, 0],
         lookups: (0..index % 3).map(|directory| Lookup { directory, name: "1234.1P".into() }).collect(),
         payload: vec![7; index],
+        outputs: (0..index).collect(),
     };
-    let directory = |path: &str, kind, names: &[&str]| DirectoryFact {
+    let directory = |path: &str, names: &[&str]| DirectoryFact {
         path: path.into(),
-        kind,
         names: names.iter().copied().collect(),
         canonical: base.join(path).as_str().into(),
         is_doubtful: path.is_empty(),
     };
     Catalogue {
         files: (0..).zip(&names).map(file).collect(),
-        directories: vec![
-            directory("", ListingKind::Drawings, &["a.dxf", "b.dxf"]),
-            directory("c", ListingKind::Files, &[]),
-        ],
+        directories: vec![directory("", &["a.dxf", "b.dxf"]), directory("c", &[])],
         records: names.iter().enumerate().map(record).collect(),
     }
 }
@@ -264,6 +295,9 @@ fn what_is_kept_is_found_by_its_name() {
                 fact.files.iter().map(|file| &*catalogue.files[*file].path).collect::<Vec<_>>()
             );
             assert_eq!(record.lookups().collect::<Vec<_>>(), fact.lookups);
+            let outputs: Vec<&Utf8Path> = record.outputs().map(|file| kept.file(file).path()).collect();
+            let expected: Vec<_> = fact.outputs.iter().map(|file| &*catalogue.files[*file].path).collect();
+            assert_eq!(outputs, expected);
         }
     }
     for nothing in ["", "a", "a.dxf.", "z", "b.dxe"] {
@@ -317,7 +351,7 @@ fn numbers_out_of_bounds_are_refused() {
             fs::write(&file, forged).unwrap();
             if let Ok(Some(kept)) = place.load(&key) {
                 // What it says may be wrong, but can be looked at.
-                let verdict = pathbuild_cache::verify(&kept, &base, &covers, Listings::new());
+                let verdict = pathbuild_cache::verify(&kept, looking(&base, &covers), Listings::new());
                 assert_eq!(verdict.holds.len(), kept.records());
                 catalogue_of(&kept);
             }
@@ -333,7 +367,7 @@ fn a_directory_that_was_listed_is_not_listed_again() {
     let holds = |names: &[&str], is_doubtful| {
         let names = names.iter().copied().collect();
         let listings = Listings::from([(base.clone(), Listing { names, is_doubtful })]);
-        pathbuild_cache::verify(&kept, &base, &covers, listings).holds[0]
+        pathbuild_cache::verify(&kept, looking(&base, &covers), listings).holds[0]
     };
     assert!(holds(&["a.dxf"], false));
     assert!(holds(&["5678.dxf", "a.dxf"], false));

@@ -5,7 +5,7 @@ pub mod fixture;
 
 use std::fmt;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use pathbuild_testkit::Fixture;

@@ -6,7 +6,7 @@ use std::path::is_separator;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Listing, ListingKind, Listings};
+use pathbuild_cache::{Listing, Listings};
 use pathbuild_db::System;
 use pathbuild_db::system::{Entry, EntryKind, Kind, OsSystem};
 use pathbuild_diagnostic::Diagnostic;
@@ -169,7 +169,7 @@ impl Directory {
     fn add(&mut self, directory: &Utf8Path, Entry { name, is_exact, kind }: Entry<'_>) {
         if kind != EntryKind::Directory {
             let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
-            listing.add(ListingKind::Drawings, name, kind == EntryKind::Link);
+            listing.add(name, kind == EntryKind::Link);
         }
         let is_directory = kind == EntryKind::Directory;
         if is_exact && self.counts(directory, name, is_directory) {

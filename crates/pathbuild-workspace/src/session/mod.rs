@@ -31,9 +31,12 @@ use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{BUILD, Content, Coverage, DrawingResult, Facts, Held, Keeper, Made, Programs, is_passing};
+pub use keeper::{
+    BUILD, Coverage, DrawingResult, Facts, Held, Keeper, Made, MadeOutput, OutputState, Question, Scope,
+    hash_output, is_passing,
+};
 pub use library::{by_name, by_place};
-pub use outputs::{OutputKind, Writing, stem_fault};
+pub use outputs::{OutputKind, Writing, stem_fault, without_values};
 pub use provenance::{HEAD, Provenance, title};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Found, Wanted, WantedPath};

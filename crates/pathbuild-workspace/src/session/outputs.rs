@@ -29,6 +29,9 @@ pub struct Writing {
 }
 
 impl OutputKind {
+    /// Each, at the place of its number.
+    pub const ALL: [Self; 4] = [Self::Milling, Self::Clean, Self::Probing, Self::Values];
+
     /// The files of a program.
     pub fn of(has_probes: bool) -> &'static [Self] {
         if has_probes { &[Self::Clean, Self::Probing, Self::Values] } else { &[Self::Milling] }
@@ -70,4 +73,11 @@ impl OutputKind {
 /// Whether a name, which R is a part of, cannot be a file's.
 pub fn stem_fault(stem: &str) -> bool {
     stem.contains(['/', '\\']) || stem.contains(char::is_control)
+}
+
+/// The text of a file of values with everything behind `=` taken away, whatever its line ends are.
+pub fn without_values(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let line = |line: &str| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>();
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -14,7 +14,7 @@ use crate::config::Settings;
 use crate::posting::Poster;
 
 /// The provenance of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     /// The version of pathbuild.
     pub version: Box<str>,

@@ -81,6 +81,13 @@ impl Session<'_> {
         wanted
     }
 
+    /// Drawings that were found in directories, as what arguments mean.
+    pub fn wanted_drawings(&self, drawings: Vec<Utf8PathBuf>) -> Wanted {
+        let mut wanted = Wanted::default();
+        wanted.add_drawings(self.db.files(drawings));
+        wanted
+    }
+
     /// Directories that were just listed need not be listed once more for their names, if nothing about them is in doubt.
     pub fn know_names(&self, listings: &Listings) {
         for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
@@ -100,6 +107,7 @@ impl Session<'_> {
             Input::Place(place) if self.is_directory(place) && !library::is_drawing(place) => {
                 Some(self.normal(place))
             }
+            Input::Name(name) if self.means_directory(name) => Some(self.normal(Utf8Path::new(name))),
             _ => None,
         };
         let directories: Vec<Utf8PathBuf> = if inputs.inputs.is_empty() {
@@ -208,6 +216,16 @@ impl Session<'_> {
     /// Whether a place is a directory.
     pub fn is_directory(&self, place: &Utf8Path) -> bool {
         self.db.system().kind(&self.normal(place)) == Kind::Directory
+    }
+
+    /// Whether a name without a separator means a directory: there is neither a path nor a drawing of that name.
+    fn means_directory(&self, name: &str) -> bool {
+        if !self.is_directory(Utf8Path::new(name)) {
+            return false;
+        }
+        let directories = self.name_directories();
+        self.definitions(&PathName::new(name), &directories).is_empty()
+            && self.drawing_of_name(name, &directories).is_none()
     }
 
     fn add_name(&self, name: &str, directories: &[Utf8PathBuf], wanted: &mut Wanted) {

@@ -1,8 +1,9 @@
 //! `pathbuild why`: why drawings would be compiled again. (spec/05-command-line.md)
 
+use std::collections::HashSet;
+
 use camino::Utf8PathBuf;
 use pathbuild_cache::{Listings, Reason};
-use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::shown;
 use serde::Serialize;
 
@@ -11,7 +12,7 @@ use crate::args::{CheckArgs, Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::Concerns;
-use pathbuild_workspace::session::{Keeper, Session};
+use pathbuild_workspace::session::{Keeper, Question, Scope, Session};
 
 /// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
 /// that is not as it was.
@@ -20,23 +21,20 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
-    let Some(keeper) =
-        Keeper::open(context, Concerns::Check, &question(&CheckArgs::default()), Listings::new())
-    else {
+    let text = question(&CheckArgs::default());
+    let question =
+        Question { whose: Concerns::Check, text: &text, scope: Scope::All, listings: Listings::new() };
+    let Some(keeper) = Keeper::open(context, question) else {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };
     let wanted = session.wanted(&args.inputs);
     let drawings = wanted.drawings.iter().map(|drawing| drawing.file);
-    let mut files: Vec<SourceFile> = Vec::new();
-    for file in drawings.chain(wanted.paths.iter().map(|path| path.file)) {
-        if !files.contains(&file) {
-            files.push(file);
-        }
-    }
-    for file in files {
+    let mut known = HashSet::new();
+    let all = drawings.chain(wanted.paths.iter().map(|path| path.file));
+    for file in all.filter(|file| known.insert(*file)) {
         let drawing = file.path(session.db());
-        let answer = Answer { drawing, reasons: keeper.why(context, drawing.as_str()) };
+        let answer = Answer { drawing, reasons: keeper.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.printer.result_json(answer.json()),
             _ => context.printer.result(answer.text(context)),

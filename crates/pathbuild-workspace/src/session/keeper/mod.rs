@@ -4,25 +4,29 @@
 
 mod payload;
 mod question;
+mod scope;
 mod writing;
 
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Clock, Kept, Key, Listings, Lookup, Place, Reason, Unusable, Verdict, reasons, verify,
+    Clock, FileState, Kept, Key, Listings, Looking, Lookup, Place, Reason, Stamp, Unusable, Verdict, reasons,
+    verify,
 };
 use pathbuild_db::Trace;
 use pathbuild_db::system::{Kind, OsSystem, System};
 
 use super::Session;
+use super::outputs::{OutputKind, without_values};
 use crate::config::Concerns;
 use crate::workspace::Workspace;
 
 pub use payload::{DrawingResult, is_passing};
 use question::whole_question;
 pub use question::{BUILD, Coverage, Held};
+pub use scope::Scope;
 use writing::Writing;
 
 /// The results that are kept for a question.
@@ -31,12 +35,27 @@ pub struct Keeper {
     place: Place,
     key: Key,
     base: Utf8PathBuf,
+    coverage: Coverage,
+    scope: Scope,
     /// The time before anything was read; `None` where the cache cannot be written.
     begun: Option<Clock>,
     kept: Kept,
     verdict: Verdict,
     /// The record that is likely asked for next: whoever asks does so in order.
     next: Cell<usize>,
+}
+
+/// What a run wants to know.
+#[derive(Debug)]
+pub struct Question<'a> {
+    /// Whose results.
+    pub whose: Concerns,
+    /// What they depend on beside settings and files.
+    pub text: &'a str,
+    /// Which of them.
+    pub scope: Scope,
+    /// What is in directories that were listed just now.
+    pub listings: Listings,
 }
 
 /// A result that was made now.
@@ -46,10 +65,34 @@ pub struct Made {
     pub of: Box<str>,
     /// Everything that it was made from.
     pub traces: Vec<Trace>,
-    /// Further files that it depends on, and directories of which every program counts.
-    pub programs: Programs,
+    /// Files beside drawings that it was made from.
+    pub further: Vec<Utf8PathBuf>,
+    /// The files that it becomes.
+    pub outputs: Vec<MadeOutput>,
     /// Itself; `None` where another run may find something else, though nothing changes.
     pub payload: Option<Vec<u8>>,
+}
+
+/// A file that a result becomes.
+#[derive(Clone, Debug)]
+pub struct MadeOutput {
+    /// The file.
+    pub path: Utf8PathBuf,
+    /// What [`hash_output`] makes of its content.
+    pub hash: [u8; 32],
+    /// Whether that is what lies there.
+    pub is_there: bool,
+}
+
+/// How a file that was written lies there now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputState {
+    /// As it would be written.
+    Current,
+    /// With other content.
+    Outdated,
+    /// Not at all.
+    Missing,
 }
 
 /// What a kept result was made from.
@@ -61,37 +104,10 @@ pub struct Facts<'a> {
     pub lookups: Vec<(&'a Utf8Path, Box<str>)>,
 }
 
-/// Files beside drawings that a result depends on.
-#[derive(Clone, Debug, Default)]
-pub struct Programs {
-    /// The files, with what was found in each.
-    pub files: Vec<(Utf8PathBuf, Content)>,
-    /// The directories whose names count, all of them.
-    pub directories: Vec<Utf8PathBuf>,
-}
-
-/// What was found under a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Nothing.
-    Missing,
-    /// Bytes, of which this is the blake3 hash.
-    Hashed([u8; 32]),
-    /// Bytes that nobody hashed.
-    Unknown,
-}
-
-impl Content {
-    /// That of bytes.
-    pub fn of(bytes: &[u8]) -> Self {
-        Self::Hashed(*blake3::hash(bytes).as_bytes())
-    }
-}
-
 impl Keeper {
     /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
-    /// `listings`: directories that were listed just now.
-    pub fn open(context: &Workspace, whose: Concerns, question: &str, listings: Listings) -> Option<Self> {
+    pub fn open(context: &Workspace, question: Question<'_>) -> Option<Self> {
+        let Question { whose, text, scope, listings } = question;
         let base = context.settings.directory()?.to_owned();
         let place = context.cache_place()?;
         if let Some(reason) = place.refusal() {
@@ -103,7 +119,7 @@ impl Keeper {
         if place.make().is_ok_and(|is_new| is_new) {
             note_old(context, &base);
         }
-        let key = Key::new(BUILD, &whole_question(context, whose, question));
+        let key = Key::new(BUILD, &whole_question(context, whose, text));
         // Before the first file is looked at: what changes from here on shows.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
@@ -114,14 +130,29 @@ impl Keeper {
             }
         };
         let coverage = Coverage::new(context);
-        let verdict = verify(&kept, &base, &|file, path| coverage.may_hold(file, path), listings);
-        Some(Self { place, key, base, begun, kept, verdict, next: Cell::new(0) })
+        let verdict = look(&kept, &base, &coverage, &scope, listings);
+        Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
     }
 
     /// What was kept, if it still holds.
     pub fn payload(&self, of: &str) -> Option<&[u8]> {
         let number = self.record(of)?;
         self.verdict.holds[number].then(|| self.kept.record(number).payload())
+    }
+
+    /// What became of the files that a result became, in the order in which they were kept.
+    pub fn outputs(&self, of: &str) -> Vec<OutputState> {
+        let Some(number) = self.record(of) else { return Vec::new() };
+        let state = |file: usize| match self.verdict.files[file] {
+            FileState::Resting | FileState::Restored => OutputState::Current,
+            FileState::Changed | FileState::Unlooked
+                if Stamp::of(self.kept.file(file).path()) == Stamp::MISSING =>
+            {
+                OutputState::Missing
+            }
+            FileState::Changed | FileState::Unlooked => OutputState::Outdated,
+        };
+        self.kept.record(number).outputs().map(state).collect()
     }
 
     /// What a kept result was made from.
@@ -133,9 +164,9 @@ impl Keeper {
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
-    pub fn why(&self, context: &Workspace, of: &str) -> Option<Vec<Reason>> {
-        let coverage = Coverage::new(context);
+    pub fn why(&self, of: &str) -> Option<Vec<Reason>> {
         let number = self.record(of)?;
+        let coverage = &self.coverage;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
     }
 
@@ -145,22 +176,46 @@ impl Keeper {
         Some(number)
     }
 
-    /// Keeps results: of all that was asked for what still holds, and what was made now. Nothing is written where nothing changed.
-    pub fn keep(&self, session: &Session<'_>, asked: &[&str], made: &[Made]) {
-        let is_as_it_was = made.is_empty() && self.verdict.is_current && self.kept.records() == asked.len();
+    /// Keeps what was made now beside what still holds, also of other drawings. Nothing is written where nothing changed.
+    pub fn keep(&self, session: &Session<'_>, made: &[Made]) {
+        let is_as_it_was = made.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
-        let new: HashMap<&str, &Made> = made.iter().map(|made| (&*made.of, made)).collect();
-        let mut writing = Writing::new(self, session, begun, made);
-        for of in asked {
-            match (new.get(*of), self.record(of)) {
-                (Some(made), _) => writing.add_made(made),
-                (None, Some(kept)) => writing.add_kept(kept),
-                (None, None) => {}
+        let made_now: HashSet<&str> = made.iter().map(|made| &*made.of).collect();
+        let all: Verdict;
+        let mut records = (0..self.kept.records()).map(|number| self.kept.record(number));
+        let verdict = if records.any(|record| !self.scope.holds(record.of())) {
+            all = look(&self.kept, &self.base, &self.coverage, &Scope::All, Listings::new());
+            &all
+        } else {
+            &self.verdict
+        };
+        let mut writing = Writing::new(self, verdict, session, begun, made);
+        for number in (0..self.kept.records()).filter(|number| verdict.holds[*number]) {
+            let of = self.kept.record(number).of();
+            if !made_now.contains(of) && self.scope.may_return(of) {
+                writing.add_kept(number);
             }
+        }
+        for made in made {
+            writing.add_made(made);
         }
         // Whoever cannot write goes without.
         _ = self.place.store(&self.key, &writing.finish());
     }
+}
+
+/// Holds what was kept against the files as they are.
+fn look(kept: &Kept, base: &Utf8Path, coverage: &Coverage, scope: &Scope, listings: Listings) -> Verdict {
+    let is_asked = |of: &str| scope.holds(of);
+    let covers = |file: &str, path: &str| coverage.may_hold(file, path);
+    verify(kept, Looking { base, covers: &covers, is_asked: &is_asked, hash_output: &hash_output }, listings)
+}
+
+/// The hash of a file that a program becomes; of one into which people enter measured values, without them.
+pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
+    let is_values = path.as_str().ends_with(OutputKind::Values.suffix());
+    let hash = if is_values { blake3::hash(without_values(bytes).as_bytes()) } else { blake3::hash(bytes) };
+    *hash.as_bytes()
 }
 
 /// Earlier versions kept results beside the configuration.

@@ -3,22 +3,21 @@
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{
-    Catalogue, Clock, DirectoryFact, FileFact, FileState, ListingKind, Lookup, Record, Stamp,
-};
+use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp, Verdict};
 use pathbuild_db::{Db, SourceFile, content_hash, drawing_names};
 
-use super::{Content, Keeper, Made};
+use super::{Keeper, Made, MadeOutput};
 use crate::session::Session;
 
 /// A catalogue while it is put together.
 pub(super) struct Writing<'a> {
     keeper: &'a Keeper,
+    verdict: &'a Verdict,
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
     files: HashMap<Utf8PathBuf, usize>,
-    directories: HashMap<(ListingKind, Utf8PathBuf), usize>,
+    directories: HashMap<Utf8PathBuf, usize>,
     /// The new number of each kept file and directory.
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
@@ -27,12 +26,19 @@ pub(super) struct Writing<'a> {
 }
 
 impl<'a> Writing<'a> {
-    pub(super) fn new(keeper: &'a Keeper, session: &'a Session<'a>, begun: Clock, made: &[Made]) -> Self {
+    pub(super) fn new(
+        keeper: &'a Keeper,
+        verdict: &'a Verdict,
+        session: &'a Session<'a>,
+        begun: Clock,
+        made: &[Made],
+    ) -> Self {
         let kept = &keeper.kept;
         let db = session.db();
         let read = made.iter().flat_map(|made| &made.traces).flat_map(|trace| &trace.files);
         Self {
             keeper,
+            verdict,
             session,
             begun,
             catalogue: Catalogue::default(),
@@ -54,8 +60,9 @@ impl<'a> Writing<'a> {
         let files = record.files().map(|file| self.kept_file(file)).collect();
         let lookup = |lookup: Lookup| Lookup { directory: self.kept_directory(lookup.directory), ..lookup };
         let lookups = record.lookups().map(lookup).collect();
+        let outputs = record.outputs().map(|file| self.kept_file(file)).collect();
         let (of, payload) = (record.of().into(), record.payload().to_vec());
-        self.catalogue.records.push(Record { of, files, lookups, payload });
+        self.catalogue.records.push(Record { of, files, lookups, outputs, payload });
     }
 
     /// Adds a record that was made now.
@@ -67,20 +74,18 @@ impl<'a> Writing<'a> {
             files.extend(trace.files.iter().map(|file| self.drawing(*file)));
             for sought in &trace.lookups {
                 for directory in &sought.directories {
-                    let directory = self.directory(directory, ListingKind::Drawings);
+                    let directory = self.directory(directory);
                     lookups.insert(Lookup { directory, name: sought.name.as_str().into() });
                 }
             }
         }
-        files.extend(made.programs.files.iter().map(|(file, content)| self.program(file, *content)));
-        for directory in &made.programs.directories {
-            let directory = self.directory(directory, ListingKind::Files);
-            lookups.insert(Lookup { directory, name: "".into() });
-        }
+        files.extend(made.further.iter().map(|file| self.further_file(file)));
+        let outputs = made.outputs.iter().map(|output| self.output(output)).collect();
         self.catalogue.records.push(Record {
             of: made.of.clone(),
             files: files.into_iter().collect(),
             lookups: lookups.into_iter().collect(),
+            outputs,
             payload: payload.clone(),
         });
     }
@@ -91,8 +96,11 @@ impl<'a> Writing<'a> {
         }
         let file = self.keeper.kept.file(number);
         let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
-        if self.keeper.verdict.files[number] != FileState::Resting {
-            fact.stamp = Stamp::settled(&fact.path, self.begun);
+        match self.verdict.files[number] {
+            FileState::Resting | FileState::Unlooked => {}
+            FileState::Restored => fact.stamp = present(Stamp::settled(&fact.path, self.begun)),
+            // An output that is not what it should be: its hash is still that of what should be there.
+            FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
         if self.read.get(&fact.path).is_some_and(|hash| *hash != fact.hash) || self.is_torn(&fact.path) {
@@ -109,36 +117,32 @@ impl<'a> Writing<'a> {
         let path = file.path(db);
         let hash = content_hash(db, file);
         let known = self.keeper.kept.file_of(path);
-        match known.filter(|number| self.keeper.verdict.files[*number] != FileState::Changed) {
+        match known.filter(|number| self.verdict.files[*number] != FileState::Changed) {
             Some(number) => self.kept_file(number),
             None => self.new_file(path, hash),
         }
     }
 
-    /// A program that was looked at now.
-    fn program(&mut self, path: &Utf8Path, content: Content) -> usize {
-        let number = match content {
-            Content::Hashed(hash) => self.new_file(path, Some(hash)),
-            Content::Missing | Content::Unknown => self.new_file(path, None),
-        };
-        let fact = &mut self.catalogue.files[number];
-        // It may have come or gone since it was looked at.
-        if (fact.stamp == Stamp::MISSING) != (content == Content::Missing) {
-            fact.stamp = Stamp::UNKNOWN;
-        }
-        number
+    /// A file beside drawings that was read now.
+    fn further_file(&mut self, path: &Utf8Path) -> usize {
+        let bytes = self.session.db().system().read(path, u64::MAX);
+        self.new_file(path, bytes.ok().map(|bytes| *blake3::hash(&bytes).as_bytes()))
     }
 
+    /// A file that was written, or compared, now.
+    fn output(&mut self, MadeOutput { path, hash, is_there }: &MadeOutput) -> usize {
+        let settled = || present(Stamp::settled(path, self.begun));
+        let stamp = if *is_there { settled() } else { Stamp::UNKNOWN };
+        self.push_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
+    }
+
+    /// What could not be read has neither stamp nor hash: whatever was made of it is made again.
     fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> usize {
         if let Some(known) = self.files.get(path) {
             return *known;
         }
-        let mut stamp = Stamp::settled(path, self.begun);
-        // What was read was there.
-        if hash.is_some() && stamp == Stamp::MISSING {
-            stamp = Stamp::UNKNOWN;
-        }
         let hash = hash.filter(|_| !self.is_torn(path));
+        let stamp = hash.map_or(Stamp::UNKNOWN, |_| present(Stamp::settled(path, self.begun)));
         self.push_file(FileFact { path: path.to_owned(), stamp, hash })
     }
 
@@ -161,41 +165,42 @@ impl<'a> Writing<'a> {
         if let Some(new) = self.kept_directories[number] {
             return new;
         }
-        let fact = self.keeper.verdict.directories[number].clone();
+        let fact = self.verdict.directories[number].clone();
         let new = self.push_directory(fact);
         self.kept_directories[number] = Some(new);
         new
     }
 
     /// A directory that was listed now, with the names that the database saw in it.
-    fn directory(&mut self, path: &Utf8Path, kind: ListingKind) -> usize {
-        if let Some(known) = self.directories.get(&(kind, path.to_owned())) {
+    fn directory(&mut self, path: &Utf8Path) -> usize {
+        if let Some(known) = self.directories.get(path) {
             return *known;
         }
-        let fact = DirectoryFact::now(path, kind, &self.keeper.base);
+        let fact = DirectoryFact::now(path, &self.keeper.base);
         self.push_directory(fact)
     }
 
     fn push_directory(&mut self, mut fact: DirectoryFact) -> usize {
-        let place = (fact.kind, fact.path.clone());
-        if let Some(known) = self.directories.get(&place) {
+        if let Some(known) = self.directories.get(&fact.path) {
             return *known;
         }
         fact.is_doubtful |= !self.is_what_was_seen(&fact);
         let number = self.catalogue.directories.len();
-        self.directories.insert(place, number);
+        self.directories.insert(fact.path.clone(), number);
         self.catalogue.directories.push(fact);
         number
     }
 
     /// Whether the database found the same names, if it looked. That it looks now does no harm: then there is nothing that could differ.
     fn is_what_was_seen(&self, fact: &DirectoryFact) -> bool {
-        if fact.kind == ListingKind::Files {
-            return true;
-        }
         let db = self.session.db();
         let mut seen: Vec<&str> = drawing_names(db, db.directory(&fact.path)).iter().collect();
         seen.sort_unstable();
         seen.into_iter().eq(fact.names.iter())
     }
+}
+
+/// The stamp of a file whose content is known: were it gone by now, the content would be of something else.
+fn present(stamp: Stamp) -> Stamp {
+    if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp }
 }

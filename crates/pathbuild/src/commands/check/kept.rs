@@ -14,7 +14,9 @@ use crate::context::Context;
 use crate::report::{Checked, CheckedFile};
 use pathbuild_workspace::config::Concerns;
 use pathbuild_workspace::session::timings::{KEEPING, VERIFYING};
-use pathbuild_workspace::session::{DrawingResult, Found, Keeper, Made, Pair, Session, q_project_pairs};
+use pathbuild_workspace::session::{
+    DrawingResult, Found, Keeper, Made, Pair, Question, Scope, Session, q_project_pairs,
+};
 
 /// Checks drawings, and keeps what is found.
 ///
@@ -24,13 +26,15 @@ pub(super) fn check(
     context: &Context,
     session: &mut Session<'_>,
     args: &CheckArgs,
-    Found { drawings, listings, .. }: Found,
+    found: Found,
 ) -> Result<Checked, String> {
     let since = |revision: &String| Changed::since(context, session, revision);
     let changed = args.changed_since.as_ref().map(since).transpose()?;
-    let opened = session
-        .timings()
-        .measure(&VERIFYING, || Keeper::open(context, Concerns::Check, &question(args), listings));
+    let scope = Scope::of(&found);
+    let Found { drawings, listings, .. } = found;
+    let text = question(args);
+    let question = Question { whose: Concerns::Check, text: &text, scope, listings };
+    let opened = session.timings().measure(&VERIFYING, || Keeper::open(context, question));
     let keeper = opened.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();
@@ -49,9 +53,7 @@ pub(super) fn check(
     let (q_projects, made_of_pairs) = session.settled(|session| q_projects(session, keeper, &drawings));
     made.extend(made_of_pairs);
     if let Some(keeper) = keeper {
-        let asked = drawings.iter().map(|drawing| drawing.as_str());
-        let asked: Vec<&str> = asked.chain(q_projects.iter().map(|(of, _)| &**of)).collect();
-        session.timings().measure(&KEEPING, || keeper.keep(session, &asked, &made));
+        session.timings().measure(&KEEPING, || keeper.keep(session, &made));
     }
     let concerned = Concerned::new(session, keeper, &made, changed.as_ref());
     let mut checked = Checked::default();

@@ -1,5 +1,7 @@
 //! Which paths are emitted: those of drawings, directories and names; without any, those that `[emit] targets` means.
 
+use std::collections::{HashMap, HashSet};
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Role, SourceFile, Target, check_file, path_names};
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -7,9 +9,10 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
 use super::configured::Configured;
+use super::store::Store;
 use crate::context::Context;
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::session::{Session, Wanted};
+use pathbuild_workspace::session::{DrawingResult, Found, Session, Wanted};
 
 /// The paths to emit, and what the run knows of beside them.
 pub(super) struct Asked {
@@ -17,38 +20,90 @@ pub(super) struct Asked {
     pub(super) targets: Vec<Target>,
     /// Drawings of which every path was considered.
     pub(super) covered: Vec<SourceFile>,
-    /// The directories that they lie in or below; nothing else is looked for stale outputs.
+    /// What is known of them.
+    pub(super) drawings: Drawings,
+    /// The directories that were looked through for them: those in which outputs may be stale.
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
+/// What drawings say alone: from earlier runs, else from the drawings themselves.
+pub(super) struct Drawings {
+    known: HashMap<SourceFile, DrawingResult>,
+    /// Those that were read.
+    read: Vec<SourceFile>,
+}
+
+impl Drawings {
+    /// Reads those that nothing is known of.
+    fn new(session: &Session<'_>, store: Option<&Store>, files: &[SourceFile]) -> Self {
+        let known = |file: &SourceFile| Some((*file, store?.drawing(file.path(session.db()))?));
+        let known: HashMap<SourceFile, DrawingResult> = files.iter().filter_map(known).collect();
+        let read: Vec<SourceFile> = files.iter().filter(|file| !known.contains_key(file)).copied().collect();
+        session.read_ahead(&read);
+        Self { known, read }
+    }
+
+    /// The names of a drawing's paths.
+    pub(super) fn names<'a>(&'a self, session: &'a Session<'_>, file: SourceFile) -> &'a [PathName] {
+        self.known.get(&file).map_or_else(|| path_names(session.db(), file), |known| &known.names)
+    }
+
+    /// What is wrong with a drawing as a whole.
+    pub(super) fn diagnostics<'a>(&'a self, session: &'a Session<'_>, file: SourceFile) -> &'a [Diagnostic] {
+        self.known.get(&file).map_or_else(|| check_file(session.db(), file), |known| &known.diagnostics)
+    }
+
+    /// Those of which nothing was known.
+    pub(super) fn read(&self) -> impl Iterator<Item = &SourceFile> {
+        self.read.iter()
+    }
+}
+
 impl Asked {
-    /// What the arguments mean, and what is wrong with them; `None` when there are none and the configuration names no targets.
+    /// What the arguments mean, and what is wrong with them; `None` when there are none and the configuration names no targets. `found`: what
+    /// is in the directories, if all arguments are directories.
     pub(super) fn new(
         context: &Context,
         session: &Session<'_>,
+        store: Option<&Store>,
         inputs: &Inputs,
+        found: Option<&Found>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
         let is_by_configuration = inputs.inputs.is_empty();
         if is_by_configuration && (context.settings.emit.targets.value.is_empty() || !session.has_library()) {
             return None;
         }
-        let wanted = session.wanted(inputs);
-        let mut asking = Asking { context, session, diagnostics, targets: Vec::new() };
+        let (wanted, directories) = match found {
+            Some(Found { drawings, directories, .. }) => {
+                (session.wanted_drawings(drawings.clone()), directories.clone())
+            }
+            None => {
+                let wanted = session.wanted(inputs);
+                let directories = session.directories_below(&wanted.directories);
+                (wanted, directories)
+            }
+        };
         let in_directories = wanted.drawings.iter().filter(|drawing| !drawing.is_named);
         let covered: Vec<SourceFile> = in_directories.map(|drawing| drawing.file).collect();
-        let directories = wanted.directories.clone();
-        session.read_ahead(&covered);
+        let drawings = Drawings::new(session, store, &covered);
+        let mut asking = Asking {
+            context,
+            session,
+            drawings: &drawings,
+            diagnostics,
+            targets: Vec::new(),
+            known: HashSet::new(),
+        };
         if is_by_configuration {
+            asking.diagnostics.extend(wanted.problems);
             asking.configured(&covered);
         } else {
             asking.named(wanted);
         }
-        Some(Self { targets: asking.targets, covered, directories })
+        Some(Self { targets: asking.targets, covered, drawings, directories })
     }
-}
 
-impl Asked {
     /// The same with the paths in the order of the arguments, which decides what is milled first.
     pub(super) fn in_order(
         context: &Context,
@@ -56,13 +111,14 @@ impl Asked {
         inputs: &Inputs,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
-        let mut all = Self { targets: Vec::new(), covered: Vec::new(), directories: Vec::new() };
         if inputs.inputs.is_empty() {
-            return Self::new(context, session, inputs, diagnostics);
+            return Self::new(context, session, None, inputs, None, diagnostics);
         }
+        let drawings = Drawings::new(session, None, &[]);
+        let mut all = Self { targets: Vec::new(), covered: Vec::new(), drawings, directories: Vec::new() };
         for input in &inputs.inputs {
             let input = Inputs { inputs: vec![input.clone()] };
-            all.targets.extend(Self::new(context, session, &input, diagnostics)?.targets);
+            all.targets.extend(Self::new(context, session, None, &input, None, diagnostics)?.targets);
         }
         Some(all)
     }
@@ -71,19 +127,22 @@ impl Asked {
 struct Asking<'a> {
     context: &'a Context,
     session: &'a Session<'a>,
+    drawings: &'a Drawings,
     diagnostics: &'a mut Vec<Diagnostic>,
     targets: Vec<Target>,
+    known: HashSet<(SourceFile, PathName)>,
 }
 
 impl Asking<'_> {
     /// The paths whose names match a target's pattern.
     fn configured(&mut self, library: &[SourceFile]) {
-        let db = self.session.db();
+        let drawings = self.drawings;
         let mut configured = Configured::new(&self.context.settings);
         for file in library {
             // A drawing that cannot be read may hold a target.
-            self.diagnostics.extend(check_file(db, *file).iter().filter(|found| found.is_error()).cloned());
-            for name in path_names(db, *file) {
+            let errors = drawings.diagnostics(self.session, *file).iter().filter(|found| found.is_error());
+            self.diagnostics.extend(errors.cloned());
+            for name in drawings.names(self.session, *file) {
                 if configured.means(name.as_str()) {
                     self.add(*file, name);
                 }
@@ -94,13 +153,13 @@ impl Asking<'_> {
 
     /// A drawing must hold just one path, unless it lies in a directory that was named.
     fn named(&mut self, wanted: Wanted) {
-        let db = self.session.db();
+        let (db, drawings) = (self.session.db(), self.drawings);
         self.diagnostics.extend(wanted.problems);
         for drawing in wanted.drawings {
-            let found = check_file(db, drawing.file);
+            let found = drawings.diagnostics(self.session, drawing.file);
             self.diagnostics.extend_from_slice(found);
             let is_unreadable = found.iter().any(Diagnostic::is_error);
-            match path_names(db, drawing.file) {
+            match drawings.names(self.session, drawing.file) {
                 [] if is_unreadable || !drawing.is_named => {}
                 [] => self.diagnostics.push(self.no_path(drawing.file.path(db))),
                 names @ [_, _, ..] if drawing.is_named => self.refuse_several(drawing.file, names),
@@ -126,9 +185,7 @@ impl Asking<'_> {
     }
 
     fn add(&mut self, file: SourceFile, name: &PathName) {
-        let db = self.session.db();
-        let is_known = |target: &Target| target.file(db) == file && **target.name(db) == *name.as_str();
-        if !self.targets.iter().any(is_known) {
+        if self.known.insert((file, name.clone())) {
             self.targets.push(self.session.target_in(file, name, Role::Emitted));
         }
     }

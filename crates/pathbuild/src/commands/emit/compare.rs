@@ -9,40 +9,36 @@ use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
 use super::deliver::{Output, State, has_same_probes};
 use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{Content, OutputKind};
+use pathbuild_workspace::session::OutputKind;
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
-/// of another program. Comes with what is on disk, and with where the moves part, or why they cannot be read.
+/// of another program. Comes with where the moves part, or why they cannot be read.
 pub(super) fn compare(
     system: &dyn System,
     output: &Output,
     moves_only: bool,
     poster: Option<&Poster>,
-) -> (Compared, Vec<Diagnostic>) {
+) -> (State, Vec<Diagnostic>) {
     let present = match system.read(&output.path, u64::MAX) {
         Ok(bytes) => bytes,
-        Err(ReadError::Missing) => return ((State::Missing, Content::Missing), Vec::new()),
-        Err(_) => return ((State::Outdated, Content::Unknown), Vec::new()),
+        Err(ReadError::Missing) => return (State::Missing, Vec::new()),
+        Err(_) => return (State::Outdated, Vec::new()),
     };
-    let found = Content::of(&present);
     let is_same =
         present == output.text || output.kind == OutputKind::Values && has_same_probes(system, output);
     if is_same {
-        return ((State::Current, found), Vec::new());
+        return (State::Current, Vec::new());
     }
     if !moves_only {
-        return ((State::Outdated, found), Vec::new());
+        return (State::Outdated, Vec::new());
     }
     // What cannot be read can only be compared byte for byte.
-    let Some(reading) = Reading::of(poster) else { return ((State::Outdated, found), Vec::new()) };
+    let Some(reading) = Reading::of(poster) else { return (State::Outdated, Vec::new()) };
     let problems = difference(&present, &output.text, &reading);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
     let state = if problems.is_empty() { State::Current } else { State::Outdated };
-    ((state, found), problems)
+    (state, problems)
 }
-
-/// How a file stands, and what is on disk.
-type Compared = (State, Content);
 
 /// How programs are read to be compared.
 struct Reading {

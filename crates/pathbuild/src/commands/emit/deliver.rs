@@ -15,7 +15,7 @@ use super::compare;
 use super::job::Job;
 use crate::args::EmitArgs;
 use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{Content, OutputKind, Writing};
+use pathbuild_workspace::session::{OutputKind, Writing, hash_output, without_values};
 
 /// What is done with the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +33,8 @@ pub(super) enum Task {
 pub(super) struct Delivered {
     /// Each file.
     pub(super) files: Vec<(Utf8PathBuf, State)>,
-    /// What lies on disk now under the name of each, for whoever keeps it.
-    pub(super) contents: Vec<Content>,
+    /// What should lie there, as [`hash_output`] tells it.
+    pub(super) hashes: Vec<[u8; 32]>,
     /// The program's length in mm.
     pub(super) length: f64,
     /// The program's time.
@@ -53,7 +53,7 @@ impl Delivered {
     /// Adds what became of the files once they were made.
     pub(super) fn add(&mut self, written: Self) {
         self.files.extend(written.files);
-        self.contents.extend(written.contents);
+        self.hashes.extend(written.hashes);
         self.problems.extend(written.problems);
     }
 
@@ -89,6 +89,11 @@ impl Task {
         } else {
             Self::Write { force: args.force }
         }
+    }
+
+    /// Whether files of a kind are a part of it: measured values are no moves.
+    pub(super) fn compares(self, kind: OutputKind) -> bool {
+        self != Self::Compare { moves_only: true } || kind != OutputKind::Values
     }
 
     /// Whether times are part of the result.
@@ -160,9 +165,9 @@ pub(super) fn finish(
             }
         }
         Task::Compare { moves_only } => {
-            for output in outputs.iter().filter(|output| !moves_only || output.kind != OutputKind::Values) {
-                let ((state, content), problems) = compare::compare(system, output, moves_only, poster);
-                delivered.contents.push(content);
+            for output in outputs.iter().filter(|output| task.compares(output.kind)) {
+                let (state, problems) = compare::compare(system, output, moves_only, poster);
+                delivered.hashes.push(hash_output(&output.path, &output.text));
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
             }
@@ -280,7 +285,7 @@ fn write(
         let written = if is_kept { Ok(Written::Unchanged) } else { system.write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), &reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
-        delivered.contents.push(if is_kept { Content::Unknown } else { Content::of(&output.text) });
+        delivered.hashes.push(hash_output(&output.path, &output.text));
         delivered.files.push((output.path.clone(), state));
     }
     Ok(())
@@ -289,27 +294,19 @@ fn write(
 /// Whether there are values that somebody measured, for other probes than now.
 fn would_lose_values(system: &dyn System, output: &Output) -> bool {
     let Some(present) = present(system, &output.path) else { return false };
-    let probes = without_values(&present);
-    probes != without_values(&String::from_utf8_lossy(&output.text)) && probes != present.trim_end()
+    let probes = without_values(present.as_bytes());
+    probes != without_values(&output.text) && probes != present.trim_end()
 }
 
 /// Whether a file of values is there and is for these probes.
 pub(super) fn has_same_probes(system: &dyn System, output: &Output) -> bool {
-    let text = String::from_utf8_lossy(&output.text);
-    present(system, &output.path).is_some_and(|present| without_values(&present) == without_values(&text))
+    let is_same = |present: String| without_values(present.as_bytes()) == without_values(&output.text);
+    present(system, &output.path).is_some_and(is_same)
 }
 
 fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
     let bytes = system.read(path, 1 << 24).ok()?;
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
-}
-
-/// A file of values with everything behind `=` taken away.
-fn without_values(text: &str) -> String {
-    let lines = text
-        .lines()
-        .map(|line| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>());
-    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// PB004.

@@ -9,13 +9,16 @@ use pathbuild_diagnostic::messages::{outputs as messages, posts};
 
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
+use super::store::KnownProgram;
 use crate::context::Context;
 use pathbuild_workspace::posting::Poster;
 use pathbuild_workspace::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
-#[derive(PartialEq, Eq)]
+#[derive(PartialEq)]
 pub(super) struct Job {
+    /// What is known of its program from an earlier run: nothing need be made.
+    pub(super) known: Option<KnownProgram>,
     /// The paths, in the order in which they are milled. There is one at least.
     pub(super) targets: Vec<Target>,
     /// The drawings that they are made from, the first path's own first.
@@ -33,6 +36,20 @@ pub(super) struct Job {
 }
 
 impl Job {
+    /// That of a path of which everything is known.
+    pub(super) fn known(target: Target, known: KnownProgram) -> Self {
+        Self {
+            targets: vec![target],
+            sources: Vec::new(),
+            path: known.path.clone(),
+            stem: known.stem.clone(),
+            files: known.files.clone(),
+            title: String::new(),
+            provenance: Provenance::default(),
+            known: Some(known),
+        }
+    }
+
     /// The drawing of the first path.
     pub(super) fn drawing(&self, db: &Database) -> SourceFile {
         self.targets[0].file(db)
@@ -85,7 +102,7 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// The jobs for the paths that are right. Two that would write the same file are both refused (PB514).
+    /// The jobs for the paths that are right.
     pub(super) fn jobs(&self, checked: &[CheckedTarget], diagnostics: &mut Vec<Diagnostic>) -> Vec<Job> {
         let mut jobs = Vec::new();
         for checked in checked {
@@ -95,9 +112,6 @@ impl Maker<'_> {
                 Err(problem) => diagnostics.push(*problem),
             }
         }
-        let refused = clashes(self.session, &jobs, diagnostics);
-        let mut index = 0..;
-        jobs.retain(|_| index.next().is_none_or(|index| !refused.contains(&index)));
         jobs
     }
 
@@ -189,6 +203,7 @@ impl Maker<'_> {
         let db = self.session.db();
         let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
+            known: None,
             title: format!("{drawing}: {path}"),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
@@ -212,6 +227,18 @@ pub(super) fn output_directory(context: &Context, session: &Session<'_>, drawing
         Some(directory) => session.normal(directory),
         None => drawing.path(session.db()).parent().unwrap_or(Utf8Path::new("")).to_owned(),
     }
+}
+
+/// The jobs without those of which two would write the same file: all of these are refused (PB514).
+pub(super) fn without_clashes(
+    session: &Session<'_>,
+    mut jobs: Vec<Job>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Job> {
+    let refused = clashes(session, &jobs, diagnostics);
+    let mut index = 0..;
+    jobs.retain(|_| index.next().is_none_or(|index| !refused.contains(&index)));
+    jobs
 }
 
 /// The jobs that would write the same file as another. Case does not count, since on some systems it does not.

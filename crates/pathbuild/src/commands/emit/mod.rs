@@ -6,9 +6,9 @@ mod configured;
 mod deliver;
 mod deps;
 mod job;
-mod kept;
 mod options;
 mod stale;
+mod store;
 mod write_queue;
 
 use std::collections::HashMap;
@@ -20,13 +20,13 @@ use crate::args::EmitArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
-use pathbuild_workspace::session::{CheckedTarget, Session};
+use pathbuild_workspace::session::{CheckedTarget, Found, Scope, Session};
 
 use asked::Asked;
 pub(in crate::commands) use configured::Configured;
 use deliver::{Delivered, Means, State, Task};
-use job::{Job, Maker};
-use kept::{Memory, Run};
+use job::{Job, Maker, without_clashes};
+use store::{Known, Run, Store};
 use write_queue::deliver_all;
 
 /// Runs the command.
@@ -61,80 +61,146 @@ fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
 
 fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStatus {
     let mut session = Session::with_hashes(context);
-    let memory = Memory::open(context, &session, args, poster);
-    let outcome = memory.as_ref().filter(|_| args.check).and_then(|memory| memory.outcome(context, &session));
-    if let Some((delivered, mut diagnostics)) = outcome {
-        let is_current = show_all(context, &[delivered], &mut diagnostics);
-        return conclude(context, session, diagnostics, is_current);
-    }
-    if memory.is_some() {
+    let mut found = session.directories_only(&args.inputs);
+    let store = found.as_mut().and_then(|found| {
+        Store::open(context, args, poster, Scope::of(found), std::mem::take(&mut found.listings))
+    });
+    if store.is_some() {
         session.note_traces();
     }
     session.prefetch(&args.inputs);
-    let made = session.settled(|session| make(context, session, args, poster));
-    let Made { asked, checked, jobs, delivered, mut diagnostics } = match made {
+    let making = Making { context, args, poster, store: store.as_ref(), found };
+    let made = match session.settled(|session| making.make(session)) {
         Ok(made) => made,
         Err(refusal) => return context.usage(&refusal),
     };
+    let Made { asked, checked, jobs, delivered, mut diagnostics } = made;
+    tell_known(context, &asked, checked.len());
     let is_current = show_all(context, &delivered, &mut diagnostics);
     if let Some(file) = &args.deps {
         let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
         diagnostics.extend(deps::write(context, &session, file, &jobs, poster, &inserted));
     }
-    let (stale, looked) = stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale);
-    diagnostics.extend(stale);
-    if let Some(memory) = memory {
-        let (task, covered) = (Task::new(args), &asked.covered);
-        memory.keep(
-            &session,
-            &Run { task, covered, checked, jobs, delivered, diagnostics: &diagnostics, looked },
-        );
+    diagnostics.extend(stale::deal_with(context, &session, &asked, &jobs, poster, args.remove_stale));
+    if let Some(store) = store {
+        let (task, checked, drawings) = (Task::new(args), &checked, &asked.drawings);
+        store.keep(&session, &Run { task, drawings, checked, jobs: &jobs, delivered: &delivered, poster });
     }
     conclude(context, session, diagnostics, is_current)
+}
+
+/// What a run makes, and from what.
+struct Making<'a> {
+    context: &'a Context,
+    args: &'a EmitArgs,
+    poster: Option<&'a Poster>,
+    store: Option<&'a Store>,
+    found: Option<Found>,
 }
 
 /// What came of a run.
 struct Made {
     asked: Asked,
+    /// The targets of which not enough was known.
     checked: Vec<CheckedTarget>,
     jobs: Vec<Job>,
     delivered: Vec<Delivered>,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Makes the programs, and writes, compares or prints them.
-///
-/// # Errors
-/// Why the arguments make no sense.
-fn make(
-    context: &Context,
-    session: &mut Session<'_>,
-    args: &EmitArgs,
-    poster: Option<&Poster>,
-) -> Result<Made, Box<str>> {
-    let task = Task::new(args);
-    let mut diagnostics = Vec::new();
-    let ask = if args.join.is_some() { Asked::in_order } else { Asked::new };
-    let asked = ask(context, session, &args.inputs, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
-    if task == Task::Print && args.join.is_none() && asked.targets.len() > 1 {
-        return Err("`-o -` takes one path: it would be several programs".into());
+impl Making<'_> {
+    /// Makes the programs of which not enough is known, and writes, compares or prints them.
+    ///
+    /// # Errors
+    /// Why the arguments make no sense.
+    fn make(&self, session: &mut Session<'_>) -> Result<Made, Box<str>> {
+        let Self { context, args, poster, store, found } = self;
+        let task = Task::new(args);
+        let mut diagnostics = Vec::new();
+        let asked = match args.join {
+            Some(_) => Asked::in_order(context, session, &args.inputs, &mut diagnostics),
+            None => Asked::new(context, session, *store, &args.inputs, found.as_ref(), &mut diagnostics),
+        };
+        let asked = asked.ok_or(NOTHING_TO_EMIT)?;
+        if task == Task::Print && args.join.is_none() && asked.targets.len() > 1 {
+            return Err("`-o -` takes one path: it would be several programs".into());
+        }
+        let (known, open) = known(session, *store, &asked.targets, task, &mut diagnostics);
+        let checked = session.check(&open);
+        if let Some(refusal) = options::missing(context, task, &checked) {
+            return Err(refusal.into());
+        }
+        diagnostics.extend(checked.iter().flat_map(|checked| store::found(session, checked)));
+        let maker = Maker { context, session, poster: *poster };
+        let jobs = match &args.join {
+            Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
+            None => {
+                let mut jobs = maker.jobs(&checked, &mut diagnostics);
+                jobs.extend(known);
+                in_order(&mut jobs, &asked.targets);
+                without_clashes(session, jobs, &mut diagnostics)
+            }
+        };
+        if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
+            return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
+        }
+        let means = Means { writing: options::writing(context), poster: *poster };
+        let delivered = deliver(session, &jobs, task, &means);
+        Ok(Made { asked, checked, jobs, delivered, diagnostics })
     }
-    let checked = session.check(&asked.targets);
-    if let Some(refusal) = options::missing(context, task, &checked) {
-        return Err(refusal.into());
+}
+
+/// Says, to whoever wants to know more, how much is as it was in an earlier run.
+fn tell_known(context: &Context, asked: &Asked, open: usize) {
+    let (paths, drawings) = (asked.targets.len(), asked.covered.len());
+    let known = [(paths - open, paths), (drawings - asked.drawings.read().count(), drawings)];
+    let phrases = [
+        context.choose("paths whose results still hold", "Pfade, deren Ergebnisse noch gelten"),
+        context.choose("drawings that are known", "Zeichnungen, die bekannt sind"),
+    ];
+    for (phrase, (known, all)) in phrases.iter().zip(known) {
+        context.printer.detail(format_args!("{phrase}: {known} / {all}"));
     }
-    diagnostics.extend(found(session, &checked));
-    let maker = Maker { context, session, poster };
-    let jobs = match &args.join {
-        Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
-        None => maker.jobs(&checked, &mut diagnostics),
-    };
-    if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
-        return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
+}
+
+/// The jobs of paths of which enough is known for the task, and the other paths.
+fn known(
+    session: &Session<'_>,
+    store: Option<&Store>,
+    targets: &[Target],
+    task: Task,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> (Vec<Job>, Vec<Target>) {
+    let db = session.db();
+    let (mut jobs, mut open) = (Vec::new(), Vec::new());
+    for target in targets {
+        let known = store.and_then(|store| store.path(target.file(db).path(db), target.name(db), task));
+        match known {
+            Some(Known { diagnostics: found, program }) => {
+                diagnostics.extend(found);
+                jobs.extend(program.map(|program| Job::known(*target, program)));
+            }
+            None => open.push(*target),
+        }
     }
-    let means = Means { writing: options::writing(context), poster };
-    let delivered = deliver_all(session, &jobs, task, &means);
-    Ok(Made { asked, checked, jobs, delivered, diagnostics })
+    (jobs, open)
+}
+
+/// Puts jobs in the order of their targets.
+fn in_order(jobs: &mut [Job], targets: &[Target]) {
+    let places: HashMap<Target, usize> = targets.iter().copied().zip(0..).collect();
+    jobs.sort_by_key(|job| places[&job.targets[0]]);
+}
+
+/// Does the jobs of which not everything is known; what became of each.
+fn deliver(session: &mut Session<'_>, jobs: &[Job], task: Task, means: &Means<'_>) -> Vec<Delivered> {
+    let open: Vec<&Job> = jobs.iter().filter(|job| job.known.is_none()).collect();
+    let mut made = deliver_all(session, &open, task, means).into_iter();
+    let delivered = jobs.iter().map(|job| match &job.known {
+        Some(known) => known.delivered(task),
+        None => made.next().unwrap_or_default(),
+    });
+    delivered.collect()
 }
 
 /// Says what was found; the status of the run.
@@ -192,25 +258,17 @@ pub(in crate::commands) fn write(
             return Vec::new();
         }
         let mut diagnostics = Vec::new();
-        let mut jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
+        let jobs = Maker { context, session, poster }.jobs(&checked, &mut diagnostics);
+        let mut jobs = without_clashes(session, jobs, &mut diagnostics);
         jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
         let means = Means { writing: options::writing(context), poster };
-        let delivered = deliver_all(session, &jobs, task, &means);
+        let delivered = deliver(session, &jobs, task, &means);
         show_all(context, &delivered, &mut diagnostics);
         diagnostics
     })
 }
 
 const NOTHING_TO_EMIT: &str = "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml";
-
-/// What is wrong with the paths, and with the drawings that they are made from.
-fn found(session: &Session<'_>, checked: &[CheckedTarget]) -> Vec<Diagnostic> {
-    let files = checked.iter().flat_map(|checked| &checked.files);
-    let mut found: Vec<Diagnostic> =
-        files.flat_map(|file| pathbuild_db::check_file(session.db(), *file)).cloned().collect();
-    found.extend(checked.iter().flat_map(|checked| &checked.diagnostics).cloned());
-    found
-}
 
 /// Says what became of the files of a path; whether all of them are as they should be.
 fn show(context: &Context, delivered: &Delivered) -> bool {

@@ -3,10 +3,11 @@
 //! It is looked for only where the run knows everything that could have written it: beside drawings of directories that were named, or in the
 //! output directory. A program says itself which path of which drawing it was made from.
 
-use std::collections::BTreeSet;
+use std::cell::LazyCell;
+use std::collections::{BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Db, SourceFile, path_names};
+use pathbuild_db::{Db, SourceFile};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::native::{Charset, comment};
@@ -15,16 +16,7 @@ use super::asked::Asked;
 use super::job::{Job, output_directory};
 use crate::context::Context;
 use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{Content, HEAD, OutputKind, Provenance, Session, title};
-
-/// What was looked at to know what is stale.
-#[derive(Default)]
-pub(super) struct Looked {
-    /// The directories, of which all names count.
-    pub(super) directories: Vec<Utf8PathBuf>,
-    /// The programs of which the beginning was read.
-    pub(super) programs: Vec<(Utf8PathBuf, Content)>,
-}
+use pathbuild_workspace::session::{HEAD, OutputKind, Provenance, Session, title};
 
 /// Reports what is stale, or removes it.
 pub(super) fn deal_with(
@@ -34,8 +26,7 @@ pub(super) fn deal_with(
     jobs: &[Job],
     poster: Option<&Poster>,
     is_removed: bool,
-) -> (Vec<Diagnostic>, Looked) {
-    let (stale, looked) = stale(context, session, asked, jobs, poster);
+) -> Vec<Diagnostic> {
     let deal_with = |path: Utf8PathBuf| {
         let name = path.file_name().unwrap_or_default();
         if !is_removed {
@@ -53,7 +44,7 @@ pub(super) fn deal_with(
             }
         }
     };
-    (stale.into_iter().filter_map(deal_with).collect(), looked)
+    stale(context, session, asked, jobs, poster).into_iter().filter_map(deal_with).collect()
 }
 
 fn stale(
@@ -62,38 +53,34 @@ fn stale(
     asked: &Asked,
     jobs: &[Job],
     poster: Option<&Poster>,
-) -> (Vec<Utf8PathBuf>, Looked) {
-    let mut looked = Looked::default();
+) -> Vec<Utf8PathBuf> {
     if asked.covered.is_empty() && asked.directories.is_empty() {
-        return (Vec::new(), looked);
+        return Vec::new();
     }
-    let writers = Writers::new(context, session, asked, jobs, poster.is_none());
-    let directories = match &context.settings.general.out_dir.value {
-        Some(directory) => vec![session.normal(directory)],
-        None => session.directories_below(&asked.directories),
-    };
+    let outputs: HashSet<Utf8PathBuf> = jobs.iter().flat_map(|job| outputs(job, poster.is_none())).collect();
+    let writers = LazyCell::new(|| Writers::new(context, session, asked, jobs));
+    let out_dir = context.settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
     let system = session.db().system();
     let mut stale = Vec::new();
-    for directory in directories {
-        let listing = system.list(&directory).unwrap_or_default();
-        let mut names: Vec<String> = listing.files.iter().map(str::to_owned).collect();
-        names.sort_unstable();
-        for name in names.iter().filter(|name| is_gcode(name, poster)) {
-            let path = directory.join(name);
-            if writers.outputs.contains(&path) {
-                continue;
-            }
+    for directory in out_dir.as_ref().map_or(&*asked.directories, std::slice::from_ref) {
+        let listing = system.list(directory).unwrap_or_default();
+        let mut programs: Vec<Utf8PathBuf> = listing
+            .files
+            .iter()
+            .filter(|name| is_gcode(name, poster))
+            .map(|name| directory.join(name))
+            .filter(|path| !outputs.contains(path))
+            .collect();
+        programs.sort_unstable();
+        for path in programs {
             let head = system.head(&path, HEAD).unwrap_or_default();
-            let content = if (1..HEAD).contains(&head.len()) { Content::of(&head) } else { Content::Unknown };
             let title = Provenance::of_program(&head).map(|(_, title)| title);
-            if title.is_some_and(|title| writers.have_left(&directory, &title, &names)) {
-                stale.push(path.clone());
+            if title.is_some_and(|title| writers.have_left(directory, &title, listing.files.iter())) {
+                stale.push(path);
             }
-            looked.programs.push((path, content));
         }
-        looked.directories.push(directory);
     }
-    (stale, looked)
+    stale
 }
 
 fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
@@ -105,8 +92,6 @@ fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
 
 /// What writes files.
 struct Writers {
-    /// Everything that the run's paths become.
-    outputs: BTreeSet<Utf8PathBuf>,
     /// Paths of covered drawings that the run makes nothing of, because they are wrong or no targets: what they became earlier may be
     /// theirs still.
     idle: BTreeSet<Title>,
@@ -127,7 +112,7 @@ fn without_case(title: &str) -> String {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job], is_native: bool) -> Self {
+    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
         let db = session.db();
         let place = |file: SourceFile| output_directory(context, session, file);
         let name = |file: SourceFile| file.path(db).file_name().unwrap_or_default();
@@ -137,28 +122,35 @@ impl Writers {
             .map(|job| (place(job.drawing(db)), without_case(&title(name(job.drawing(db)), &job.path))))
             .collect();
         let of_covered = asked.covered.iter().flat_map(|file| {
-            path_names(db, *file)
+            asked
+                .drawings
+                .names(session, *file)
                 .iter()
                 .map(|path| (place(*file), without_case(&title(name(*file), path.as_str()))))
         });
+        let covered: HashSet<SourceFile> = asked.covered.iter().copied().collect();
         let has_library = session.has_library();
         let library = if has_library { session.everything() } else { Vec::new() };
         Self {
-            outputs: jobs.iter().flat_map(|job| outputs(job, is_native)).collect(),
             idle: of_covered.filter(|title| !made.contains(title)).collect(),
             covered: asked.covered.iter().map(|file| drawing(*file)).collect(),
-            others: library.into_iter().filter(|file| !asked.covered.contains(file)).map(drawing).collect(),
+            others: library.into_iter().filter(|file| !covered.contains(file)).map(drawing).collect(),
             knows_all: has_library || context.settings.general.out_dir.value.is_none(),
         }
     }
 
     /// Whether nothing would write a program now that no path of the run becomes. `beside`: what lies in its directory.
-    fn have_left(&self, directory: &Utf8Path, title: &str, beside: &[String]) -> bool {
+    fn have_left<'n>(
+        &self,
+        directory: &Utf8Path,
+        title: &str,
+        mut beside: impl Iterator<Item = &'n str>,
+    ) -> bool {
         let title = without_case(&comment(title, Charset::Ascii));
         let Some((drawing, _)) = title[1..].rsplit_once(": ") else { return false };
         let named = |text: String| (directory.to_owned(), text);
         let drawing = named(format!("({drawing})"));
-        let is_beside = beside.iter().any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
+        let is_beside = beside.any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
         if self.idle.contains(&named(title.clone())) || self.others.contains(&drawing) {
             return false;
         }

@@ -15,13 +15,13 @@ use pathbuild_workspace::session::Session;
 /// Does jobs. Nothing of a path is written when something keeps one of its files from being written.
 pub(super) fn deliver_all(
     session: &mut Session<'_>,
-    jobs: &[Job],
+    jobs: &[&Job],
     task: Task,
     means: &Means<'_>,
 ) -> Vec<Delivered> {
     session.in_batches(jobs, BATCH, |session, jobs| {
         let delivered = write_behind(session, jobs, task, means).into_iter().zip(jobs);
-        let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &Job)| {
+        let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &&Job)| {
             delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
         };
         delivered.map(given_up).collect()
@@ -39,7 +39,7 @@ type Numbered = (usize, Vec<Output>);
 
 fn write_behind(
     session: &Session<'_>,
-    jobs: &[Job],
+    jobs: &[&Job],
     task: Task,
     means: &Means<'_>,
 ) -> Vec<Result<Delivered, Box<Diagnostic>>> {
@@ -53,7 +53,7 @@ fn write_behind(
     let write = move |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {
         made.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
     };
-    let numbered: Vec<(usize, &Job)> = jobs.iter().enumerate().collect();
+    let numbered: Vec<(usize, &Job)> = jobs.iter().copied().enumerate().collect();
     let (mut made, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = session.guarded(&numbered, |db, (index, job)| {
