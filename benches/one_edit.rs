@@ -90,7 +90,7 @@ fn settings(db: &mut Database) {
         text_limit: 65_536,
     };
     let lookup = Lookup { file_pattern: FilePattern::default(), search: vec!["parts".into()] };
-    let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), compatible: true };
+    let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     let reading = Reading::default();
     _ = Settings::new(db, reading, Arc::new(language), lookup, Vec::new(), fold, Limits::default());
 }

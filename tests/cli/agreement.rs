@@ -143,7 +143,7 @@ impl Asked {
             Arc::new(language()),
             Lookup { file_pattern: FilePattern::default(), search },
             restrict.collect(),
-            FoldOptions { feed: Some(100.0), sweep_height: None, compatible: false },
+            FoldOptions { feed: Some(100.0), sweep_height: None, ..FoldOptions::default() },
             Limits::default(),
         );
         Self { db, targets: BTreeMap::new() }

@@ -64,7 +64,7 @@ fn written(place: &Place, level: usize) -> String {
 }
 
 fn cuts(program: &str) -> usize {
-    program.lines().filter(|line| line.starts_with("G01 F")).count()
+    program.lines().filter(|line| line.starts_with("G01 F") && line.contains(" X")).count()
 }
 
 /// Ten levels of ten: a thousand million components.

@@ -82,7 +82,7 @@ fn settle(db: &Database) {
         join_tolerance: 0.0,
     };
     let lookup = Lookup { file_pattern: FilePattern::default(), search: Vec::new() };
-    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), compatible: false };
+    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     // A fuzzer would find what takes long only because it is much.
     let limits = Limits { moves: 20_000, ..Limits::default() };
     Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, limits);

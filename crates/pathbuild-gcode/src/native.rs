@@ -1,5 +1,6 @@
 //! Our own dialect: writing a program, its probing run and the file of probe values. (spec/60-gcode.md, spec/70-z-probes.md)
 
+mod arc_end;
 mod comment;
 mod correction;
 mod number;
@@ -8,9 +9,10 @@ mod program;
 mod read_back;
 mod statistics;
 
+pub(crate) use arc_end::{is_doubtful, is_point};
 pub use comment::transliterated;
 pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};
-pub use program::{Header, WriteOptions, program, program_in_parts};
+pub use program::{Header, WriteOptions, drawing_of_title, program, program_in_parts, title};
 pub use read_back::{is_read_back, read_back, read_probing_back};

@@ -364,7 +364,7 @@ fn an_older_line_must_fit_every_formula() {
 }
 
 /// A program that says what it was made with.
-const MADE: &str = "%\n(pathbuild)\n(#51: [5.000 -15.000] T=2.000 X12.000 Y3.000)\nG01 X1.000(=#51)\n";
+const MADE: &str = "%\n(pathbuild)\n(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000)\nG01 X1.000(=#51)\n";
 
 #[test]
 fn a_value_file_must_be_of_the_same_probes_as_the_program() {
@@ -394,9 +394,9 @@ fn a_probe_that_the_program_was_made_without_is_refused() {
 
 #[test]
 fn only_the_header_says_what_a_program_was_made_with() {
-    let later = "%\nG00 X1.000(=#51)\n(#51: [5.000 -15.000] T=2.000)\n";
+    let later = "%\nG00 X1.000(=#51)\n(Probe #51: [5.000 -15.000] T=2.000)\n";
     assert!(run(later, VALUES).is_ok());
-    assert!(run("%\n(#51: [5.000 -15.000] T=2.000)\nG00 X1.000(=#51)\n", VALUES).is_err());
+    assert!(run("%\n(Probe #51: [5.000 -15.000] T=2.000)\nG00 X1.000(=#51)\n", VALUES).is_err());
 }
 
 const TWO: &str = "([0.000 0.000]/T=2.000) #51=\n([1.000 0.000]/T=2.000) #52=\n";
@@ -465,7 +465,7 @@ fn grid(off: impl Fn(f64, f64) -> f64) -> (String, String) {
         let (x, y) = (f64::from(probe % 3) - 1.0, f64::from(probe / 3) - 1.0);
         let place = format!("[{:.3} {:.3}]", x * 100.0, y * 100.0);
         let at = format!("X{:.3} Y{:.3}", x * 100.0, y * 100.0);
-        writeln!(program, "(#{}: {place} T=5.000 {at})", 51 + probe).unwrap();
+        writeln!(program, "(Probe #{}: {place} T=5.000 {at})", 51 + probe).unwrap();
         writeln!(values, "({place}/T=5.000) #{}={:.3}", 51 + probe, 5.0 + off(x, y)).unwrap();
     }
     (program + "G01 X1.000(=#51)\n", values)
@@ -499,7 +499,7 @@ fn tilted_and_bent_plates_have_no_odd_probes() {
 fn programs_that_do_not_say_where_probes_are_have_none_either() {
     let (program, values) = grid(|x, y| if (x, y) == (0.0, 0.0) { 0.9 } else { 0.0 });
     let without: String =
-        program.lines().filter(|line| !line.starts_with("(#59")).collect::<Vec<_>>().join("\n");
+        program.lines().filter(|line| !line.starts_with("(Probe #59")).collect::<Vec<_>>().join("\n");
     assert_eq!(run(&program, &values).unwrap().warnings.len(), 1);
     assert!(run(without, &values).is_err());
     let nowhere: String =

@@ -217,10 +217,10 @@ fn program() -> Program {
         steps: vec![
             emitted(Emitted::Sweep { to: Xy::new(third, -third) }),
             emitted(Emitted::Lift { z: height(5.0) }),
-            emitted(Emitted::Drill { z: height(4.0 + third) }),
+            emitted(Emitted::Drill { feed: 150.0, z: height(4.0 + third) }),
             Step::Comment(question),
             emitted(Emitted::Line { feed: 80.0, to: Xy::new(10.0 + third, 0.0), z: height(4.0) }),
-            emitted(Emitted::Drill { z: height(3.0) }),
+            emitted(Emitted::Drill { feed: 80.0, z: height(3.0) }),
             emitted(Emitted::Arc {
                 feed: 60.0,
                 clockwise: true,
@@ -234,8 +234,8 @@ fn program() -> Program {
     }
 }
 
-const NATIVE: &str = "%\nF150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z20.000\nG00 X0.000 Y0.000\nG00 X0.333 Y-0.333\nG00 Z5.000\n\
-    G01 Z4.333\n(Q:ready)\nG01 F80.000 X10.333 Y0.000 Z4.000\nG01 Z3.000\nG02 F60.000 I-0.333 J0.333 X10.333 Y0.000 Z2.000\n\
+const NATIVE: &str = "%\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z20.000\nG00 X0.000 Y0.000\nG00 X0.333 Y-0.333\nG00 Z5.000\n\
+    G01 F150.000 Z4.333\n(Q:ready)\nG01 F80.000 X10.333 Y0.000 Z4.000\nG01 F80.000 Z3.000\nG02 F60.000 I-0.333 J0.333 X10.333 Y0.000 Z2.000\n\
     G00 Z20.000\nM30\n%\n";
 
 #[test]

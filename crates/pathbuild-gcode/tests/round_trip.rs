@@ -49,7 +49,7 @@ fn program(sketches: &[Sketch]) -> Program {
         let to = match *sketch {
             Sketch::Sweep(x, y) => Move::Sweep { to: Xy::new(x, y) },
             Sketch::Lift(z) => Move::Lift { z: height(z) },
-            Sketch::Drill(z) => Move::Drill { z: height(z) },
+            Sketch::Drill(z) => Move::Drill { feed: 80.0, z: height(z) },
             Sketch::Line(x, y, z, feed) => Move::Line { feed, to: Xy::new(x, y), z: height(z) },
             Sketch::Arc(radius, direction, angle, clockwise, z, feed) => {
                 length = radius * angle;
@@ -64,7 +64,7 @@ fn program(sketches: &[Sketch]) -> Program {
                 Move::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
             }
         };
-        if let Move::Lift { z } | Move::Drill { z } | Move::Line { z, .. } | Move::Arc { z, .. } = to {
+        if let Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } = to {
             height_now = z.z;
         }
         if let Move::Sweep { to } | Move::Line { to, .. } | Move::Arc { to, .. } = to {
@@ -160,9 +160,8 @@ proptest! {
 fn a_written_program_is_recognised() {
     let text = text_of(&program(&[Sketch::Lift(5.0), Sketch::Drill(1.0)]));
     assert_eq!(guess(text.as_bytes()).dialect, Native);
-    assert!(
-        interpret(text.as_bytes(), LinuxCnc, &Options::default()).problems.iter().any(Diagnostic::is_error)
-    );
+    let as_is = interpret(text.as_bytes(), LinuxCnc, &Options::default());
+    assert!(!as_is.problems.iter().any(Diagnostic::is_error), "{:?}", as_is.problems);
 }
 
 /// A line, an arc and a hole.
@@ -208,7 +207,7 @@ fn a_probing_run_is_read_back() {
         at: Xy::new(x, 3.0),
         drawn_at: Xy::new(0.0, 0.0),
         height: 5.0,
-        feed: None,
+        feed: 40.0,
         label: None,
     };
     let program = Program { probes: vec![probe(0.0), probe(7.0)], ..small() };
@@ -218,7 +217,7 @@ fn a_probing_run_is_read_back() {
         rapid: 1000.0,
         correction: pathbuild_toolpath::Correction::default(),
     };
-    let text = native::probing_program(&program, &Header::default(), 40.0, &options);
+    let text = native::probing_program(&program, &Header::default(), &options);
     native::read_probing_back(&text, &program.probes).expect("as written");
     let elsewhere = text.replace("G00 X7.000 Y3.000", "G00 X7.001 Y3.000");
     assert!(elsewhere != text && native::read_probing_back(&elsewhere, &program.probes).is_err());

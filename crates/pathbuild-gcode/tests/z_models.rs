@@ -169,7 +169,7 @@ fn upright(step: Move, length: f64) -> Step {
 }
 
 fn program(points: &[(f64, f64)], steps: Vec<Step>) -> Program {
-    let probe = |at: Xy| ProbePoint { at, drawn_at: at, height: 5.0, feed: None, label: None };
+    let probe = |at: Xy| ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label: None };
     let probes = places(points).into_iter().map(probe).collect();
     Program {
         path: "1234.1P".into(),
@@ -213,7 +213,7 @@ fn better_models_correct_a_move_at_its_own_end() {
         line((10.0, 0.0), 1.0, (0.0, 0.0)),
         upright(Move::Lift { z: Height { z: 20.0, at: Xy::new(0.0, 0.0) } }, 19.0),
         upright(Move::Sweep { to: Xy::new(5.0, 0.0) }, 5.0),
-        upright(Move::Drill { z: Height { z: 2.5, at: Xy::new(5.0, 0.0) } }, 17.5),
+        upright(Move::Drill { feed: 150.0, z: Height { z: 2.5, at: Xy::new(5.0, 0.0) } }, 17.5),
         arc((-5.0, 0.0), (0.0, 5.0), 0.25, (false, 90.0)),
     ];
     let program = program(&[(0.0, 0.0), (10.0, 0.0), (0.0, 10.0)], steps);
@@ -222,7 +222,7 @@ fn better_models_correct_a_move_at_its_own_end() {
         "G01 F200.000 X10.000 Y0.000 Z1.000(=1.000+1.000*[#52-5.000])",
         "G00 Z20.000(=20.000+1.000*[#52-5.000])",
         "G00 X5.000 Y0.000",
-        "G01 Z2.500(=2.500+0.500*[#51-5.000]+0.500*[#52-5.000])",
+        "G01 F150.000 Z2.500(=2.500+0.500*[#51-5.000]+0.500*[#52-5.000])",
         "G03 F200.000 I-5.000 J0.000 X0.000 Y5.000 Z0.250(=0.250+0.500*[#51-5.000]+0.500*[#53-5.000])",
     ];
     assert_eq!(moves(&program, uncut(ZModel::Tin)), expected);
@@ -385,7 +385,7 @@ fn statistics_count_a_cut_move_once() {
 fn the_header_says_what_the_program_was_made_with() {
     let mut program = program(&[(12.0, 3.0)], Vec::new());
     program.probes[0].drawn_at = Xy::new(5.0, -15.0);
-    assert!(written(&program, TIN).contains("\n(#51: [5.000 -15.000] T=5.000 X12.000 Y3.000)\n"));
+    assert!(written(&program, TIN).contains("\n(Probe #51: [5.000 -15.000] T=5.000 X12.000 Y3.000)\n"));
 }
 
 #[test]
@@ -400,7 +400,7 @@ fn milling_outside_the_probes_is_found() {
         assert!(found.0 == 300.0 && (found.2 - 0.002).abs() < 1e-9);
         let two = vec![line((-3.0, -4.0), 1.0, (0.0, 0.0)), line((301.0, 100.0), 1.0, (-3.0, -4.0))];
         assert_eq!(outside(model, two), Some((-3.0, -4.0, 5.0)));
-        let drilled = upright(Move::Drill { z: Height { z: 1.0, at: Xy::origin() } }, 4.0);
+        let drilled = upright(Move::Drill { feed: 150.0, z: Height { z: 1.0, at: Xy::origin() } }, 4.0);
         let beside = upright(Move::Sweep { to: Xy::new(-7.0, 0.0) }, 7.0);
         assert_eq!(outside(model, vec![beside, drilled]), Some((-7.0, 0.0, 7.0)));
         assert_eq!(

@@ -189,6 +189,7 @@ impl<'a> Binder<'a> {
                 height: thickness + self.value(&scope, Letter::H).unwrap_or_default(),
                 feed: self.value(&scope, Letter::Z),
                 label: values.text(Letter::L).map(Into::into),
+                text: marker.text,
             });
         }
     }

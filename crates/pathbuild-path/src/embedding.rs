@@ -3,12 +3,14 @@
 
 mod judge;
 mod near;
+mod raised;
 mod restriction;
 mod signature;
 mod sweep;
 
 pub use judge::Judge;
 pub use near::near_names;
+pub use raised::ProbeTop;
 pub use restriction::Restriction;
 pub use signature::{PathHeader, PathSignature, SubpathCall};
 pub use sweep::SweepLimits;

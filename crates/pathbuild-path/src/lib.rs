@@ -41,7 +41,9 @@ pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
-pub use embedding::{Judge, PathHeader, PathSignature, Restriction, SubpathCall, SweepLimits, near_names};
+pub use embedding::{
+    Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, near_names,
+};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use letter::Letter;

@@ -93,6 +93,8 @@ pub struct Probe {
     pub feed: Option<f64>,
     /// L.
     pub label: Option<Box<str>>,
+    /// Its own text, see [`Drawn::texts`].
+    pub(crate) text: Option<TextId>,
 }
 
 /// What the walk goes along.

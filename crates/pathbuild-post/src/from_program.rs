@@ -4,14 +4,11 @@ use std::borrow::Borrow;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep, Xy};
+use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep};
 
 use super::job::{Entry, Job, Operation, describe};
 use super::step::{Arc, Hole, HoleKind, Step};
 use super::tools::{Fitted, Fitter, ToolTable};
-
-/// F before any move has one, mm/min. (spec/60-gcode.md)
-const FIRST_FEED: f64 = 150.0;
 
 /// An arc that is shorter, in mm, may end, as a post prints it, where it begins: that would be a full circle, which cuts off the support
 /// bars beside it. As a line it is the same but for less than any machine can tell.
@@ -54,7 +51,6 @@ struct Builder<'a> {
     embedded: Vec<&'a str>,
     operations: Vec<Operation>,
     at: [f64; 3],
-    feed: f64,
     /// Upper face of the material of the elements since the last step.
     surface: Option<f64>,
 }
@@ -63,7 +59,7 @@ impl<'a> Builder<'a> {
     fn new(program: &'a Program, fitted: Fitted, pecks: bool) -> Self {
         let at = [0.0, 0.0, program.sweep_height];
         let (embedded, operations) = (Vec::new(), Vec::new());
-        Self { program, fitted, pecks, embedded, operations, at, feed: FIRST_FEED, surface: None }
+        Self { program, fitted, pecks, embedded, operations, at, surface: None }
     }
 
     fn run(mut self) -> Vec<Operation> {
@@ -112,7 +108,8 @@ impl<'a> Builder<'a> {
             (ProgramStep::Move { to: Move::Lift { z }, .. }, rest) => (z.z, rest),
             _ => (self.at[2], steps),
         };
-        let (ProgramStep::Move { to: Move::Drill { z: bottom }, .. }, rest) = steps.split_first()? else {
+        let (ProgramStep::Move { to: Move::Drill { feed, z: bottom }, .. }, rest) = steps.split_first()?
+        else {
             return None;
         };
         // The lift itself is left to whoever comes next: a step to where the tool is already.
@@ -137,7 +134,7 @@ impl<'a> Builder<'a> {
         for remark in remarks {
             self.comment(remark, &[]);
         }
-        let hole = Hole { at: [x, y], level, retract, bottom: bottom.z, exit, feed: Some(self.feed), kind };
+        let hole = Hole { at: [x, y], level, retract, bottom: bottom.z, exit, feed: Some(*feed), kind };
         let operation = self.operation();
         drop_way_between_holes(&mut operation.steps, &hole);
         operation.steps.push(Step::Hole(hole));
@@ -151,30 +148,25 @@ impl<'a> Builder<'a> {
         let step = match *to {
             Move::Sweep { to } => return self.rapid([to.x, to.y, from[2]]),
             Move::Lift { z } => return self.lift(z.z),
-            Move::Drill { z } => {
+            Move::Drill { feed, z } => {
                 self.at[2] = z.z;
-                Step::Feed { to: self.at.into(), feed: Some(self.feed) }
+                Step::Feed { to: self.at.into(), feed: Some(feed) }
             }
             Move::Line { feed, to, z } => {
-                self.cut(feed, to, z.z);
+                self.at = [to.x, to.y, z.z];
                 Step::Feed { to: self.at.into(), feed: Some(feed) }
             }
             Move::Arc { feed, to, z, .. } if length < SHORTEST_ARC => {
-                self.cut(feed, to, z.z);
+                self.at = [to.x, to.y, z.z];
                 Step::Feed { to: self.at.into(), feed: Some(feed) }
             }
             Move::Arc { feed, clockwise, centre, to, z, .. } => {
-                self.cut(feed, to, z.z);
+                self.at = [to.x, to.y, z.z];
                 let centre = [from[0] + centre.x, from[1] + centre.y, 0.0];
                 Step::Arc(Arc { clockwise, from, centre, to: self.at, feed: Some(feed) })
             }
         };
         self.operation_from(from).steps.push(step);
-    }
-
-    fn cut(&mut self, feed: f64, to: Xy, z: f64) {
-        self.feed = feed;
-        self.at = [to.x, to.y, z];
     }
 
     fn lift(&mut self, z: f64) {

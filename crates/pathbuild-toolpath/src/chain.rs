@@ -76,7 +76,8 @@ impl<P: Parts> Fold<'_, P> {
             }
             let (from, to) = strand.ends(run.is_backwards);
             let entry = strand.entry(z, self.compatible);
-            self.travel(Tip { at: from, z: entry }, place.surface, place.sweep_height, place.feed);
+            let feed = self.entry_feed(place, strand);
+            self.travel(Tip { at: from, z: entry }, place.surface, place.sweep_height, feed);
             self.edge(place, strand, z, run.is_backwards);
             tip = Tip { at: to, z };
         }
@@ -109,8 +110,13 @@ impl<P: Parts> Fold<'_, P> {
     fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
         let strand = &strands[run.strand];
         let z = strand.depths[run.edge];
-        self.plunge(strand.entry(z, self.compatible), place.surface, place.feed);
+        self.plunge(strand.entry(z, self.compatible), place.surface, self.entry_feed(place, strand));
         self.edge(place, strand, z, run.is_backwards);
+    }
+
+    /// The feed of a plunge to where an edge begins.
+    fn entry_feed(&self, place: &Place<'_>, strand: &Strand<'_>) -> f64 {
+        if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
 
     /// Mills a segment once at a depth, its bars spared.

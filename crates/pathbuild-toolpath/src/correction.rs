@@ -110,7 +110,7 @@ fn settle(tool: Tool) -> Step {
 fn milled(step: &Step) -> Option<Xy> {
     match step {
         Step::Move { to: Move::Line { to, .. } | Move::Arc { to, .. }, .. } => Some(*to),
-        Step::Move { to: Move::Drill { z: Height { at, .. } }, .. } => Some(*at),
+        Step::Move { to: Move::Drill { z: Height { at, .. }, .. }, .. } => Some(*at),
         _ => None,
     }
 }

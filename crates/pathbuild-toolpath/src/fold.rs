@@ -1,10 +1,12 @@
 //! The fold: one walk over a path and what it embeds that carries the tool's position.
 
-use pathbuild_path::approx::{coincide, is_nothing, near};
+use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
 use pathbuild_path::{Hole, Item, Origin, Path, PlacedSubpath, Placement, SegmentKind, Sweep, Walked, Xy};
 
 use crate::probes;
-use crate::program::{Class, Comment, Count, ElementKind, Height, Move, Names, ProbePoint, Program, Step};
+use crate::program::{
+    Class, Comment, Count, ElementKind, FIRST_FEED, Height, Move, Names, ProbePoint, Program, Step,
+};
 
 /// The paths that are joined: the emitted one and all it embeds.
 pub trait Parts {
@@ -31,6 +33,8 @@ pub struct FoldOptions {
     pub feed: Option<f64>,
     /// --sweep-height: S of the emitted path in mm; likewise.
     pub sweep_height: Option<f64>,
+    /// --probe-feed: Z in mm/min. Probes without it fall back on feeds.
+    pub probe_feed: Option<f64>,
     /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (spec/60-gcode.md, "Compatible")
     pub compatible: bool,
 }
@@ -46,12 +50,16 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
         tool: path.tool,
         sweep_height,
         thickness: path.thickness,
+        compatible: options.compatible,
         ..Program::default()
     };
     let mut fold = Fold {
         parts,
         feed: options.feed.unwrap_or_default(),
+        probe_feed: options.probe_feed,
         compatible: options.compatible,
+        clearance: sweep_height,
+        last_feed: FIRST_FEED,
         tip: Tip { at: Xy::origin(), z: program.start_height() },
         steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MOST_FORESEEN)),
         names: Names::default(),
@@ -78,7 +86,12 @@ pub(crate) struct Tip {
 pub(crate) struct Fold<'a, P> {
     parts: &'a P,
     feed: f64,
+    probe_feed: Option<f64>,
     pub(crate) compatible: bool,
+    /// S of the emitted path: from there on nothing is in the way.
+    clearance: f64,
+    /// F of the last move that had one.
+    last_feed: f64,
     pub(crate) tip: Tip,
     steps: Vec<Step>,
     names: Names,
@@ -114,11 +127,12 @@ impl<'a, P: Parts> Fold<'a, P> {
             sweep_height: raised + sweep_height,
             feed: path.feed.unwrap_or(self.feed),
         };
+        let path_feed = path.feed.filter(|_| !self.compatible);
         self.probes.extend(path.probes.iter().map(|probe| ProbePoint {
             at: placement.place(probe.at),
             drawn_at: probe.at,
             height: probe.height + raised,
-            feed: probe.feed,
+            feed: probe.feed.or(self.probe_feed).or(path_feed).unwrap_or(self.feed),
             label: probe.label.clone(),
         }));
         let origin = |segment: usize| path.origin(&path.segments[segment]);
@@ -195,7 +209,9 @@ impl<'a, P: Parts> Fold<'a, P> {
         if !near(to, surface) {
             let z = Height { z: to, at: self.tip.at };
             let count = Count { class: Class::Drilling, length: (surface - to).abs(), feed: Some(feed) };
-            self.step(Move::Drill { z }, count, Tip { z: to, ..self.tip });
+            // The original tool names no feed, so its plunges run at the last one.
+            let feed = if self.compatible { self.last_feed } else { feed };
+            self.step(Move::Drill { feed, z }, count, Tip { z: to, ..self.tip });
         }
     }
 
@@ -210,7 +226,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.step(Move::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
-    /// `G00 X Y`. Of several with nothing but comments between only the last is kept.
+    /// `G00 X Y`. Of several with nothing but comments between only the last is kept, where nothing can be in the way.
     pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
         if let Some(index) = self.mergeable.take() {
             self.steps.remove(index);
@@ -218,12 +234,16 @@ impl<'a, P: Parts> Fold<'a, P> {
         let index = self.steps.len();
         let count = Count { class: Class::Sweep, length, feed: None };
         self.step(Move::Sweep { to }, count, Tip { at: to, ..self.tip });
-        self.mergeable = Some(index);
+        let is_clear = self.compatible || at_least(self.tip.z, self.clearance);
+        self.mergeable = is_clear.then_some(index);
     }
 
     /// Writes a move down.
     pub(crate) fn step(&mut self, to: Move, count: Count, tip: Tip) {
         self.mergeable = None;
+        if let Move::Line { feed, .. } | Move::Arc { feed, .. } = to {
+            self.last_feed = feed;
+        }
         self.steps.push(Step::Move { to, count });
         self.tip = tip;
     }

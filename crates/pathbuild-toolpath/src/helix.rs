@@ -94,7 +94,7 @@ impl<P: Parts> Fold<'_, P> {
         self.step(half, count, Tip { at: to, z });
     }
 
-    /// Below D, full circles with bars, pass by pass down to B. Gives the depth of the last.
+    /// Below D, full circles with bars, pass by pass down to B. Gives the depth of the last, or of the spiral where there is none.
     fn circles_with_bars(
         &mut self,
         place: &Place<'_>,
@@ -106,10 +106,11 @@ impl<P: Parts> Fold<'_, P> {
         let length = 2.0 * PI * circle.radius;
         let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
-        let mut z = done;
+        // The original tool goes on counting where its spiral ended, which may be below B already.
+        let mut z = if self.compatible { done } else { high };
         while above(z, low) {
             self.checkpoint();
-            z = (z - infeed).max(low);
+            z = if above(z - infeed, low) { z - infeed } else { low };
             for section in plan.sections(&circle.curve(), z, high) {
                 self.mill(&section, place.surface, circle.feed);
             }

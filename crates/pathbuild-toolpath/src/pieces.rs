@@ -54,7 +54,7 @@ impl Cut {
     pub(crate) fn end(&self) -> Tool {
         match self.to {
             Move::Sweep { to } => Tool { at: to, ..self.from },
-            Move::Lift { z } | Move::Drill { z } => Tool { z: z.z, ..self.from },
+            Move::Lift { z } | Move::Drill { z, .. } => Tool { z: z.z, ..self.from },
             Move::Line { to, z, .. } | Move::Arc { to, z, .. } => Tool { at: to, z: z.z },
         }
     }
@@ -66,7 +66,7 @@ impl Cut {
         let moved = match self.to {
             Move::Sweep { .. } => Move::Sweep { to },
             Move::Lift { .. } => Move::Lift { z },
-            Move::Drill { .. } => Move::Drill { z },
+            Move::Drill { feed, .. } => Move::Drill { feed, z },
             Move::Line { feed, .. } => Move::Line { feed, to, z },
             Move::Arc { feed, clockwise, centre, is_spiral, .. } => {
                 let centre = (self.from.at + centre.coords - self.after(number - 1).at).into();

@@ -21,6 +21,8 @@ pub struct Program {
     pub sweep_height: f64,
     /// Upper face T of the material in mm.
     pub thickness: f64,
+    /// Whether it is the program of `PathDxf2GCode`, to be written in its form. (spec/60-gcode.md, "Compatible")
+    pub compatible: bool,
     /// Texts that steps refer to.
     pub names: Names,
     /// The moves and comments in order. Sweeps are merged; nothing follows the last.
@@ -38,8 +40,8 @@ pub struct ProbePoint {
     pub drawn_at: Xy,
     /// The height that is expected there, mm.
     pub height: f64,
-    /// Probing feed in mm/min, where the drawing gives one.
-    pub feed: Option<f64>,
+    /// Probing feed in mm/min.
+    pub feed: f64,
     /// L.
     pub label: Option<Box<str>>,
 }
@@ -50,6 +52,9 @@ impl Program {
         self.sweep_height * (1.0 + 0.000_002)
     }
 }
+
+/// The feed in mm/min at which a compatible program begins: its header sets it, and its plunges name none.
+pub(crate) const FIRST_FEED: f64 = 150.0;
 
 /// One move or comment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +72,8 @@ pub enum Move {
     Sweep { to: Xy },
     /// `G00 Z`: rapid up or down.
     Lift { z: Height },
-    /// `G01 Z` without F: down at the feed last set.
-    Drill { z: Height },
+    /// `G01 F Z`: down into the material.
+    Drill { feed: f64, z: Height },
     /// `G01 F X Y Z`.
     Line { feed: f64, to: Xy, z: Height },
     /// `G02`/`G03 F I J X Y Z`; `centre` is relative to where the arc begins, as I and J are. `is_spiral`: a half circle of a helical

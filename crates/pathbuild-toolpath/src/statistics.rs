@@ -74,6 +74,6 @@ impl Total {
 fn height_after(to: &Move) -> Option<f64> {
     match to {
         Move::Sweep { .. } => None,
-        Move::Lift { z } | Move::Drill { z } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z.z),
+        Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z.z),
     }
 }

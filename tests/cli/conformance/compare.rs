@@ -8,7 +8,7 @@ use std::process::Output;
 use tempfile::TempDir;
 
 use super::files_below;
-use super::recorded::{Run, What};
+use super::recorded::{Form, Run, What};
 use super::reduced::{is_same_line, reduced};
 use crate::support::program;
 
@@ -21,11 +21,13 @@ pub(crate) fn differences(run: &Run) -> Vec<String> {
 }
 
 fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
-    let expected = run.case.join("expected").join(run.number.to_string());
+    let expected = run.case.join(run.form.folder()).join(run.number.to_string());
+    let compatible = (run.form == Form::Recorded).then_some("--compatible");
     let place = copy_of(&run.case);
     let before = files_below(place.path());
     let output = program()
-        .args([&arguments[0], "--compatible", "--no-cache", "--format=json"])
+        .args([&arguments[0], "--no-cache", "--format=json"])
+        .args(compatible)
         .args(&arguments[1..])
         .current_dir(place.path())
         .output()
@@ -74,7 +76,7 @@ fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
 fn copy_of(case: &Path) -> TempDir {
     let place = TempDir::new().unwrap();
     for name in files_below(case) {
-        if name != "case.json" && !name.starts_with("expected/") {
+        if name != "case.json" && !name.starts_with("expected/") && !name.starts_with("default/") {
             let copy = place.path().join(&name);
             fs::create_dir_all(copy.parent().unwrap()).unwrap();
             fs::write(copy, fs::read(case.join(&name)).unwrap()).unwrap();

@@ -15,8 +15,29 @@ pub(crate) struct Run {
     pub(crate) number: usize,
     /// What is to be done.
     pub(crate) what: What,
+    /// Whose results are expected.
+    pub(crate) form: Form,
     /// Why what is expected is not what was recorded.
     by_specification: Option<String>,
+}
+
+/// Whose results a run is held against.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// Those of the original tool: `--compatible`.
+    Recorded,
+    /// Those of the specification, without that option.
+    Default,
+}
+
+impl Form {
+    /// Where a case's results of this form are.
+    pub(crate) fn folder(self) -> &'static str {
+        match self {
+            Self::Recorded => "expected",
+            Self::Default => "default",
+        }
+    }
 }
 
 /// What a run does.
@@ -48,6 +69,9 @@ impl fmt::Display for Run {
             What::Compile(arguments) => write!(f, " (pathbuild {})", arguments.join(" "))?,
             What::Adjust(_) => write!(f, " (pathbuild adjust)")?,
         }
+        if self.form == Form::Default {
+            f.write_str(" (without --compatible)")?;
+        }
         match &self.by_specification {
             Some(reason) => write!(f, " (by the specification: {reason})"),
             None => Ok(()),
@@ -77,11 +101,12 @@ fn runs_in(folder: &Path) -> Vec<Run> {
 fn runs_of(case: &Path) -> Vec<Run> {
     let text = fs::read_to_string(case.join("case.json")).unwrap();
     let file: CaseFile = serde_json::from_str(&text).unwrap();
-    let run = |number, what| Run { case: case.to_owned(), number, what, by_specification: None };
-    let adjusts = file.max_correction.map(|rate| run(0, What::Adjust(rate)));
-    let compiles = file.runs.iter().enumerate().filter_map(|(number, arguments)| {
-        let arguments = translate(arguments)?;
-        case.join("expected").join(number.to_string()).exists().then(|| run(number, What::Compile(arguments)))
+    let run = |number, what, form| Run { case: case.to_owned(), number, what, form, by_specification: None };
+    let adjusts = file.max_correction.map(|rate| run(0, What::Adjust(rate), Form::Recorded));
+    let compiles = file.runs.iter().enumerate().flat_map(|(number, arguments)| {
+        let forms = [Form::Recorded, Form::Default].into_iter();
+        let forms = forms.filter(move |form| case.join(form.folder()).join(number.to_string()).exists());
+        forms.filter_map(move |form| Some(run(number, What::Compile(translate(arguments)?), form)))
     });
     adjusts.into_iter().chain(compiles).collect()
 }

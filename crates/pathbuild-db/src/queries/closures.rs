@@ -7,7 +7,7 @@ use std::slice;
 
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{Bindings, PathName, PathSignature};
+use pathbuild_path::{Bindings, PathName, PathSignature, SubpathCall};
 use pathbuild_toolpath::FoldOptions;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -83,7 +83,8 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
 /// The closure of a checked path that embeds nothing and has no findings, as nearly all are.
 fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
-    let is_lone = *target.role(db) == Role::Checked && own.is_clean() && !own.has_subpaths();
+    let has_raised = own.signature.as_ref().is_some_and(|it| !it.raised_probes.is_empty());
+    let is_lone = *target.role(db) == Role::Checked && own.is_clean() && !own.has_subpaths() && !has_raised;
     let is_within = own.moves <= limits.moves && limits.paths > 0;
     let reached = vec![Reached { instance: root, depth: 0 }];
     let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
@@ -135,6 +136,8 @@ struct Walk<'db> {
     moves: u64,
     /// Whether a path at a depth has errors, itself or below: the depth counts since it may be too deep there.
     visited: FxHashMap<(Instance<'db>, u32), bool>,
+    /// The highest that a path and all that it embeds stand, in mm above the plane that it lies on.
+    tops: FxHashMap<Instance<'db>, f64>,
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
     stack: Vec<Frame<'db>>,
@@ -161,6 +164,7 @@ impl<'db> Walk<'db> {
             known: FxHashMap::default(),
             moves: 0,
             visited: FxHashMap::default(),
+            tops: FxHashMap::default(),
             seen: FxHashSet::default(),
             stack: Vec::new(),
             is_full: false,
@@ -198,7 +202,38 @@ impl<'db> Walk<'db> {
         for embedding in embeds(self.db, instance) {
             has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);
         }
+        has_errors |= self.visit_raised(instance, signature, depth);
         has_errors
+    }
+
+    /// Holds what H raises against the sweeps of a path; whether there are errors.
+    fn visit_raised(&mut self, instance: Instance<'db>, signature: &PathSignature, depth: u32) -> bool {
+        let calls = signature.subpaths.iter().zip(embeds(self.db, instance));
+        let raised = calls.filter_map(|(call, embedding)| match &embedding.outcome {
+            Outcome::Found { child, .. } => Some((call, call.subpath.height + self.tops.get(child)?)),
+            _ => None,
+        });
+        let raised: Vec<(&SubpathCall, f64)> = raised.collect();
+        let top = raised.iter().map(|(_, top)| *top).fold(signature.own_top(), f64::max);
+        self.tops.insert(instance, top);
+        let Some(height) = self.sweep_height(signature, depth).filter(|_| !self.options.compatible) else {
+            return false;
+        };
+        let mut problems = signature.raised_probe_problems(height);
+        let of_subpath =
+            |(call, top): &(&SubpathCall, f64)| signature.raised_subpath_problem(call, height, *top);
+        problems.extend(raised.iter().filter_map(of_subpath));
+        self.report_all(instance, &problems)
+    }
+
+    /// S of a path in its role, where somebody says it: a path that is checked by itself may be emitted with another than T + O.
+    fn sweep_height(&self, signature: &PathSignature, depth: u32) -> Option<f64> {
+        let fallback = match (depth, self.is_emitted) {
+            (0, true) => self.options.sweep_height,
+            (0, false) => None,
+            _ => Some(signature.thickness + signature.tool),
+        };
+        signature.sweep_height.or(fallback)
     }
 
     /// What is wrong with S of a path in its role. Where nobody says S or F and it is needed, that is noted.

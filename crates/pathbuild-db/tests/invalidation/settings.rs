@@ -34,7 +34,7 @@ const VALUES: [&str; 4] = ["path component", "path project", "chains component",
 fn another_feed_reads_no_drawing_again() {
     let mut world = world();
     let before = world.outcome("project");
-    let fold = FoldOptions { feed: Some(101.0), sweep_height: Some(20.0), compatible: true };
+    let fold = FoldOptions { feed: Some(101.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     let settings = Settings::get(&world.db);
     settings.set_fold(&mut world.db).to(fold);
     world.expect(

@@ -52,7 +52,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         file_pattern: FilePattern::default(),
         search: search.iter().map(Utf8PathBuf::from).collect(),
     };
-    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), compatible: true };
+    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, Limits::default());
 }
 

@@ -99,6 +99,13 @@ messages! {
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben, oder sweep-height erhöhen",
     }
+    /// Material or a probe that H raises as high as rapid moves run.
+    RAISED_INTO_SWEEPS: ParameterOutOfRange {
+        en: "what stands here reaches up to {limit}, and sweeps of this path run at {value}: rapid moves would run into it",
+        de: "was hier steht, reicht bis {limit}, und Leerfahrten dieses Pfades laufen auf {value}: Eilgangbewegungen führen hinein",
+        help_en: "give this path a greater S, or raise the material less (H)",
+        help_de: "diesem Pfad ein größeres S geben, oder das Material weniger anheben (H)",
+    }
     /// A letter twice in one text.
     TWICE: DuplicateParameter {
         en: "{letter} is given twice",

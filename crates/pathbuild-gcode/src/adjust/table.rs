@@ -1,4 +1,4 @@
-//! The probe table in a program's header: what the program was made with. (`(#51: [5.000 -15.000] T=2.000 X12.000 Y3.000)`)
+//! The probe table in a program's header: what the program was made with. (`(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000)`)
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -30,7 +30,8 @@ pub(super) type Place = [f64; 2];
 
 static ENTRY: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"(-?[0-9]+(?:\.[0-9]+)?)";
-    let pattern = format!(r"^\(#([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?\)\s*$");
+    let pattern =
+        format!(r"^\(Probe #([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?\)\s*$");
     Regex::new(&pattern).expect("a constant pattern")
 });
 

@@ -7,9 +7,7 @@ use pathbuild_toolpath::{Program, Xy};
 
 use super::codes::Plane;
 use super::step::{Arc, Move, Pace, Path, Position};
-
-/// F as the native program's head sets it, in mm/min: a plunge before any F runs with it. (spec/60-gcode.md)
-const FIRST_FEED: f64 = 150.0;
+use crate::native::{is_doubtful, is_point};
 
 /// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0; each with the
 /// number of its step, from 1, in place of a line.
@@ -22,7 +20,7 @@ pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
 /// The same one by one.
 pub fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
     let height = program.start_height();
-    let mut tool = Tool { position: Position::known(0.0, 0.0, height), feed: FIRST_FEED };
+    let mut tool = Tool { position: Position::known(0.0, 0.0, height) };
     let last = u32::try_from(program.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
     let steps = (1_u32..).zip(program.steps.iter().map(Some)).chain(std::iter::once((last, None)));
     steps.filter_map(move |(number, step)| match step {
@@ -34,8 +32,6 @@ pub fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
 
 struct Tool {
     position: Position,
-    /// The F last set.
-    feed: f64,
 }
 
 impl Tool {
@@ -44,21 +40,19 @@ impl Tool {
         match *to {
             toolpath::Move::Sweep { to } => self.straight(self.at(Some(to), self.position.z()), Pace::Rapid),
             toolpath::Move::Lift { z } => self.straight(self.at(None, z.z), Pace::Rapid),
-            toolpath::Move::Drill { z } => self.straight(self.at(None, z.z), Pace::Feed(self.feed)),
-            toolpath::Move::Line { feed, to, z } => {
-                self.feed = feed;
-                self.straight(self.at(Some(to), z.z), Pace::Feed(feed))
-            }
+            toolpath::Move::Drill { feed, z } => self.straight(self.at(None, z.z), Pace::Feed(feed)),
+            toolpath::Move::Line { feed, to, z } => self.straight(self.at(Some(to), z.z), Pace::Feed(feed)),
             toolpath::Move::Arc { feed, clockwise, centre, to, z, .. } => {
-                self.feed = feed;
+                let relative = centre;
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = self.at(Some(to), z.z);
-                // Ends that coincide mean a full circle, unless the arc is known to be next to nothing. Far apart, so that rounding
-                // does not make a line of a half circle.
-                let is_next_to_nothing =
-                    length < arc.radius(&self.position) && arc.sweep(&self.position, &to) > PI;
+                // Ends that coincide, or nearly so, may mean next to nothing or a full circle: the length tells.
+                let (radius, sweep) = (arc.radius(&self.position), arc.sweep(&self.position, &to));
+                let is_whole = length > PI * radius && is_doubtful(relative, sweep * radius);
+                let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
                 let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
+                let to = if is_whole { self.at(None, z.z) } else { to };
                 self.along(to, path, Pace::Feed(feed))
             }
         }

@@ -10,21 +10,37 @@ pub enum Charset {
     Utf8,
 }
 
+/// How comments are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Remarks {
+    pub(super) charset: Charset,
+    /// Whether "(" stays within a comment, as `PathDxf2GCode` leaves it.
+    pub(super) compatible: bool,
+}
+
 /// `(text)`, with what would end or break the comment replaced.
 pub fn comment(text: &str, charset: Charset) -> String {
-    let mut comment = String::with_capacity(text.len() + 2);
-    comment.push('(');
-    for character in text.chars() {
-        match character {
-            ')' => comment.push(']'),
-            '\\' => comment.push('/'),
-            character if character.is_control() => comment.push(' '),
-            character if character.is_ascii() || charset == Charset::Utf8 => comment.push(character),
-            character => comment.push_str(transliterated(character)),
+    Remarks { charset, compatible: false }.comment(text)
+}
+
+impl Remarks {
+    /// `(text)`, with what would end or break the comment replaced.
+    pub(super) fn comment(self, text: &str) -> String {
+        let mut comment = String::with_capacity(text.len() + 2);
+        comment.push('(');
+        for character in text.chars() {
+            match character {
+                '(' if !self.compatible => comment.push('['),
+                ')' => comment.push(']'),
+                '\\' => comment.push('/'),
+                character if character.is_control() => comment.push(' '),
+                character if character.is_ascii() || self.charset == Charset::Utf8 => comment.push(character),
+                character => comment.push_str(transliterated(character)),
+            }
         }
+        comment.push(')');
+        comment
     }
-    comment.push(')');
-    comment
 }
 
 /// What a character is written as where only ASCII may be.

@@ -30,6 +30,12 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     text.push_str(&THOUSANDTHS[fraction..fraction + 4]);
 }
 
+/// The number that is printed for a number.
+pub(super) fn printed(number: f64) -> f64 {
+    let rounded = |thousandths: u64| (thousandths as f64 / 1000.0).copysign(number) + 0.0;
+    thousandths(number).map_or(number, rounded)
+}
+
 /// `.000.001.002` and so on to `.999`: what is behind a point, and what may be before it, need not be made of digits.
 static THOUSANDTHS: &str = match str::from_utf8(&all_thousandths()) {
     Ok(text) => text,

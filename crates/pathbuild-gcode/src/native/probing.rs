@@ -4,44 +4,43 @@ use std::fmt::Write;
 
 use pathbuild_toolpath::{ProbePoint, Program, Xy};
 
-use super::comment::{Charset, comment};
 use super::correction::FIRST_PARAMETER;
 use super::number::f3;
-use super::program::{Header, WriteOptions};
+use super::program::{Header, WriteOptions, setup};
 
 /// Seconds that the machine waits after a probe, so that the value can be read.
 const DWELL: &str = "G04 P4";
 
-/// Writes the probing run. `feed`: --probe-feed, or --feed, for probes without a Z of their own.
-pub fn probing_program(program: &Program, header: &Header, feed: f64, options: &WriteOptions) -> String {
+/// Writes the probing run.
+pub fn probing_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
+    let remarks = options.remarks(program);
     let mut text = String::from("%\n");
-    if !header.provenance.is_empty() {
-        _ = writeln!(text, "{}", comment(&header.provenance, options.charset));
+    for line in header.lines(program) {
+        _ = writeln!(text, "{}", remarks.comment(&line));
     }
-    let title = format!("{}: {}", program.drawing, program.path);
-    _ = writeln!(text, "{}", comment(&title, options.charset));
-    text.push_str("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n");
+    text.push_str(setup(program));
     _ = writeln!(text, "G00 Z{clearance}\nG00 X0.000 Y0.000");
     let mut at = Xy::origin();
     for (index, probe) in program.probes.iter().enumerate() {
-        _ = writeln!(text, "{}", comment(&label(index, probe), options.charset));
+        _ = writeln!(text, "{}", remarks.comment(&format!("Probe {}", label(index, probe))));
         if !pathbuild_path::approx::is_nothing((probe.at - at).norm()) {
             _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
         }
         at = probe.at;
         _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
-        _ = writeln!(text, "G38.3 Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed.unwrap_or(feed)));
+        _ = writeln!(text, "G38.3 Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed));
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
 }
 
 /// Writes the file of values, one line a probe, with nothing behind the `=` yet.
-pub fn values_file(program: &Program, charset: Charset) -> String {
+pub fn values_file(program: &Program, options: &WriteOptions) -> String {
+    let remarks = options.remarks(program);
     let mut text = String::new();
     for (index, probe) in program.probes.iter().enumerate() {
-        _ = writeln!(text, "{} #{}=", comment(&place(probe), charset), FIRST_PARAMETER + index);
+        _ = writeln!(text, "{} #{}=", remarks.comment(&place(probe)), FIRST_PARAMETER + index);
     }
     text
 }

@@ -3,7 +3,8 @@
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
 
-use super::comment::{Charset, comment};
+use super::arc_end::{Printed, is_doubtful, is_point};
+use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, push_f3};
 use super::statistics;
@@ -28,6 +29,42 @@ pub struct Header {
     pub provenance: String,
 }
 
+impl Header {
+    /// The first comments of every file.
+    pub(super) fn lines(&self, program: &Program) -> impl Iterator<Item = String> {
+        let provenance = (!self.provenance.is_empty()).then(|| self.provenance.clone());
+        provenance.into_iter().chain([title(&program.drawing, &program.path)])
+    }
+}
+
+impl WriteOptions {
+    pub(super) fn remarks(&self, program: &Program) -> Remarks {
+        Remarks { charset: self.charset, compatible: program.compatible }
+    }
+}
+
+/// The comment that says which path of which drawing a file was made from. A word of ours stands first, as in every comment: LinuxCNC
+/// acts on comments that begin with certain words.
+pub fn title(drawing: &str, path: &str) -> String {
+    format!("Path {path}{OF_DRAWING}{drawing}")
+}
+
+/// The drawing of a [`title`].
+pub fn drawing_of_title(title: &str) -> Option<&str> {
+    title.split_once(OF_DRAWING).map(|(_, drawing)| drawing)
+}
+
+const OF_DRAWING: &str = ", drawing ";
+
+/// The lines that set the machine up. LinuxCNC refuses F before G94.
+pub(super) fn setup(program: &Program) -> &'static str {
+    if program.compatible {
+        "F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
+    } else {
+        "G17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
+    }
+}
+
 /// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
 /// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
@@ -47,7 +84,7 @@ pub fn program_in_parts(
     let mut writer = Writer { program, options, formulas, text, at: Xy::origin() };
     writer.line("%");
     writer.header(header);
-    writer.line("F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1");
+    writer.text.push_str(setup(program));
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
     let mut taken = 0;
@@ -62,7 +99,9 @@ pub fn program_in_parts(
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
-    for line in statistics::lines(&Statistics::of(program, options.rapid), options.lang, options.charset) {
+    for line in
+        statistics::lines(&Statistics::of(program, options.rapid), options.lang, options.remarks(program))
+    {
         writer.line(&line);
     }
     writer.line("M30\n%");
@@ -89,20 +128,19 @@ impl Writer<'_> {
     }
 
     fn comment(&mut self, text: &str) {
-        let line = comment(text, self.options.charset);
+        let line = self.options.remarks(self.program).comment(text);
         self.line(&line);
     }
 
     fn header(&mut self, header: &Header) {
-        if !header.provenance.is_empty() {
-            self.comment(&header.provenance);
+        for line in header.lines(self.program) {
+            self.comment(&line);
         }
-        self.comment(&format!("{}: {}", self.program.drawing, self.program.path));
         for (index, probe) in self.program.probes.iter().enumerate() {
             let number = FIRST_PARAMETER + index;
             let (drawn, at) = (probe.drawn_at, probe.at);
             let place = format!("[{} {}] T={}", f3(drawn.x), f3(drawn.y), f3(probe.height));
-            self.comment(&format!("#{number}: {place} X{} Y{}", f3(at.x), f3(at.y)));
+            self.comment(&format!("Probe #{number}: {place} X{} Y{}", f3(at.x), f3(at.y)));
         }
     }
 
@@ -116,8 +154,11 @@ impl Writer<'_> {
                 self.text.push_str("G00");
                 self.z(z);
             }
-            Move::Drill { z } => {
+            Move::Drill { feed, z } => {
                 self.text.push_str("G01");
+                if !self.program.compatible {
+                    self.word('F', feed);
+                }
                 self.z(z);
             }
             Move::Line { feed, to, z } => {
@@ -127,6 +168,9 @@ impl Writer<'_> {
                 self.z(z);
             }
             Move::Arc { feed, clockwise, centre, to, z, is_spiral } => {
+                if is_point(centre) {
+                    return self.step(&Move::Line { feed, to, z }, length);
+                }
                 self.text.push_str(if clockwise { "G02" } else { "G03" });
                 self.word('F', feed);
                 if is_spiral {
@@ -135,11 +179,20 @@ impl Writer<'_> {
                     self.word('I', centre.x);
                 }
                 self.word('J', centre.y);
-                self.xy(no_full_circle(self.at, to, centre, clockwise, length));
+                self.xy(self.arc_end(to, centre, clockwise, length));
                 self.z(z);
             }
         }
         self.text.push('\n');
+    }
+
+    /// Where an arc is said to end.
+    fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
+        if is_doubtful(centre, length) {
+            Printed::new(self.at, centre, clockwise).end(to, length)
+        } else {
+            to
+        }
     }
 
     fn word(&mut self, letter: char, value: f64) {
@@ -193,21 +246,3 @@ impl Writer<'_> {
         }
     }
 }
-
-/// Where an arc is said to end. An arc so short that its end is printed like its beginning would be a full circle to every controller,
-/// and would cut off the bar that it stands beside; it is said to end one unit of the last digit further on.
-fn no_full_circle(from: Xy, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
-    let is_short = length < std::f64::consts::PI * centre.coords.norm();
-    if !is_short || (f3(from.x), f3(from.y)) != (f3(to.x), f3(to.y)) {
-        return to;
-    }
-    let (ahead_x, ahead_y) = if clockwise { (-centre.y, centre.x) } else { (centre.y, -centre.x) };
-    if ahead_x.abs() > ahead_y.abs() {
-        Xy::new(to.x + LAST_DIGIT.copysign(ahead_x), to.y)
-    } else {
-        Xy::new(to.x, to.y + LAST_DIGIT.copysign(ahead_y))
-    }
-}
-
-/// One unit of the last printed digit, in mm.
-pub(super) const LAST_DIGIT: f64 = 0.001;

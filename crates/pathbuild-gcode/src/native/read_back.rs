@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
-use super::program::LAST_DIGIT;
+use super::arc_end::{LAST_DIGIT, is_doubtful};
 use crate::dialect::Dialect;
 use crate::interpret::{
     self, Axes, Heights, Options, Pace, each_move_of, interpret_each, interpret_parts, moves_of,
@@ -27,7 +27,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     let (found, expected) = (moves(text)?, moves_of(program));
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
     match difference(&exactly) {
-        Some(_) if has_longer_arcs(program) => {
+        Some(_) if has_doubtful_arcs(program) => {
             let place = exactly.place + LAST_DIGIT;
             difference(&Tolerance { place, ..exactly }).map_or(Ok(()), |found| Err(differs(&found)))
         }
@@ -134,13 +134,13 @@ fn nominal() -> Options {
 /// Most lines have at least so many bytes.
 const SHORT_LINE: usize = 20;
 
-/// Whether the writer makes some arc longer than it is, lest it be a full circle.
-fn has_longer_arcs(program: &Program) -> bool {
-    let is_short = |step: &Step| match step {
-        Step::Move { to: Move::Arc { .. }, count } => count.length < 2.0 * LAST_DIGIT,
+/// Whether the writer may have said of some arc that it ends beside where it does.
+fn has_doubtful_arcs(program: &Program) -> bool {
+    let is_one = |step: &Step| match step {
+        Step::Move { to: Move::Arc { centre, .. }, count } => is_doubtful(*centre, count.length),
         _ => false,
     };
-    program.steps.iter().any(is_short)
+    program.steps.iter().any(is_one)
 }
 
 fn differs(found: &Difference) -> Box<Diagnostic> {

@@ -3,9 +3,9 @@
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Statistics, Total};
 
-use super::comment::{Charset, comment};
+use super::comment::Remarks;
 
-pub(super) fn lines(statistics: &Statistics, lang: Lang, charset: Charset) -> Vec<String> {
+pub(super) fn lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Vec<String> {
     let [milling, drilling, sweeps, sum, commands] = labels(lang);
     let totals = [
         (milling, statistics.milling),
@@ -14,8 +14,8 @@ pub(super) fn lines(statistics: &Statistics, lang: Lang, charset: Charset) -> Ve
         (sum, statistics.sum()),
     ];
     let mut lines: Vec<String> =
-        totals.iter().map(|(label, total)| comment(&total_line(label, total), charset)).collect();
-    lines.push(comment(&format!("{commands} {}", statistics.commands), charset));
+        totals.iter().map(|(label, total)| remarks.comment(&total_line(label, total))).collect();
+    lines.push(remarks.comment(&format!("{commands} {}", statistics.commands)));
     lines
 }
 

@@ -3,6 +3,7 @@
 use pathbuild_diagnostic::TextFault;
 use smol_str::SmolStr;
 
+use super::raised::ProbeTop;
 use super::sweep::SweepLimits;
 use crate::definition::Definition;
 use crate::element::Origin;
@@ -49,6 +50,8 @@ pub struct PathSignature {
     pub needs_feed: bool,
     /// Whether it has Z-probes of its own.
     pub has_probes: bool,
+    /// Those that H raises.
+    pub raised_probes: Vec<ProbeTop>,
     /// Its subpath segments, in their order.
     pub subpaths: Vec<SubpathCall>,
 }
@@ -66,8 +69,8 @@ pub struct SubpathCall {
     faults: Vec<(Letter, TextFault)>,
 }
 
-/// The letters of a subpath segment that are held against the embedded path.
-const COMPARED: [Letter; 4] = [Letter::Embed, Letter::T, Letter::O, Letter::M];
+/// The letters of a subpath segment that are held against the paths on both sides.
+const COMPARED: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
 impl PathHeader {
     /// The header of a path.
@@ -95,6 +98,7 @@ impl PathSignature {
             size: (path.end - path.start).norm(),
             needs_feed: path.needs_feed(),
             has_probes: !path.probes.is_empty(),
+            raised_probes: ProbeTop::raised(path),
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
     }

@@ -25,7 +25,7 @@ fn lift(z: f64) -> ProgramStep {
 }
 
 fn drill(z: f64) -> ProgramStep {
-    go(Move::Drill { z: height(z) })
+    go(Move::Drill { feed: 150.0, z: height(z) })
 }
 
 fn line(feed: f64, x: f64, y: f64, z: f64) -> ProgramStep {
@@ -95,9 +95,9 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
 }
 
 #[test]
-fn a_plunge_runs_at_the_feed_last_set() {
+fn a_plunge_has_a_feed_of_its_own() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);
-    assert_eq!(job.operations[0].steps[2], Step::Feed { to: [9.0, 4.0, 0.5].into(), feed: Some(200.0) });
+    assert_eq!(job.operations[0].steps[2], Step::Feed { to: [9.0, 4.0, 0.5].into(), feed: Some(150.0) });
 }
 
 #[test]

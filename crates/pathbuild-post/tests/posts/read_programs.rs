@@ -148,7 +148,7 @@ fn program() -> Program {
     let (a, b, clamp) = (names.intern("1234.1A"), names.intern("1234.2B"), names.intern("Spannpratze?"));
     let sweep = |x: f64, y: f64| go(Move::Sweep { to: Xy::new(x, y) });
     let lift = |z| go(Move::Lift { z: height(z) });
-    let drill = |z| go(Move::Drill { z: height(z) });
+    let drill = |z| go(Move::Drill { feed: 150.0, z: height(z) });
     let line = |x: f64, y: f64, z| go(Move::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
     let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
         let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));

@@ -1,8 +1,6 @@
 //! Support bars. ("Support bars")
 
-use pathbuild_toolpath::FoldOptions;
-
-use crate::support::{OPTIONS, moves, path, program_with, shown};
+use crate::support::{COMPATIBLE, moves, path, program_with, shown};
 
 /// 40 mm with four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
 const FOUR: &str = "T5 O3 D2 B0 P2 U8";
@@ -35,17 +33,17 @@ const SECTIONS: [&str; 17] = [
 #[test]
 fn gaps_and_bars_follow_each_other() {
     let milled = milled(&format!("{FOUR} I5"));
-    assert_eq!(milled[..3], ["L 5", "D 0", "L 2"]);
-    assert_eq!(milled[3..20], SECTIONS);
-    assert_eq!(milled[20..], ["L 10"]);
+    assert_eq!(milled[..2], ["L 5", "D 2"]);
+    assert_eq!(milled[2..19], SECTIONS);
+    assert_eq!(milled[19..], ["L 10"]);
 }
 
 #[test]
 fn bars_matter_only_below_their_top() {
     let milled = milled(&format!("{FOUR} I1"));
     assert_eq!(milled[..7], ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "D 2", "M 40,0 2"]);
-    // Backwards from here: it begins with a bar as well.
-    assert_eq!(milled[7..13], ["D 1", "L 2", "M 37.5,0 2", "M 36.5,0 1", "M 33.5,0 1", "M 32.5,0 2"]);
+    // Backwards from here: it begins with a bar as well, where the tool is already.
+    assert_eq!(milled[7..11], ["M 37.5,0 2", "M 36.5,0 1", "M 33.5,0 1", "M 32.5,0 2"]);
     let last = milled.len();
     assert_eq!(milled[last - 5..], ["M 33.5,0 0", "M 36.5,0 0", "M 37.5,0 2", "M 40,0 2", "L 10"]);
 }
@@ -55,7 +53,7 @@ fn the_number_of_bars_is_what_has_room() {
     let gaps = |length: &str, parameters: &str| {
         let drawing =
             path(&format!("T5 O3 D2 B0 I5 {parameters}"), &format!("bars 0,0 {length},0\nend {length},0"));
-        moves(&drawing).iter().filter(|step| step.ends_with(" 0")).count().saturating_sub(1) / 2
+        moves(&drawing).iter().filter(|step| step.ends_with(" 0")).count() / 2
     };
     assert_eq!(gaps("40", "P2 U8"), 4);
     assert_eq!(gaps("39.999", "P2 U8"), 3);
@@ -68,7 +66,7 @@ fn the_number_of_bars_is_what_has_room() {
 fn without_room_for_a_gap_nothing_below_d_is_milled() {
     assert_eq!(
         milled("T5 O3 D2 B0 P50 U50 I2"),
-        ["L 5", "D 3", "M 40,0 3", "D 1", "L 2", "M 0,0 2", "D 0", "L 2", "M 40,0 2", "L 10"]
+        ["L 5", "D 3", "M 40,0 3", "D 2", "M 0,0 2", "M 40,0 2", "L 10"]
     );
 }
 
@@ -77,7 +75,7 @@ fn without_room_for_a_gap_nothing_below_d_is_milled() {
 fn slopes_are_as_long_as_there_is_room() {
     let slope = |parameters: &str| {
         let milled = milled(&format!("T5 O3 I5 {parameters}"));
-        (milled[3].clone(), milled[4].clone())
+        (milled[2].clone(), milled[3].clone())
     };
     let step = |text: &str| text.to_owned();
     // 45 degrees: D - B.
@@ -92,14 +90,14 @@ fn slopes_are_as_long_as_there_is_room() {
 #[test]
 fn bars_may_be_a_cutters_diameter_apart() {
     let milled = milled("T5 O3 I5 D2 B0 P2 U3");
-    assert_eq!(milled[..6], ["L 5", "D 0", "L 2", "M 2.5,0 2", "M 2.5,0 0", "M 2.5,0 0"]);
+    assert_eq!(milled[..5], ["L 5", "D 2", "M 2.5,0 2", "M 2.5,0 0", "M 2.5,0 0"]);
 }
 
 #[test]
 fn bars_stand_on_arcs_too() {
     // A half circle of 31.416 mm: three bars, every 60 degrees.
     let arc = moves(&path("T5 O3 I5 D2 B0 P2 U8", "bars arc centre 10,0 r 10 from 180 to 0\nend 20,0"));
-    assert_eq!(arc[..4], ["L 5", "D 0", "L 2", "A 0.311,-2.474 2"]);
+    assert_eq!(arc[..3], ["L 5", "D 2", "A 0.311,-2.474 2"]);
     assert_eq!(arc.iter().filter(|step| step.starts_with('A')).count(), 13);
     assert_eq!(arc[arc.len() - 2..], ["A 20,0 2", "L 10"]);
 }
@@ -111,16 +109,18 @@ fn bars_are_raised_by_h() {
         "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 40,0 \">1234.1P T5 H1\"\nend 40,0\n{}",
         path(&format!("{FOUR} I5"), "bars 0,0 40,0\nend 40,0")
     );
-    assert_eq!(moves(&drawing)[..6], ["L 6", "D 1", "L 3", "M 2.5,0 3", "M 3.5,0 1", "M 6.5,0 1"]);
+    assert_eq!(moves(&drawing)[..6], ["L 6", "D 3", "M 2.5,0 3", "M 3.5,0 1", "M 6.5,0 1", "M 7.5,0 3"]);
 }
 
 #[test]
-fn solid_bars_are_not_drilled_into() {
+fn the_original_tool_drills_into_the_bar_where_a_segment_begins() {
     let drawing = path(&format!("{FOUR} I5"), "bars 0,0 40,0\nend 40,0");
-    let solid = program_with(&drawing, FoldOptions { compatible: false, ..OPTIONS });
-    let solid = shown(&solid, false);
-    assert_eq!(solid[..4], ["L 5", "D 2", "M 2.5,0 2", "M 3.5,0 0"]);
-    assert_eq!(solid[2..19], SECTIONS);
+    let compatible = shown(&program_with(&drawing, COMPATIBLE), false);
+    assert_eq!(compatible[..3], ["L 5", "D 0", "L 2"]);
+    assert_eq!(compatible[3..20], SECTIONS);
+    let drawing = path("T5 O3 D2 B0 P2 U38 I5 W5", "bars 0,0 40,0\nend 40,0");
+    let sweepless = shown(&program_with(&drawing, COMPATIBLE), false);
+    assert_eq!(sweepless[3..6], ["D 0", "L 2", "M 2.5,0 2"]);
 }
 
 /// In the groove, too, a run begins and ends with a bar.
@@ -133,8 +133,7 @@ fn sweepless_runs_spare_bars() {
             "L 5",
             "M 40,0 5",
             "M 0,0 5",
-            "D 0",
-            "L 2",
+            "D 2",
             "M 2.5,0 2",
             "M 3.5,0 0",
             "M 36.5,0 0",

@@ -2,7 +2,7 @@
 
 use pathbuild_toolpath::{Move, Step};
 
-use crate::support::{estimate, moves, moves_and_comments, path, program};
+use crate::support::{COMPATIBLE, estimate, moves, moves_and_comments, path, program, program_with, shown};
 
 const LINE: &str = "mill 0,0 40,0\nend 40,0";
 
@@ -42,7 +42,7 @@ fn marks_end_at_d_and_lines_with_bars_at_b() {
         ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "L 10", "S 40,0"]
     );
     let bars = moves(&path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0\nend 40,0"));
-    assert_eq!(bars, ["L 5", "D 0", "L 3", "M 40,0 3", "L 10"]);
+    assert_eq!(bars, ["L 5", "D 3", "M 40,0 3", "L 10"]);
 }
 
 #[test]
@@ -145,8 +145,9 @@ fn a_comment_stands_before_each_pass_of_its_segment() {
     );
     assert_eq!(moves_and_comments(&path("T5 O3 I5 B0", "mill 0,0 40,0 \"Q\"\nend 40,0"))[2], "Q ");
     // Before a bar's own retraction, too.
-    let bars = "bars 0,0 40,0 \"Qx\"\nend 40,0";
-    assert_eq!(moves_and_comments(&path("T5 O3 I5 B0 D3 P50 U50", bars))[..4], ["L 5", "D 0", "Q x", "L 3"]);
+    let bars = path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0 \"Qx\"\nend 40,0");
+    assert_eq!(moves_and_comments(&bars)[..4], ["L 5", "D 3", "Q x", "M 40,0 3"]);
+    assert_eq!(shown(&program_with(&bars, COMPATIBLE), true)[..4], ["L 5", "D 0", "Q x", "L 3"]);
 }
 
 /// Z is corrected for where a move begins.
@@ -157,7 +158,7 @@ fn heights_name_the_point_where_the_move_begins() {
         .steps
         .iter()
         .filter_map(|step| match step {
-            Step::Move { to: Move::Line { z, .. } | Move::Lift { z } | Move::Drill { z }, .. } => {
+            Step::Move { to: Move::Line { z, .. } | Move::Lift { z } | Move::Drill { z, .. }, .. } => {
                 Some((z.at.x, z.at.y))
             }
             _ => None,

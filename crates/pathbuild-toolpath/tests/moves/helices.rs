@@ -1,8 +1,10 @@
 //! Helical circles. ("Helical circle")
 
-use pathbuild_toolpath::{Move, Step};
+use pathbuild_toolpath::{FoldOptions, Move, Step};
 
-use crate::support::{counts, moves, moves_and_comments, path, program, short};
+use crate::support::{
+    COMPATIBLE, OPTIONS, counts, moves, moves_and_comments, path, program, program_with, short, shown,
+};
 
 /// A sweep to a helical circle, and on.
 fn helix(circle: &str) -> String {
@@ -150,8 +152,8 @@ fn below_d_full_circles_leave_bars() {
 /// From D down in steps of I, the last at B.
 #[test]
 fn circles_with_bars_go_down_by_infeeds() {
-    let lowest = |parameters: &str| {
-        let moves = moves(&path(parameters, &helix(BARS)));
+    let lowest = |parameters: &str, options: FoldOptions| {
+        let moves = shown(&program_with(&path(parameters, &helix(BARS)), options), false);
         let below = moves
             .iter()
             .filter_map(|step| step.strip_prefix("C ")?.split(' ').nth(1))
@@ -160,12 +162,19 @@ fn circles_with_bars_go_down_by_infeeds() {
         heights.dedup();
         heights.join(" ")
     };
-    assert_eq!(lowest("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
-    // The spiral's infeeds, 4.3 to 1.5, are counted on although it does not go below D.
-    assert_eq!(lowest("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");
-    assert_eq!(lowest("T5 O3 I0.7 B1 D2 P2 U21"), "1");
-    // They are beyond B: compatible, although the ring between D and B stays.
-    assert_eq!(lowest("T5 O3 I5 B1 D2 P2 U21"), "");
+    let of_default = |parameters: &str| lowest(parameters, OPTIONS);
+    assert_eq!(of_default("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
+    assert_eq!(of_default("T5 O3 I0.4 B1 D2 P2 U21"), "1.6 1.2 1");
+    assert_eq!(of_default("T5 O3 I5 B1 D2 P2 U21"), "1");
+    // A remainder that is only rounding is no pass of its own.
+    assert_eq!(of_default("T5 O3 I0.3333333333 B1 D2 P2 U21"), "1.667 1.333 1");
+    // The original tool counts the spiral's infeeds on, 4.3 to 1.5, although it does not go below D.
+    let of_original = |parameters: &str| lowest(parameters, COMPATIBLE);
+    assert_eq!(of_original("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
+    assert_eq!(of_original("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");
+    assert_eq!(of_original("T5 O3 I0.7 B1 D2 P2 U21"), "1");
+    // They are beyond B: the ring between D and B stays.
+    assert_eq!(of_original("T5 O3 I5 B1 D2 P2 U21"), "");
 }
 
 #[test]
@@ -184,7 +193,7 @@ fn circles_begin_below_the_centre_however_the_path_is_turned() {
         )
     };
     let milled = moves(&drawing(BARS));
-    assert_eq!(milled[..4], ["L 8", "S 0,16", "C 0,24 4", "C 0,16 3"]);
+    assert_eq!(milled[..5], ["L 8", "S 0,20", "S 0,16", "C 0,24 4", "C 0,16 3"]);
     let last = milled.iter().rposition(|step| step.starts_with('C')).unwrap();
     assert_eq!(milled[last], "C 0,16 2");
 }
@@ -196,7 +205,7 @@ fn a_helical_circle_is_raised_by_h() {
         path("T5 O3 I2 B0 D2 P2 U21", &helix(BARS))
     );
     let milled = moves(&drawing);
-    assert_eq!(milled[..6], ["L 9", "S 20,-4", "C 20,4 5", "C 20,-4 4", "C 20,4 3", "C 20,-4 3"]);
+    assert_eq!(milled[..6], ["L 9", "S 20,0", "S 20,-4", "C 20,4 5", "C 20,-4 4", "C 20,4 3"]);
     assert!(milled.iter().any(|step| step.ends_with(" 1")), "{milled:?}");
     assert!(!milled.iter().any(|step| step.ends_with(" 0") && step.starts_with('C')), "{milled:?}");
 }

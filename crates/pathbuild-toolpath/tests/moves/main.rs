@@ -7,6 +7,7 @@
 mod arcs;
 mod bars;
 mod chains;
+mod feeds;
 mod helices;
 mod holes;
 mod merging;

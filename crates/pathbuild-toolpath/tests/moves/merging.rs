@@ -1,6 +1,6 @@
 //! Sweeps that follow each other. ("Merging sweeps")
 
-use crate::support::{counts, moves, moves_and_comments, path};
+use crate::support::{COMPATIBLE, counts, moves, moves_and_comments, path, program_with, shown};
 
 const P: &str = "T5 O3 I5 B0 F200";
 
@@ -36,4 +36,36 @@ fn comments_do_not_keep_them_apart() {
         moves_and_comments(&drawing.replace("T9 O3 S8", "T5 O3 S8")),
         ["L 8", "START 1234.1P", "S 20,0", "END 1234.1P"]
     );
+}
+
+/// Below the emitted path's S something may be in the way: rapid moves go where they were drawn.
+#[test]
+fn only_sweeps_at_or_above_s_are_merged() {
+    let around = |s: &str| {
+        let way = format!(
+            "sweep 0,0 0,20 \"S{s}\"\nsweep 0,20 40,20 \"S{s}\"\nsweep 40,20 40,0 \"S{s}\"\nend 40,0"
+        );
+        path("T5 O3 S12", &way)
+    };
+    let low = ["L 11.9", "S 0,20", "S 40,20", "S 40,0"];
+    assert_eq!(moves(&around("11.9")), low);
+    assert_eq!(moves(&around("12")), ["L 12", "S 40,0"]);
+    // Equal, as far as numbers are compared.
+    assert_eq!(moves(&around("11.999999")), ["L 12", "S 40,0"]);
+    assert_eq!(moves(&around("12.5")), ["L 12.5", "S 40,0"]);
+    assert_eq!(shown(&program_with(&around("11.9"), COMPATIBLE), false), ["L 11.9", "S 40,0"]);
+}
+
+/// An embedded path sweeps at its own S, mostly T + O: what is clear there is only clear above the S of the path that is emitted.
+#[test]
+fn what_embedded_paths_sweep_below_s_stays() {
+    let component = path("T5 O3 I5 B0 S10", "sweep 0,0 10,0\nmill 10,0 20,0\nsweep 20,0 40,0\nend 40,0");
+    let project = |s: &str| {
+        format!(
+            "layer 8001.1P\nstart 0,0 \"T5 O3 S{s}\"\nsubpath 0,0 40,0 \">1234.1P\"\n\
+             subpath 40,0 40,40 \">1234.1P\"\nend 40,40\n{component}"
+        )
+    };
+    let sweeps = |s: &str| moves(&project(s)).iter().filter(|step| step.starts_with('S')).count();
+    assert_eq!((sweeps("10"), sweeps("20")), (3, 4));
 }

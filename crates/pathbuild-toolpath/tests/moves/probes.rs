@@ -43,6 +43,6 @@ fn embedded_paths_bring_their_probes() {
     let program = program(&drawing);
     let first = &program.probes[0];
     assert_eq!((first.drawn_at.x, first.drawn_at.y), (20.0, 10.0));
-    assert_eq!((first.label.as_deref(), first.feed), (Some("x"), Some(30.0)));
-    assert_eq!((program.probes[2].label.as_deref(), program.probes[2].feed), (None, None));
+    assert_eq!((first.label.as_deref(), first.feed), (Some("x"), 30.0));
+    assert_eq!((program.probes[2].label.as_deref(), program.probes[2].feed), (None, 100.0));
 }

@@ -30,7 +30,10 @@ impl Parts for Drawn {
 }
 
 pub(crate) const OPTIONS: FoldOptions =
-    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), compatible: true };
+    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), probe_feed: None, compatible: false };
+
+/// The same for programs as the original tool writes them.
+pub(crate) const COMPATIBLE: FoldOptions = FoldOptions { compatible: true, ..OPTIONS };
 
 /// The program of the first path of a drawing.
 #[track_caller]
@@ -117,7 +120,7 @@ fn motion(motion: &Move) -> String {
     match motion {
         Move::Sweep { to } => format!("S {},{}", short(to.x), short(to.y)),
         Move::Lift { z } => format!("L {}", short(z.z)),
-        Move::Drill { z } => format!("D {}", short(z.z)),
+        Move::Drill { z, .. } => format!("D {}", short(z.z)),
         Move::Line { to, z, .. } => format!("M {},{} {}", short(to.x), short(to.y), short(z.z)),
         Move::Arc { clockwise, to, z, .. } => {
             let direction = if *clockwise { "C" } else { "A" };

@@ -37,7 +37,7 @@ pub use keeper::{
 };
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault, without_values};
-pub use provenance::{HEAD, Provenance, title};
+pub use provenance::{HEAD, Provenance};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Found, Wanted, WantedPath};
 pub use work::{Asking, CheckedTarget, Emitted};

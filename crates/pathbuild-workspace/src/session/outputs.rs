@@ -22,8 +22,6 @@ pub enum OutputKind {
 pub struct Writing {
     /// Language, characters, rapid feed.
     pub options: WriteOptions,
-    /// The feed in mm/min for probing where the drawing gives no Z.
-    pub probe_feed: f64,
     /// Most moves of a program, after cutting.
     pub most_moves: u64,
 }
@@ -64,8 +62,8 @@ impl OutputKind {
         let header = Header { provenance: provenance.to_owned() };
         match self {
             Self::Milling | Self::Clean => native::program(program, &header, &writing.options),
-            Self::Probing => native::probing_program(program, &header, writing.probe_feed, &writing.options),
-            Self::Values => native::values_file(program, writing.options.charset),
+            Self::Probing => native::probing_program(program, &header, &writing.options),
+            Self::Values => native::values_file(program, &writing.options),
         }
     }
 }

@@ -8,7 +8,6 @@ use std::str::FromStr;
 
 use blake3::Hasher;
 use pathbuild_db::{Database, SourceFile, content_hash};
-use pathbuild_gcode::native::{Charset, comment};
 
 use crate::config::Settings;
 use crate::posting::Poster;
@@ -68,11 +67,6 @@ const HEAD_LINES: usize = 40;
 
 /// How much of a program its provenance and title are in, however long the drawing's name is.
 pub const HEAD: usize = 4096;
-
-/// What the second line of a program says, in ASCII: which path of which drawing.
-pub fn title(drawing: &str, path: &str) -> String {
-    comment(&format!("{drawing}: {path}"), Charset::Ascii)
-}
 
 impl fmt::Display for Provenance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

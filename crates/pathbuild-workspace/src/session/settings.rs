@@ -45,6 +45,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let fold = FoldOptions {
         feed: general.feed.value,
         sweep_height: general.sweep_height.value,
+        probe_feed: general.probe_feed.value,
         compatible: general.compatible.value,
     };
     let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };

@@ -6,6 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, SourceFile, Target, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
+use pathbuild_gcode::native;
 
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
@@ -204,7 +205,7 @@ impl Maker<'_> {
         let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
             known: None,
-            title: format!("{drawing}: {path}"),
+            title: native::title(drawing, path),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
             files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
@@ -215,10 +216,10 @@ impl Maker<'_> {
     }
 }
 
-/// Without a drawing and a colon, so that nothing takes it for a program that a drawing alone becomes, and for stale when it does not.
+/// Without a comma and a drawing, so that nothing takes it for a program that a drawing alone becomes, and for stale when it does not.
 fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
-    format!("{name} = {}", paths.collect::<Vec<_>>().join(" + ")).replace(':', " ")
+    format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
 }
 
 /// Where the files of a drawing's paths go: beside it, or where the configuration says.

@@ -38,7 +38,6 @@ pub(super) fn writing(context: &Context) -> Writing {
     Writing {
         options: WriteOptions { lang: context.lang(), charset, rapid, correction: correction(context) },
         most_moves: context.settings.limits.embedding_moves.value,
-        probe_feed: general.probe_feed.value.or(general.feed.value).unwrap_or_default(),
     }
 }
 

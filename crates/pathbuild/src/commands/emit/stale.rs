@@ -10,13 +10,13 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, SourceFile};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
-use pathbuild_gcode::native::{Charset, comment};
+use pathbuild_gcode::native::{self, Charset, comment};
 
 use super::asked::Asked;
 use super::job::{Job, output_directory};
 use crate::context::Context;
 use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{HEAD, OutputKind, Provenance, Session, title};
+use pathbuild_workspace::session::{HEAD, OutputKind, Provenance, Session};
 
 /// Reports what is stale, or removes it.
 pub(super) fn deal_with(
@@ -103,6 +103,11 @@ struct Writers {
     knows_all: bool,
 }
 
+/// What a program says that it was made from, in ASCII and without case.
+fn title(drawing: &str, path: &str) -> String {
+    without_case(&comment(&native::title(drawing, path), Charset::Ascii))
+}
+
 /// Some posts write capitals only.
 fn without_case(title: &str) -> String {
     title.to_lowercase()
@@ -119,14 +124,14 @@ impl Writers {
         let drawing = |file: SourceFile| (place(file), without_case(&comment(name(file), Charset::Ascii)));
         let made: BTreeSet<Title> = jobs
             .iter()
-            .map(|job| (place(job.drawing(db)), without_case(&title(name(job.drawing(db)), &job.path))))
+            .map(|job| (place(job.drawing(db)), title(name(job.drawing(db)), &job.path)))
             .collect();
         let of_covered = asked.covered.iter().flat_map(|file| {
             asked
                 .drawings
                 .names(session, *file)
                 .iter()
-                .map(|path| (place(*file), without_case(&title(name(*file), path.as_str()))))
+                .map(|path| (place(*file), title(name(*file), path.as_str())))
         });
         let covered: HashSet<SourceFile> = asked.covered.iter().copied().collect();
         let has_library = session.has_library();
@@ -147,7 +152,7 @@ impl Writers {
         mut beside: impl Iterator<Item = &'n str>,
     ) -> bool {
         let title = without_case(&comment(title, Charset::Ascii));
-        let Some((drawing, _)) = title[1..].rsplit_once(": ") else { return false };
+        let Some(drawing) = native::drawing_of_title(&title[1..title.len() - 1]) else { return false };
         let named = |text: String| (directory.to_owned(), text);
         let drawing = named(format!("({drawing})"));
         let is_beside = beside.any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
