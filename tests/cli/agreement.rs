@@ -1,6 +1,6 @@
 //! One answer, whoever asks: what a check of libraries finds with all kinds of faults in them, edited again and again, is what a plain model
 //! finds that reads every file and keeps nothing, and the same from a new database as from one that was told of the edits, path by path, on
-//! several threads, and by the program, with what it kept of the runs before. (pathbuild_testkit::naive)
+//! several threads, and by the program, with what it kept of the runs before. ([`pathbuild_testkit::naive`])
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -56,7 +56,7 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
         system.put(path.as_str(), bytes.clone());
     }
     let mut told = Asked::new(Arc::clone(&system), workshop.rules());
-    let place = (seed % OF_PROGRAM == 0).then(|| OnDisk::new(&workshop));
+    let place = seed.is_multiple_of(OF_PROGRAM).then(|| OnDisk::new(&workshop));
     let mut seen = Vec::new();
     for step in 0..=EDITS {
         if step > 0 {
@@ -74,7 +74,7 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
         let differing = again.iter().zip(&found).find(|(a, b)| a != b);
         assert!(again == found, "{}: {differing:#?}", said("a database that was told of the edits"));
         let paths = model.paths("lib");
-        let (file, name) = &paths[(seed as usize + step) % paths.len()];
+        let (file, name) = &paths[(usize::try_from(seed).unwrap() + step) % paths.len()];
         let alone = Asked::new(Arc::clone(&system), workshop.rules()).path(file, name);
         same_but_cycles(&model.check_alone(file, name), &findings(&alone), &said(&format!("{name} alone")));
         if let Some(place) = &place {

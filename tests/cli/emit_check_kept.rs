@@ -302,9 +302,9 @@ fn a_program_that_was_changed_or_removed_by_hand_is_made_again() {
             // Of the same size.
             let edited: Vec<u8> = bytes.iter().map(|byte| if *byte == b'1' { b'2' } else { *byte }).collect();
             if hand {
-                fs::write(path, edited).unwrap()
+                fs::write(path, edited).unwrap();
             } else {
-                fs::remove_file(path).unwrap()
+                fs::remove_file(path).unwrap();
             }
             // With other probes, people's values would be lost.
             let run = place.run("emit");

@@ -45,7 +45,7 @@ fn right_drawing(path: &str) -> String {
     let circle = |x, radius| format!("0\nCIRCLE\n8\n{path}\n6\nPHANTOM\n10\n{x}\n20\n0\n40\n{radius}\n");
     let line = format!("0\nLINE\n8\n{path}\n6\nCONTINUOUS\n10\n0\n20\n0\n11\n100\n21\n0\n");
     let text = format!("0\nTEXT\n8\n{path}\n10\n0\n20\n0\n40\n1\n1\nT5 O2 I1 B0 M{HOSTILE}\n")
-        .replace("\r", "")
+        .replace('\r', "")
         .replace("\n::", "");
     format!(
         "0\nSECTION\n2\nENTITIES\n{}{line}{text}{}0\nENDSEC\n0\nEOF\n",

@@ -3,6 +3,7 @@
 
 use std::os::unix::fs::symlink;
 use std::os::unix::net::UnixListener;
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -23,7 +24,7 @@ fn place(kind: &str, name: &str) -> Place {
     let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("1202.1P.dxf", dxf());
     let path = place.path().join(name);
     _ = std::fs::remove_file(&path);
-    let fifo = |path: &std::path::Path| {
+    let fifo = |path: &Path| {
         assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
     };
     match kind {
@@ -189,11 +190,11 @@ fn globs_and_expressions_that_go_too_deep_are_refused() {
 /// Faults of a configuration, in many lines and in one: what each takes does not grow with the file.
 #[test]
 fn a_configuration_of_many_faults_takes_no_square_of_them() {
-    let keys: String = (0..5_000).map(|key| format!("unknown{key} = \"error\"\n")).collect();
     let entries: Vec<String> = (0..5_000).map(|key| format!("unknown{key} = \"error\"")).collect();
+    let keys = entries.join("\n");
     for text in [
-        format!("[severity]\n{keys}"),
-        format!("[limits]\n{keys}"),
+        format!("[severity]\n{keys}\n"),
+        format!("[limits]\n{keys}\n"),
         format!("severity = {{ {} }}\n", entries.join(", ")),
     ] {
         let begun = Instant::now();
@@ -237,7 +238,7 @@ fn what_killed_runs_left_goes_with_the_next_run() {
     let mut left: Vec<String> = std::fs::read_dir(place.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| name.ends_with(".tmp"))
+        .filter(|name| Path::new(name).extension().is_some_and(|it| it == "tmp"))
         .collect();
     left.sort_unstable();
     assert_eq!(left, [".held.1-0.tmp", ".mine.tmp"]);

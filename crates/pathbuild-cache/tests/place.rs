@@ -1,5 +1,10 @@
 //! Where results lie: only the user's own files, never through links.
 #![cfg(unix)]
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
 
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};

@@ -4,7 +4,7 @@
 //!
 //! | function | for | line feeds | characters that act |
 //! | --- | --- | --- | --- |
-//! | [`line`] | a name or a text within a line | `\n` | `\u{1b}` |
+//! | [`line()`] | a name or a text within a line | `\n` | `\u{1b}` |
 //! | [`framed`] | a text in a frame of ours | stay | `\u{1b}` |
 //! | [`lines`] | a whole output for people | stay | `\u{1b}` |
 //! | [`colored_lines`] | the same with colours of ours | stay | `\u{1b}`, but for colours |
@@ -17,14 +17,14 @@ use std::fmt::Write;
 /// direction of writing, characters without width, and tags.
 pub fn acts(character: char) -> bool {
     // Most characters are decided by the first comparison.
-    match character {
-        ' '..='~' => false,
-        '\0'..='\u{9f}' => true,
-        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}' => true,
-        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => true,
-        '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e0fff}' => true,
-        _ => false,
-    }
+    !matches!(character, ' '..='~')
+        && matches!(
+            character,
+            '\0'..='\u{9f}'
+                | '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}'
+                | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
+                | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e0fff}'
+        )
 }
 
 /// A name or a text as it is shown within a line.
@@ -42,7 +42,7 @@ pub fn lines(text: &str) -> Cow<'_, str> {
     harmless_lines(framed(text))
 }
 
-/// The same, with sequences that choose colours: whatever is not ours must have passed [`line`] before.
+/// The same, with sequences that choose colours: whatever is not ours must have passed [`line()`] before.
 pub fn colored_lines(text: &str) -> Cow<'_, str> {
     let acts = |c| !matches!(c, '\n' | '\u{1b}') && acts(c);
     let escaped = escaped(text, acts, escape);

@@ -198,14 +198,13 @@ impl<'d> Collector<'d> {
     }
 
     /// Passes over what PathDxf2GCode does not know; said once for a drawing.
-    pub(crate) fn ignore(&mut self, placed: &Placed<'_>) -> Result<(), Fatal> {
+    pub(crate) fn ignore(&mut self, placed: &Placed<'_>) {
         let layer = self.layer(placed);
         if !std::mem::replace(&mut self.has_ignored, true) {
             let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).with("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
-        Ok(())
     }
 
     fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {

@@ -95,7 +95,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 let placed = placed(self.reader, &item.traits, layer, around)?;
                 let is_plain = around.insertion.is_none() && matches!(shape, Ok(Shape::Plain(_)));
                 if is_compatible && shape.is_ok() && !is_plain {
-                    return self.collector.ignore(&placed);
+                    self.collector.ignore(&placed);
+                    return Ok(());
                 }
                 self.collector.add(&placed, shape)
             }

@@ -53,7 +53,7 @@ fn changed(corpus: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
                 input.splice(at..at, part);
             }
             _ if !input.is_empty() => {
-                input[at] = *b"0-9.=~:>{}[]\\\n \xff".get(chance.below(17)).unwrap_or(&0)
+                input[at] = *b"0-9.=~:>{}[]\\\n \xff".get(chance.below(17)).unwrap_or(&0);
             }
             _ => {}
         }

@@ -341,7 +341,6 @@ fn a_report_says_where_and_how_high() {
     assert!(problem.is_error());
 }
 
-#[expect(clippy::disallowed_methods, reason = "recordings lie beside the project")]
 fn recordings() -> Vec<PathBuf> {
     let Some(shared) = pathbuild_testkit::shared("conformance") else { return Vec::new() };
     let entries = |dir: &Path| {

@@ -42,7 +42,7 @@ impl TextCircle {
         let rows = text.plain.split('\n').flat_map(|line| Rows { words: line.split(' '), room, next: None });
         let (lines, longest) = rows.fold((0, 0), |(rows, longest), row| (rows + 1, row.max(longest)));
         let width = letter * longest as f64;
-        let height = text.height * lines as f64;
+        let height = text.height * f64::from(lines);
         let offset = offset(text.horizontal, text.vertical, width, height);
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
         Self {

@@ -147,8 +147,8 @@ impl<'a> Walk<'a> {
 
     /// The segment that is next at the current point: the least by order, preference and length.
     fn next(&mut self) -> Option<usize> {
-        if let Some(next) = self.stars.next(self.at, self.path, &self.ends, &self.is_traversed) {
-            return next;
+        if let Some(star) = self.stars.at(self.at) {
+            return star.next(self.path, &self.ends, &self.is_traversed);
         }
         let mut found = std::mem::take(&mut self.found);
         self.ends.find_near(self.at, |segment| !self.is_traversed[segment], &mut found);

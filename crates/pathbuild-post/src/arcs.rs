@@ -78,9 +78,12 @@ impl Rounding<'_> {
     pub(crate) fn check(&self, arc: &Arc, plane: Plane, units: Units) -> Result<(), Box<Diagnostic>> {
         let rounded = |point: [f64; 3]| point.map(|at| (self.length)(at));
         let (from, to) = (rounded(arc.from), rounded(arc.to));
-        let centre = |axis: usize| match self.is_absolute {
-            true => (self.length)(arc.centre[axis]),
-            false => from[axis] + (self.length)(arc.centre[axis] - arc.from[axis]),
+        let centre = |axis: usize| {
+            if self.is_absolute {
+                (self.length)(arc.centre[axis])
+            } else {
+                from[axis] + (self.length)(arc.centre[axis] - arc.from[axis])
+            }
         };
         let [u, v, _] = plane.axes();
         let radius = |point: [f64; 3]| libm::hypot(point[u] - centre(u), point[v] - centre(v));

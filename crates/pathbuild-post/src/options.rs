@@ -8,6 +8,7 @@ use pathbuild_gcode::native::Charset;
 
 /// How a program is written through a post.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct PostOptions<'a> {
     /// The text of `{$date}`; without it the date is left out, so that output depends on input only.
     pub date: Option<Box<str>>,

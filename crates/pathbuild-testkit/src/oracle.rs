@@ -10,6 +10,7 @@ pub fn project() -> &'static Path {
 }
 
 /// Test data that is not ours to keep and lies beside the project, in ../shared; `None` where it is absent, which is a skip.
+#[expect(clippy::disallowed_methods, reason = "test data lies beside the project")]
 pub fn shared(name: &str) -> Option<PathBuf> {
     let path = project().join("../shared").join(name);
     if path.exists() {
@@ -24,8 +25,6 @@ pub fn shared(name: &str) -> Option<PathBuf> {
 ///
 /// # Panics
 /// Where `PATHBUILD_REQUIRE` names the oracle.
-#[expect(clippy::explicit_write, reason = "the test harness keeps eprintln! to itself")]
-#[expect(clippy::disallowed_methods, reason = "the environment says where skips are noted")]
 pub fn skip(oracle: &str, reason: &str) {
     assert!(!is_required(oracle), "PATHBUILD_REQUIRE has {oracle}: {reason}");
     let test = std::thread::current().name().unwrap_or("a test").to_owned();

@@ -224,7 +224,7 @@ fn component(number: u32, random: &mut Random) -> Vec<u8> {
             (_, 2) => "B=A",
             _ => "B0,5",
         };
-        let from = if fault == 9 { 1 } else { 0 };
+        let from = i32::from(fault == 9);
         let to = if fault == 10 { 41 } else { 40 };
         _ = writeln!(text, "layer {own}\nstart 0,{y}{}", quoted(&start));
         _ = writeln!(text, "mill {from},{y} {to},{y}{}\nend {to},{y}", quoted(bottom));

@@ -1,7 +1,14 @@
 //! Which settings ask another question: each is changed alone, and the key of checks and that of programs must change, or not.
 //! (spec/06-configuration.md)
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test that cannot set up its files has failed"
+)]
+
 use std::collections::BTreeSet;
+use std::fmt::Write;
 use std::fs;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -106,7 +113,7 @@ fn settings(base: &Utf8Path, text: &str) -> Settings {
 fn questions(settings: &Settings) -> [String; 2] {
     [Concerns::Check, Concerns::Emit].map(|whose| {
         let mut text = String::new();
-        settings.concerning(whose, &mut |name, value| text += &format!("{name} = {value:?}\n"));
+        settings.concerning(whose, &mut |name, value| _ = writeln!(text, "{name} = {value:?}"));
         text
     })
 }

@@ -136,7 +136,9 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
         rules.step(&step);
         against.step(&step);
     }));
-    found.iter_mut().for_each(|it| it.severity = Severity::Error);
+    for it in &mut found {
+        it.severity = Severity::Error;
+    }
     found.extend(rules.finish());
     found.extend(coarse_arcs(text.as_bytes(), dialect));
     found.extend(against.finish());

@@ -49,7 +49,7 @@ fn a_drawing_that_went_or_came_has_changed_too() {
     assert_eq!(world.judge("path", FILE, "1111.1P", Role::Checked), ["PB203"]);
     world.remove_unnoticed(FILE);
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 2));
-    assert_eq!(world.db.take_over_changes(), false);
+    assert!(!world.db.take_over_changes());
     world.put_unnoticed(FILE, &component("1111.1P", "9"));
     // What is read once is not read again: nothing can differ.
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 1));

@@ -6,6 +6,7 @@ use super::spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Sp
 
 /// Everything in which a dialect differs from the others.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct Rules {
     /// Whose rules these are.
     pub dialect: Dialect,

@@ -230,10 +230,9 @@ fn motion(code: u16) -> Option<Motion> {
         10 => Motion::Feed,
         20 => Motion::Arc { clockwise: true },
         30 => Motion::Arc { clockwise: false },
-        // G31, "skip": without an answer the program goes on.
-        310 => Motion::Probe { toward: true, must_answer: false },
         382 => Motion::Probe { toward: true, must_answer: true },
-        383 => Motion::Probe { toward: true, must_answer: false },
+        // G31, "skip", as G38.3: without an answer the program goes on.
+        310 | 383 => Motion::Probe { toward: true, must_answer: false },
         384 => Motion::Probe { toward: false, must_answer: true },
         385 => Motion::Probe { toward: false, must_answer: false },
         730 => Motion::Cycle(Cycle::ChipBreaking),

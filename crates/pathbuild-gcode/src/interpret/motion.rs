@@ -116,15 +116,12 @@ impl Interpreter<'_> {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
-            match self.state.offsets.of_machine(axis, self.millimetres(slot)) {
-                Some(at) => {
-                    to.at[axis] = at;
-                    to.known = to.known.with(Axes::of(axis));
-                }
-                None => {
-                    to.at[axis] = self.millimetres(slot);
-                    to.known = to.known.without(Axes::of(axis));
-                }
+            if let Some(at) = self.state.offsets.of_machine(axis, self.millimetres(slot)) {
+                to.at[axis] = at;
+                to.known = to.known.with(Axes::of(axis));
+            } else {
+                to.at[axis] = self.millimetres(slot);
+                to.known = to.known.without(Axes::of(axis));
             }
         }
         if to.known != Axes::ALL {

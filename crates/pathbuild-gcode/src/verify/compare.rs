@@ -134,7 +134,7 @@ impl Difference {
 
 impl Difference {
     /// What is said of it where the other program is a drawing's, which has no lines.
-    pub(super) fn from_drawing(&self) -> Diagnostic {
+    pub(super) fn against_drawing(&self) -> Diagnostic {
         let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
             (Some((_, found)), Some((_, expected))) => match self.kind {

@@ -49,7 +49,9 @@ pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock
     for part in bench.parts(it) {
         bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
     }
-    cuts.iter().for_each(|(line, cut)| bench.mill(*line, cut));
+    for (line, cut) in cuts {
+        bench.mill(*line, cut);
+    }
     let mut problems = Problems::default();
     bench.pass(line, it, &mut problems);
     problems.into_diagnostics().is_empty()
@@ -105,7 +107,7 @@ struct Bench<'s> {
     dip: Option<(u32, Move)>,
 }
 
-impl<'s> Bench<'s> {
+impl Bench<'_> {
     /// There is material within O of where a move cuts.
     fn lay(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };

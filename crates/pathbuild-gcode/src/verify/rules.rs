@@ -16,6 +16,7 @@ const SAME_HEIGHT: f64 = 0.002;
 
 /// The rules that need no map of the material: give them every step of a program, then [`finish`](Self::finish) them. What they cost
 /// grows with the steps.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, which may hold together")]
 pub struct Rules<'c> {
     stock: Option<&'c Stock>,
     limits: Option<Limits<'c>>,

@@ -13,7 +13,7 @@ use crate::path::Path;
 pub(super) struct Stars(BTreeMap<Squares, Star>);
 
 /// A crowded point.
-struct Star {
+pub(super) struct Star {
     /// Around the ends that meet here.
     corners: [Xy; 2],
     /// In the order in which their segments are taken, the next one last.
@@ -31,24 +31,13 @@ struct Group {
 }
 
 impl Stars {
-    /// The star at a point, if one is known there.
-    fn at(&mut self, point: Xy) -> Option<&mut Star> {
+    /// The star at a point, if that is known to be crowded.
+    pub(super) fn at(&mut self, point: Xy) -> Option<&mut Star> {
         if self.0.is_empty() {
             return None;
         }
         let star = self.0.get_mut(&Squares::around(point))?;
         star.corners.iter().all(|corner| coincide(*corner, point)).then_some(star)
-    }
-
-    /// The segment that is next at a point, if that is known to be crowded; else `None`.
-    pub(super) fn next(
-        &mut self,
-        point: Xy,
-        path: &Path,
-        ends: &Ends,
-        is_traversed: &[bool],
-    ) -> Option<Option<usize>> {
-        self.at(point).map(|star| star.next(path, ends, is_traversed))
     }
 
     /// Notes that these segments meet at a point.
@@ -85,7 +74,7 @@ impl Star {
 
     /// The next segment. Lengths of different groups are not near: one scan of all segments finds the one that a scan of the first group
     /// finds.
-    fn next(&mut self, path: &Path, ends: &Ends, is_traversed: &[bool]) -> Option<usize> {
+    pub(super) fn next(&mut self, path: &Path, ends: &Ends, is_traversed: &[bool]) -> Option<usize> {
         while let Some(group) = self.groups.last_mut() {
             group.pass(is_traversed);
             let mut open =

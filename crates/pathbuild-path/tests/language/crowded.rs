@@ -47,7 +47,8 @@ fn petals() -> impl Strategy<Value = Vec<Drawn>> {
         let drawn = |(angle, step, size): (i32, i32, i32), (noise, is_turned): (f64, bool)| {
             let angle = f64::from(angle) * 0.157;
             let length = (10.0 + 3.0 * f64::from(size)) * (1.0 + 0.45e-6 * f64::from(step));
-            let (middle, tip) = (Xy::new(noise, -noise), Xy::new(angle.cos(), angle.sin()) * length);
+            let (middle, tip) =
+                (Xy::new(noise, -noise), Xy::new(libm::cos(angle), libm::sin(angle)) * length);
             let [start, end] = if is_turned { [tip, middle] } else { [middle, tip] };
             Drawn { start: start.map(written), end: end.map(written) }
         };

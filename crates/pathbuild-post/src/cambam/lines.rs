@@ -33,7 +33,7 @@ impl<'a> Lines<'a> {
         if numbering.space_after {
             self.text.push(' ');
         }
-        self.next_number = self.next_number + u64::from(numbering.increment);
+        self.next_number += u64::from(numbering.increment);
     }
 
     /// The whole text.

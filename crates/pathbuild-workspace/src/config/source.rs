@@ -85,5 +85,5 @@ impl<'a> Source<'a> {
 
 /// How many characters begin in these bytes.
 fn beginnings(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|byte| (**byte as i8) >= -0x40).count()
+    bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }

@@ -48,7 +48,7 @@ pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
 /// Whether a file has just these bytes, looked at piece by piece.
 fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     let Ok(mut file) = open::open(path) else { return false };
-    let mut piece = [0; 1 << 15];
+    let mut piece = vec![0; 1 << 15];
     let mut rest = bytes;
     loop {
         match file.read(&mut piece) {
@@ -72,11 +72,10 @@ fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
             Ok(file) => match file.try_lock() {
                 // Another run took it for debris between these two lines, and removes it.
                 Err(TryLockError::WouldBlock) => {}
-                // Where there are no locks nothing is taken for debris.
-                Err(TryLockError::Error(_)) => return Ok((candidate, file)),
                 // It may be removed already.
                 Ok(()) if candidate.as_std_path().symlink_metadata().is_err() => {}
-                Ok(()) => return Ok((candidate, file)),
+                // Where there are no locks nothing is taken for debris.
+                Ok(()) | Err(TryLockError::Error(_)) => return Ok((candidate, file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),

@@ -5,10 +5,13 @@
 
 use crate::interpret::{Axes, Move, Path, Position};
 
+/// A move and its line.
+type Numbered = (u32, Move);
+
 /// The rapid moves of a program since the last cut.
 #[derive(Debug)]
 pub(super) struct Chain {
-    moves: Vec<(u32, Move)>,
+    moves: Vec<Numbered>,
     /// It begins the program.
     is_head: bool,
 }
@@ -18,7 +21,7 @@ pub(super) struct Chain {
 pub(super) struct Way<'w> {
     /// Where it begins.
     pub(super) start: Position,
-    pub(super) expected: &'w [(u32, Move)],
+    pub(super) expected: &'w [Numbered],
     /// It ends the program.
     pub(super) is_foot: bool,
     /// S0.
@@ -42,12 +45,12 @@ impl Chain {
     }
 
     /// Whether it goes as expected; where not, the move that goes elsewhere.
-    pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<(u32, Move)>> {
+    pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<Numbered>> {
         let rest = if self.is_head { self.arrived(way)? } else { &self.moves };
         let mut found = rest.iter().filter(|(_, it)| !way.stands(it));
         for (_, expected) in way.expected.iter().filter(|(_, it)| !way.stands(it)) {
             let next = found.next();
-            let is_same = |(_, it): &(u32, Move)| it.named.is_none() && way.is_same(it, expected);
+            let is_same = |(_, it): &Numbered| it.named.is_none() && way.is_same(it, expected);
             if !next.is_some_and(is_same) {
                 return Err(next.copied());
             }
@@ -59,8 +62,8 @@ impl Chain {
     }
 
     /// The moves behind the place where the way begins; those before it are harmless.
-    fn arrived(&self, way: &Way<'_>) -> Result<&[(u32, Move)], Option<(u32, Move)>> {
-        let begins = |(_, it): &(u32, Move)| it.to.known == Axes::ALL && way.is_near(&it.to, &way.start);
+    fn arrived(&self, way: &Way<'_>) -> Result<&[Numbered], Option<Numbered>> {
+        let begins = |(_, it): &Numbered| it.to.known == Axes::ALL && way.is_near(&it.to, &way.start);
         let Some(arrival) = self.moves.iter().position(begins) else {
             return Err(self.moves.first().copied());
         };

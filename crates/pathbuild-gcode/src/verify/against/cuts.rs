@@ -74,7 +74,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             let expected = self.expected.next();
             expected.map(|expected| Difference { kind: Kind::Place, found: None, expected: Some(expected) })
         });
-        difference.map(|difference| difference.from_drawing())
+        difference.map(|difference| difference.against_drawing())
     }
 
     /// Compares the rapid moves before this cut, or at the end, with those that are expected there.

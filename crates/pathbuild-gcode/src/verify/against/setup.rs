@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::ToolUse;
 use crate::dialect::Dialect;
 use crate::interpret::{
-    Action, Axes, Change, Corners, Move, Named, Pace, Position, Spindle, Step, ToolLength, Turning,
+    Action, Axes, Change, Corners, Move, Named, Pace, Plane, Position, Spindle, Step, ToolLength, Turning,
     WorkSystem, code_name,
 };
 use crate::read::Problems;
@@ -114,8 +114,7 @@ impl Setup {
             Change::Corners(Corners::Rounded(None)) if self.is_limited => {
                 extra(line, "G64".to_owned(), problems);
             }
-            Change::Corners(_) => {}
-            Change::Plane(plane) if plane == crate::interpret::Plane::Xy => {}
+            Change::Corners(_) | Change::Plane(Plane::Xy) => {}
             Change::Plane(_) => extra(line, "G18, G19".to_owned(), problems),
             Change::Parameter => extra(line, "#".to_owned(), problems),
             Change::Switch(code) => extra(line, code_name('M', code), problems),

@@ -109,12 +109,15 @@ fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
     Made { of: of.into(), traces, payload: result.encode(), ..Made::default() }
 }
 
+/// A pair by its name among the results, and what is said of it.
+type Judged = (Box<str>, Vec<Diagnostic>);
+
 /// What Q-projects and their drawings say against each other, each pair by its name among the results.
 fn q_projects(
     session: &Session<'_>,
     keeper: Option<&Keeper>,
     drawings: &[Utf8PathBuf],
-) -> (Vec<(Box<str>, Vec<Diagnostic>)>, Vec<Made>) {
+) -> (Vec<Judged>, Vec<Made>) {
     let (mut found, mut made) = (Vec::new(), Vec::new());
     let (mut open, mut names): (Vec<Pair>, Vec<Box<str>>) = (Vec::new(), Vec::new());
     for [drawing, q_project] in q_project_pairs(drawings.iter()) {

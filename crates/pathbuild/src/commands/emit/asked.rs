@@ -74,15 +74,12 @@ impl Asked {
         if is_by_configuration && (context.settings.emit.targets.value.is_empty() || !session.has_library()) {
             return None;
         }
-        let (wanted, directories) = match found {
-            Some(Found { drawings, directories, .. }) => {
-                (session.wanted_drawings(drawings.clone()), directories.clone())
-            }
-            None => {
-                let wanted = session.wanted(inputs);
-                let directories = session.directories_below(&wanted.directories);
-                (wanted, directories)
-            }
+        let (wanted, directories) = if let Some(Found { drawings, directories, .. }) = found {
+            (session.wanted_drawings(drawings.clone()), directories.clone())
+        } else {
+            let wanted = session.wanted(inputs);
+            let directories = session.directories_below(&wanted.directories);
+            (wanted, directories)
         };
         let in_directories = wanted.drawings.iter().filter(|drawing| !drawing.is_named);
         let covered: Vec<SourceFile> = in_directories.map(|drawing| drawing.file).collect();

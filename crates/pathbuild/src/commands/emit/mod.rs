@@ -132,14 +132,13 @@ impl Making<'_> {
         }
         diagnostics.extend(checked.iter().flat_map(|checked| store::found(session, checked)));
         let maker = Maker { context, session, poster: *poster };
-        let jobs = match &args.join {
-            Some(name) => maker.joined(name, &checked, &mut diagnostics).into_iter().collect(),
-            None => {
-                let mut jobs = maker.jobs(&checked, &mut diagnostics);
-                jobs.extend(known);
-                in_order(&mut jobs, &asked.targets);
-                without_clashes(session, jobs, &mut diagnostics)
-            }
+        let jobs = if let Some(name) = &args.join {
+            maker.joined(name, &checked, &mut diagnostics).into_iter().collect()
+        } else {
+            let mut jobs = maker.jobs(&checked, &mut diagnostics);
+            jobs.extend(known);
+            in_order(&mut jobs, &asked.targets);
+            without_clashes(session, jobs, &mut diagnostics)
         };
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
