@@ -5,7 +5,7 @@ mod common;
 use common::spelled_out;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
-use pathbuild_gcode::interpret::{Options, guess, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, Path, guess, interpret, moves_of};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
 use pathbuild_toolpath::{Class, Count, Height, Move, Program, Step, Xy};
@@ -113,6 +113,110 @@ proptest! {
         prop_assert!(!read.problems.iter().any(Diagnostic::is_error), "{}", spelled_out(&read.problems));
         let difference = compare(&read.moves(), &moves_of(&program), &Tolerance::of_decimals(3));
         prop_assert_eq!(difference, None, "{}", text);
+    }
+}
+
+/// One arc from there: how it is written and read back, with the end that the program gives it.
+fn arc_from(at: [f64; 2], radius: f64, direction: f64, clockwise: bool, length: f64) -> (Move, Program) {
+    let angle = length / radius;
+    let program = program(&[
+        Sketch::Lift(1.0),
+        Sketch::Line(at[0], at[1], 1.0, 100.0),
+        Sketch::Arc(radius, direction, angle, clockwise, 1.0, 100.0),
+    ]);
+    let is_arc = |step: &Step| match step {
+        Step::Move { to: to @ Move::Arc { .. }, .. } => Some(*to),
+        _ => None,
+    };
+    (program.steps.iter().find_map(is_arc).expect("an arc"), program)
+}
+
+/// Gaps in mm between the ends of arcs: within rounding, a digit or two, and just inside and just outside of where ends are looked at.
+const GAPS: [f64; 12] =
+    [0.0, 1e-9, 0.0004, 0.0006, 0.001, 0.0014, 0.002, 0.003, 0.009_99, 0.010_01, 0.012, 0.02];
+
+/// Beginnings on, beside and between the numbers that can be printed.
+const BEGINNINGS: [[f64; 2]; 5] =
+    [[0.0, 0.0], [3.0005, -2.0005], [0.000_499_9, 0.000_500_1], [-7.123_45, 1.0004], [12.0002, 0.0005]];
+
+/// Calls for arcs with those gaps, of small and large radii all round.
+fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
+    for gap in GAPS {
+        for radius in [0.05, 0.0731, 0.4, 5.0, 80.0] {
+            for eighth in 0_u32..8 {
+                let direction = f64::from(eighth) * (std::f64::consts::FRAC_PI_4 + 0.002);
+                for at in BEGINNINGS {
+                    each(at, radius, direction, false, gap);
+                    each(at, radius, direction, true, gap);
+                }
+            }
+        }
+    }
+}
+
+/// Where the arc of a text leads, and how far round in radians.
+fn arc_in(text: &str) -> ([f64; 3], f64) {
+    let read = interpret(text.as_bytes(), Native, &Options::default());
+    let moves = read.moves();
+    let arc = moves.iter().find_map(|(_, it)| match it.path {
+        Path::Arc(arc) => Some((it.to.at, arc.sweep(&it.from, &it.to))),
+        Path::Line => None,
+    });
+    arc.unwrap_or_else(|| panic!("{text}"))
+}
+
+#[test]
+fn an_arc_just_short_of_a_whole_turn_stays_one() {
+    use std::f64::consts::{PI, TAU};
+    for_arcs_with_gaps(|at, radius, direction, clockwise, gap| {
+        let (arc, program) = arc_from(at, radius, direction, clockwise, TAU * radius - gap);
+        let text = text_of(&program);
+        native::read_back(&text, &program).unwrap_or_else(|problem| panic!("{problem:?}\n{text}"));
+        let Move::Arc { to, .. } = arc else { unreachable!() };
+        let (end, sweep) = arc_in(&text);
+        assert!(sweep > PI, "{sweep}: {text}");
+        let is_beside = |printed: f64, drawn: f64| (printed - drawn).abs() <= 0.001 + 1e-9;
+        assert!(is_beside(end[0], to.x) && is_beside(end[1], to.y), "{gap} {to:?}: {text}");
+        if gap > 0.003 {
+            assert!(sweep < TAU - 1e-6, "a full circle: {text}");
+        }
+        let said = moves_of(&program).into_iter().find_map(|(_, it)| match it.path {
+            Path::Arc(_) => Some(it.to),
+            Path::Line => None,
+        });
+        let said = said.unwrap_or_else(|| panic!("{text}"));
+        // What is expected is what is drawn, not a full circle in its place.
+        assert!((said.x() - to.x).abs() < 1e-8 && (said.y() - to.y).abs() < 1e-8, "{said:?}, {to:?}");
+    });
+}
+
+#[test]
+fn an_arc_of_next_to_nothing_never_goes_round() {
+    for_arcs_with_gaps(|at, radius, direction, clockwise, length| {
+        let (_, program) = arc_from(at, radius, direction, clockwise, length);
+        let text = text_of(&program);
+        native::read_back(&text, &program).unwrap_or_else(|problem| panic!("{problem:?}\n{text}"));
+        let (_, sweep) = arc_in(&text);
+        assert!(sweep < std::f64::consts::PI, "{sweep}: {text}");
+    });
+}
+
+/// The half of a circle so small that all of it is within rounding.
+#[test]
+fn half_a_tiny_circle_stays_half() {
+    for radius in [0.001, 0.002, 0.003] {
+        // A hair more than a half.
+        let length = 1.0001 * std::f64::consts::PI * radius;
+        for (angle, clockwise) in [(0.0, false), (0.7, true), (2.0, false), (4.1, true)] {
+            let (arc, program) = arc_from([0.0, 0.0], radius, angle, clockwise, length);
+            let Move::Arc { to, .. } = arc else { unreachable!() };
+            let is_there = |it: &pathbuild_gcode::interpret::Move| {
+                matches!(it.path, Path::Arc(_))
+                    && (it.to.x() - to.x).abs() < 1e-9
+                    && (it.to.y() - to.y).abs() < 1e-9
+            };
+            assert!(moves_of(&program).iter().any(|(_, it)| is_there(it)), "{radius} {angle}");
+        }
     }
 }
 

@@ -47,9 +47,10 @@ impl Tool {
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = self.at(Some(to), z.z);
-                // Ends that coincide, or nearly so, may mean next to nothing or a full circle: the length tells.
+                // Ends that coincide, or nearly so, may mean next to nothing or a full circle: the length tells. Only an end that says
+                // otherwise than the length does is put right: one just short of a full circle is where it is.
                 let (radius, sweep) = (arc.radius(&self.position), arc.sweep(&self.position, &to));
-                let is_whole = length > PI * radius && is_doubtful(relative, sweep * radius);
+                let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
                 let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
                 let to = if is_whole { self.at(None, z.z) } else { to };
