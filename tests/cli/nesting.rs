@@ -15,10 +15,10 @@ sweep 20,0 10,0
 end 10,0
 ";
 
-/// A path of 10 mm that embeds the one before it, turned by so many degrees and raised by a millimetre.
+/// A path of 10 mm that embeds the one before it, turned by so many degrees and raised by a millimetre, which S stays above.
 fn level(level: usize, degrees: f64) -> String {
     let (from, to) = (Point::new(100.0, 50.0), Point::new(100.0, 50.0).polar(10.0, degrees));
-    let mut text = format!("layer {}.1P\nstart 0,0 \"T5 O2 MX\"\n", 1000 + level);
+    let mut text = format!("layer {}.1P\nstart 0,0 \"T5 O2 S20 MX\"\n", 1000 + level);
     writeln!(text, "sweep 0,0 {},{}", from.x, from.y).unwrap();
     writeln!(text, "subpath {},{} {},{} \">{}.1P H1\"", from.x, from.y, to.x, to.y, 999 + level).unwrap();
     writeln!(text, "sweep {},{} 10,0\nend 10,0", to.x, to.y).unwrap();

@@ -143,19 +143,6 @@ end 40,40
     assert_snapshot!(runs(&place, ["deps 8000.1P", "rdeps 8000.3P", "graph 8000.dxf"]));
 }
 
-/// With the default patterns look-ups use an order; where numbers and texts meet there is none.
-#[test]
-fn look_ups_without_an_order_are_told_to_who_asks() {
-    let place = Place::of(LIBRARY).file("components/ABC.dxf", "");
-    let run = |arguments: &str| place.run(&format!("{arguments} check projects/8001.dxf --no-cache")).stderr;
-    let mixed = "--file-pattern ([0-9A-Z]+)";
-    let place_of = "components: every file name is looked at";
-    assert!(!run("-v").contains(place_of), "{}", run("-v"));
-    assert!(!run(mixed).contains(place_of));
-    let mixed = run(&format!("-v {mixed}"));
-    assert!(mixed.contains(place_of), "{mixed}");
-}
-
 #[test]
 fn where_says_file_line_layer_and_start() {
     let place = Place::of(LIBRARY);

@@ -74,7 +74,7 @@ fn of_program(post: &str, language: Language, it: &Named, seed: usize) -> (usize
     let (mut count, mut faults) = (0, Vec::new());
     for _ in 0..CHANGES {
         let Some((what, changed)) = change(&written, &mut dice) else { continue };
-        if effects(&changed, written.dialect, &it.program) == before {
+        if is_alike(&effects(&changed, written.dialect, &it.program), &before) {
             continue;
         }
         count += 1;
@@ -167,6 +167,25 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<(Move, Option
     effects
 }
 
+/// Whether the tool does the same but for what rounding does: moves shorter than that, and ends that differ by less.
+fn is_alike(one: &[(Move, Option<Spindle>)], other: &[(Move, Option<Spindle>)]) -> bool {
+    let counting = |all: &[(Move, Option<Spindle>)]| {
+        all.iter().filter(|(it, _)| it.length() == 0.0 || it.length() > ROUNDING).copied().collect::<Vec<_>>()
+    };
+    let is_near = |a: &Position, b: &Position| {
+        a.known == b.known && a.at.iter().zip(b.at).all(|(a, b)| (a - b).abs() <= ROUNDING)
+    };
+    let (one, other) = (counting(one), counting(other));
+    let is_same = |((a, spindle), (b, other)): (&(Move, Option<Spindle>), &(Move, Option<Spindle>))| {
+        let ends = is_near(&a.from, &b.from) && is_near(&a.to, &b.to);
+        ends && a.pace == b.pace && a.path == b.path && spindle == other
+    };
+    one.len() == other.len() && one.iter().zip(&other).all(is_same)
+}
+
+/// mm: several units of the last digit.
+const ROUNDING: f64 = 0.006;
+
 fn nothing() -> Move {
     let nowhere = Position::default();
     Move {
@@ -253,7 +272,12 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
             format!("`{was}` became `{}`", lines[at])
         }
         4 => {
-            let at = dice.below(lines.len());
+            // Behind the last cut the tool is only lifted further. Of a helix that a control takes as chords, one chord less is within
+            // what chords may leave their arc.
+            let at = dice.below(last + 1);
+            if is_cut(&lines[at]) && !written.dialect.rules().arcs.helix {
+                return None;
+            }
             format!("`{}` was removed", lines.remove(at))
         }
         _ => {

@@ -283,7 +283,10 @@ pub(super) fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -
     let end = shorter.end();
     let share = longer.nearest(&end, shorter.length).ok_or(Kind::Place)?;
     let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
-    if !is_near(&longer.point(share), &end, slack) {
+    let [x, y, z] = longer.point(share);
+    // The place on an arc is found in its plane: on a steep one a rounding there is a height.
+    let height = slack + ARC_SLACK * tolerance.place * longer.steepness();
+    if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], slack) || libm::fabs(z - end[2]) > height {
         return Err(Kind::Place);
     }
     check_shape(shorter, 1.0, longer, share, tolerance)?;

@@ -127,6 +127,13 @@ impl Stretch {
         Some(share.clamp(self.begin, 1.0))
     }
 
+    /// How much an arc rises or falls in each mm of its plane; 0 of a line.
+    pub(super) fn steepness(&self) -> f64 {
+        let rise = libm::fabs(self.it.to.z() - self.it.from.z());
+        let way = libm::sqrt((self.it.length() * self.it.length() - rise * rise).max(0.0));
+        if self.is_arc() && way > 0.0 { rise / way } else { 0.0 }
+    }
+
     /// The angle in radians from one place to another around the arc's centre, in its direction, between -pi and pi.
     fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
         let Path::Arc(arc) = self.it.path else { return 0.0 };
