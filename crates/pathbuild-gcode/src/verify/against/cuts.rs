@@ -99,12 +99,25 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         };
         let found = cut.map(|(line, it)| (line, *it));
         let next = self.expected.peek().copied().or_else(|| expected.last().copied());
-        let reaches = |it: &Move| is_near(&it.from.at, &at.at, 2.0 * self.tolerance.place);
+        let (slack, height) = (2.0 * self.tolerance.place, self.slack_of_height());
+        let reaches = |it: &Move| {
+            let [x, y, z] = at.at;
+            is_near(&it.from.at, &[x, y, it.from.z()], slack) && libm::fabs(z - it.from.z()) <= height
+        };
         match chain.check(&way) {
             Err(found) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
             Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => Ok(()),
             Ok(()) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
         }
+    }
+
+    /// How far heights within the next expected move may differ: its place is found in the plane, where a rounding is a height on a
+    /// steep arc.
+    fn slack_of_height(&mut self) -> f64 {
+        let within = self.expected.peek().filter(|_| self.done > 0.0);
+        let steepness =
+            within.map_or(0.0, |(_, it)| Stretch { it: *it, begin: 0.0, length: 0.0 }.steepness());
+        2.0 * self.tolerance.place * (1.0 + steepness)
     }
 
     /// Where the expected tool is.
