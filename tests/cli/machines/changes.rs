@@ -145,8 +145,11 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     found
 }
 
+/// A cut with the spindle's state, or a rapid move below S.
+type Effect = (Move, Option<Spindle>);
+
 /// What matters of a program: each cut with the spindle's state, and rapid moves that go below S.
-fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<(Move, Option<Spindle>)> {
+fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut spindle = Spindle { turning: Turning::Unstated, speed: 0.0 };
     let low = program.start_height() - 0.05;
@@ -168,15 +171,15 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<(Move, Option
 }
 
 /// Whether the tool does the same but for what rounding does: moves shorter than that, and ends that differ by less.
-fn is_alike(one: &[(Move, Option<Spindle>)], other: &[(Move, Option<Spindle>)]) -> bool {
-    let counting = |all: &[(Move, Option<Spindle>)]| {
-        all.iter().filter(|(it, _)| it.length() == 0.0 || it.length() > ROUNDING).copied().collect::<Vec<_>>()
+fn is_alike(one: &[Effect], other: &[Effect]) -> bool {
+    let counting = |all: &[Effect]| -> Vec<Effect> {
+        all.iter().filter(|(it, _)| it.length() == 0.0 || it.length() > ROUNDING).copied().collect()
     };
     let is_near = |a: &Position, b: &Position| {
         a.known == b.known && a.at.iter().zip(b.at).all(|(a, b)| (a - b).abs() <= ROUNDING)
     };
     let (one, other) = (counting(one), counting(other));
-    let is_same = |((a, spindle), (b, other)): (&(Move, Option<Spindle>), &(Move, Option<Spindle>))| {
+    let is_same = |((a, spindle), (b, other)): (&Effect, &Effect)| {
         let ends = is_near(&a.from, &b.from) && is_near(&a.to, &b.to);
         ends && a.pace == b.pace && a.path == b.path && spindle == other
     };

@@ -152,7 +152,10 @@ fn program() -> Program {
     let line = |x: f64, y: f64, z| go(Move::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
     let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
         let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));
-        go(Move::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral })
+        // A radian of 10 mm radius, and half circles of 5 mm.
+        let length = if is_spiral { 5.0 * std::f64::consts::PI } else { 10.0 };
+        let to = Move::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
+        ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
     };
     let hole = |peck| {
         let at = Xy::new(0.0, 0.0);
