@@ -1,12 +1,16 @@
-//! What a `pathbuild.toml` describes: the configuration, finding drawings, sessions over the database, results kept between runs. It
-//! parses no arguments and prints nothing: what somebody who waits may want to hear goes to a [`Reporter`]. (spec/06-configuration.md)
+//! What a `pathbuild.toml` describes: the configuration, finding drawings, sessions over the database, results kept between runs, the jobs
+//! of `check` and `emit`, the watch loop. It parses no arguments and prints nothing: what somebody who waits may want to hear goes to a
+//! [`Reporter`] or a [`watch::Listener`]. (spec/06-configuration.md)
 
+pub mod check;
 pub mod config;
+pub mod emit;
 pub mod files;
 mod inputs;
 pub mod posting;
 mod reporter;
 pub mod session;
+pub mod watch;
 mod workspace;
 
 pub use pathbuild_cache::Home as CacheHome;

@@ -8,7 +8,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 
 use crate::args::{Cli, WatchArgs};
-use crate::commands::watch::{self, Ended};
+use crate::commands::watch;
 use crate::context::Context;
 use crate::context_of;
 use crate::exit::ExitStatus;
@@ -25,15 +25,15 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         let is_lost = has_begun && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {
             // An editor may remove the file before it writes the new one.
-            true if is_lost => Ended::With(ExitStatus::Usage),
+            true if is_lost => Some(ExitStatus::Usage),
             true => watch::run(&context, args),
-            false => Ended::With(context.refuse(faults)),
+            false => Some(context.refuse(faults)),
         };
         match ended {
-            Ended::With(status) if !has_begun || status == ExitStatus::Success => {
+            Some(status) if !has_begun || status == ExitStatus::Success => {
                 return context.printer.finish(status);
             }
-            Ended::With(_) => {
+            Some(_) => {
                 context.printer.status(context.choose(
                     "the configuration or its post is missing or wrong: nothing is checked until it is put right",
                     "die Konfiguration oder ihr Postprozessor fehlt oder ist falsch: nichts wird geprüft, bis das berichtigt ist",
@@ -42,7 +42,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     thread::sleep(PAUSE);
                 }
             }
-            Ended::ConfigurationChanged => {
+            None => {
                 has_begun = true;
                 context.printer.status(context.choose(
                     "the configuration or its post changed",

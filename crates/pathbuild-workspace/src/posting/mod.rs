@@ -150,6 +150,11 @@ impl Poster {
         self.post.reader(self.wishes.dialect.as_deref())
     }
 
+    /// Whether the command that the post names is run.
+    pub fn runs_post_build(&self) -> bool {
+        self.wishes.run_post_build
+    }
+
     /// The tools of the configuration.
     pub fn tools(&self) -> &ToolTable {
         &self.tools

@@ -125,6 +125,11 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// What it works in.
+    pub fn workspace(&self) -> &'a Workspace {
+        self.context
+    }
+
     /// The database.
     pub fn db(&self) -> &Database {
         &self.db

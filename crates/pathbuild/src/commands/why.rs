@@ -3,16 +3,15 @@
 use std::collections::HashSet;
 
 use camino::Utf8PathBuf;
-use pathbuild_cache::{Listings, Reason};
+use pathbuild_cache::Reason;
 use pathbuild_diagnostic::shown;
 use serde::Serialize;
 
-use super::check::question;
-use crate::args::{CheckArgs, Format, GraphArgs};
+use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::config::Concerns;
-use pathbuild_workspace::session::{Keeper, Question, Scope, Session};
+use pathbuild_workspace::check::kept_results;
+use pathbuild_workspace::session::Session;
 
 /// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
 /// that is not as it was.
@@ -21,10 +20,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
-    let text = question(&CheckArgs::default());
-    let question =
-        Question { whose: Concerns::Check, text: &text, scope: Scope::All, listings: Listings::new() };
-    let Some(keeper) = Keeper::open(context, question) else {
+    let Some(keeper) = kept_results(context) else {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };

@@ -5,26 +5,16 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 
 use super::baseline::Compared;
-use super::{Baseline, CheckedFile, Findings, summary};
+use super::{Baseline, Findings, summary};
 use crate::args::{CheckArgs, ReportFile};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::{View, render};
+use pathbuild_workspace::check::Checked;
 use pathbuild_workspace::files;
 
-/// What a check did.
-#[derive(Clone, Debug, Default)]
-pub struct Checked {
-    /// Everything that was found, in any order and as often as it was met.
-    pub diagnostics: Vec<Diagnostic>,
-    /// What was looked at, in order of name.
-    pub files: Vec<CheckedFile>,
-    /// How long it took.
-    pub time: Duration,
-}
-
-/// Ends a check: severities and baseline applied, findings shown, reports written, the summary, the exit status.
-pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitStatus {
+/// Ends a check that took so long: severities and baseline applied, findings shown, reports written, the summary, the exit status.
+pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Duration) -> ExitStatus {
     let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
     match &args.baseline {
         Some(file) if args.update_baseline => {
@@ -34,13 +24,13 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked) -> ExitSt
             &context.working_directory.join(file),
             context.settings.limits.file_size.value,
         ) {
-            Ok(baseline) => deliver(context, args, &baseline.compare(findings), checked.time),
+            Ok(baseline) => deliver(context, args, &baseline.compare(findings), time),
             Err(faults) => context.refuse(faults),
         },
         None => {
             // The run is over: what it looked at is not taken apart.
             let compared = ManuallyDrop::new(Compared { new: findings, known: 0, gone: 0 });
-            deliver(context, args, &compared, checked.time)
+            deliver(context, args, &compared, time)
         }
     }
 }

@@ -1,6 +1,5 @@
-use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_path::PathName;
+use pathbuild_workspace::check::CheckedFile;
 
 /// Everything that a run found, and what it looked at.
 #[derive(Clone, Debug, Default)]
@@ -9,15 +8,6 @@ pub struct Findings {
     pub diagnostics: Vec<Diagnostic>,
     /// The drawings that were checked, in order of name; empty for commands that check none.
     pub checked: Vec<CheckedFile>,
-}
-
-/// A drawing that was checked.
-#[derive(Clone, Debug)]
-pub struct CheckedFile {
-    /// The drawing.
-    pub file: Utf8PathBuf,
-    /// Its paths, as the drawing spells them, in file order.
-    pub paths: Vec<PathName>,
 }
 
 impl Findings {

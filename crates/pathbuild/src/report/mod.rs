@@ -9,8 +9,9 @@ mod judge;
 mod summary;
 
 pub use baseline::Baseline;
-pub use conclude::{Checked, conclude};
-pub use findings::{CheckedFile, Findings};
+pub use conclude::conclude;
+pub use findings::Findings;
 pub use fingerprint::Fingerprint;
 pub use judge::judge;
+pub use pathbuild_workspace::check::CheckedFile;
 pub use summary::summary;

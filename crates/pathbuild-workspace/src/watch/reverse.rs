@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{SourceFile, Trace};
 use pathbuild_path::PathName;
 
-use pathbuild_workspace::session::Coverage;
+use crate::session::Coverage;
 
 /// The reverse of all traces.
 #[derive(Default)]

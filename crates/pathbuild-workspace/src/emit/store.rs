@@ -4,24 +4,24 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
+use crate::config::Concerns;
+use crate::session::{
+    CheckedTarget, DrawingResult, Keeper, Made, MadeOutput, OutputKind, OutputState, Question, Scope,
+    Session, is_passing,
+};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
     Corrupt, Decoder, Encoder, Listings, decode_diagnostic, decode_note, encode_diagnostic, encode_note,
 };
 use pathbuild_db::{SourceFile, Target, Trace, check_file};
 use pathbuild_diagnostic::{Diagnostic, Note};
-use pathbuild_workspace::config::Concerns;
-use pathbuild_workspace::session::{
-    CheckedTarget, DrawingResult, Keeper, Made, MadeOutput, OutputKind, OutputState, Question, Scope,
-    Session, is_passing,
-};
 
+use super::Request;
 use super::asked::Drawings;
 use super::deliver::{Delivered, State, Task};
 use super::job::Job;
-use crate::args::EmitArgs;
-use crate::context::Context;
-use pathbuild_workspace::posting::Poster;
+use crate::posting::Poster;
+use crate::workspace::Workspace;
 
 /// The records of earlier runs with these settings.
 pub(super) struct Store(Keeper);
@@ -56,23 +56,21 @@ pub(super) struct KnownProgram {
 impl Store {
     /// The records about these drawings. `None` for runs that always make everything.
     pub(super) fn open(
-        context: &Context,
-        args: &EmitArgs,
-        poster: Option<&Poster>,
+        workspace: &Workspace,
+        request: &Request<'_>,
         scope: Scope,
         listings: Listings,
     ) -> Option<Self> {
-        let is_always_made = args.output.is_some()
-            || args.deps.is_some()
-            || args.join.is_some()
-            || args.force
-            || args.run_post_build;
+        let is_always_made = matches!(request.task, Task::Print | Task::Write { force: true })
+            || request.deps.is_some()
+            || request.join.is_some()
+            || request.poster.is_some_and(Poster::runs_post_build);
         if is_always_made {
             return None;
         }
-        let text = question(args, poster);
+        let text = question(request.poster);
         let question = Question { whose: Concerns::Emit, text: &text, scope, listings };
-        Keeper::open(context, question).map(Self)
+        Keeper::open(workspace, question).map(Self)
     }
 
     /// What is known of a drawing alone, if it is as it was.
@@ -221,8 +219,8 @@ impl KnownProgram {
 }
 
 /// Everything that a program depends on and that is in no drawing and no setting.
-fn question(args: &EmitArgs, poster: Option<&Poster>) -> String {
-    let mut text = format!("emit {:?}", (&args.date, &args.dialect));
+fn question(poster: Option<&Poster>) -> String {
+    let mut text = "emit".to_owned();
     if let Some(poster) = poster {
         _ = write!(text, " {:?} {}", poster.file(), blake3::hash(&poster.identity()).to_hex());
     }

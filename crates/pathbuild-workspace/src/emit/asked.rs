@@ -10,9 +10,8 @@ use pathbuild_path::PathName;
 
 use super::configured::Configured;
 use super::store::Store;
-use crate::context::Context;
-use pathbuild_workspace::Inputs;
-use pathbuild_workspace::session::{DrawingResult, Found, Session, Wanted};
+use crate::Inputs;
+use crate::session::{DrawingResult, Found, Session, Wanted};
 
 /// The paths to emit, and what the run knows of beside them.
 pub(super) struct Asked {
@@ -63,7 +62,6 @@ impl Asked {
     /// What the arguments mean, and what is wrong with them; `None` when there are none and the configuration names no targets. `found`: what
     /// is in the directories, if all arguments are directories.
     pub(super) fn new(
-        context: &Context,
         session: &Session<'_>,
         store: Option<&Store>,
         inputs: &Inputs,
@@ -71,7 +69,9 @@ impl Asked {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
         let is_by_configuration = inputs.inputs.is_empty();
-        if is_by_configuration && (context.settings.emit.targets.value.is_empty() || !session.has_library()) {
+        if is_by_configuration
+            && (session.workspace().settings.emit.targets.value.is_empty() || !session.has_library())
+        {
             return None;
         }
         let (wanted, directories) = if let Some(Found { drawings, directories, .. }) = found {
@@ -84,14 +84,8 @@ impl Asked {
         let in_directories = wanted.drawings.iter().filter(|drawing| !drawing.is_named);
         let covered: Vec<SourceFile> = in_directories.map(|drawing| drawing.file).collect();
         let drawings = Drawings::new(session, store, &covered);
-        let mut asking = Asking {
-            context,
-            session,
-            drawings: &drawings,
-            diagnostics,
-            targets: Vec::new(),
-            known: HashSet::new(),
-        };
+        let mut asking =
+            Asking { session, drawings: &drawings, diagnostics, targets: Vec::new(), known: HashSet::new() };
         if is_by_configuration {
             asking.diagnostics.extend(wanted.problems);
             asking.configured(&covered);
@@ -103,26 +97,24 @@ impl Asked {
 
     /// The same with the paths in the order of the arguments, which decides what is milled first.
     pub(super) fn in_order(
-        context: &Context,
         session: &Session<'_>,
         inputs: &Inputs,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
         if inputs.inputs.is_empty() {
-            return Self::new(context, session, None, inputs, None, diagnostics);
+            return Self::new(session, None, inputs, None, diagnostics);
         }
         let drawings = Drawings::new(session, None, &[]);
         let mut all = Self { targets: Vec::new(), covered: Vec::new(), drawings, directories: Vec::new() };
         for input in &inputs.inputs {
             let input = Inputs { inputs: vec![input.clone()] };
-            all.targets.extend(Self::new(context, session, None, &input, None, diagnostics)?.targets);
+            all.targets.extend(Self::new(session, None, &input, None, diagnostics)?.targets);
         }
         Some(all)
     }
 }
 
 struct Asking<'a> {
-    context: &'a Context,
     session: &'a Session<'a>,
     drawings: &'a Drawings,
     diagnostics: &'a mut Vec<Diagnostic>,
@@ -134,7 +126,7 @@ impl Asking<'_> {
     /// The paths whose names match a target's pattern.
     fn configured(&mut self, library: &[SourceFile]) {
         let drawings = self.drawings;
-        let mut configured = Configured::new(&self.context.settings);
+        let mut configured = Configured::new(&self.session.workspace().settings);
         for file in library {
             // A drawing that cannot be read may hold a target.
             let errors = drawings.diagnostics(self.session, *file).iter().filter(|found| found.is_error());
@@ -188,7 +180,7 @@ impl Asking<'_> {
     }
 
     fn no_path(&self, file: &Utf8Path) -> Diagnostic {
-        let pattern = &*self.context.settings.general.path_pattern.value;
+        let pattern = &*self.session.workspace().settings.general.path_pattern.value;
         Diagnostic::new(&messages::NO_PATH).with("pattern", pattern).in_file(file)
     }
 }

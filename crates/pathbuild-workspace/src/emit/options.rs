@@ -6,12 +6,12 @@ use pathbuild_gcode::native::{Charset, WriteOptions};
 use pathbuild_toolpath::{Correction, ZModel};
 
 use super::deliver::Task;
-use crate::context::Context;
-use pathbuild_workspace::config::types;
-use pathbuild_workspace::session::{CheckedTarget, Writing};
+use crate::config::types;
+use crate::session::{CheckedTarget, Writing};
+use crate::workspace::Workspace;
 
 /// A value that a program needs and nobody gives is wrong usage; what has errors is not asked for it.
-pub(super) fn missing(context: &Context, task: Task, checked: &[CheckedTarget]) -> Option<String> {
+pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
     let is_missing = |option| sound().any(|checked| checked.missing_options.contains(&option));
     let has_no_rapid = context.settings.general.rapid.value.is_none() && sound().next().is_some();
@@ -28,7 +28,7 @@ pub(super) fn missing(context: &Context, task: Task, checked: &[CheckedTarget]) 
 }
 
 /// How files are written.
-pub(super) fn writing(context: &Context) -> Writing {
+pub(super) fn writing(context: &Workspace) -> Writing {
     let general = &context.settings.general;
     let charset = match general.charset.value {
         types::Charset::Ascii => Charset::Ascii,
@@ -42,7 +42,7 @@ pub(super) fn writing(context: &Context) -> Writing {
 }
 
 /// How heights are corrected between probes.
-fn correction(context: &Context) -> Correction {
+fn correction(context: &Workspace) -> Correction {
     let model = match context.settings.general.z_model.value {
         types::ZModel::Idw4 => ZModel::Idw4,
         types::ZModel::Plane => ZModel::Plane,

@@ -6,46 +6,31 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
+use super::changed::Changed;
 use super::drawings::check_drawings;
-use super::since::Changed;
-use super::{leave, question};
-use crate::args::CheckArgs;
-use crate::context::Context;
-use crate::report::{Checked, CheckedFile};
-use pathbuild_workspace::config::Concerns;
-use pathbuild_workspace::session::timings::{KEEPING, VERIFYING};
-use pathbuild_workspace::session::{
-    DrawingResult, Found, Keeper, Made, Pair, Question, Scope, Session, q_project_pairs,
-};
+use super::{Checked, CheckedFile, Request, leave, open};
+use crate::session::timings::{KEEPING, VERIFYING};
+use crate::session::{DrawingResult, Found, Keeper, Made, Pair, Scope, Session, q_project_pairs};
 
 /// Checks drawings, and keeps what is found.
-///
-/// # Errors
-/// Why it cannot be told what changed since a revision.
-pub(super) fn check(
-    context: &Context,
-    session: &mut Session<'_>,
-    args: &CheckArgs,
-    found: Found,
-) -> Result<Checked, String> {
-    let since = |revision: &String| Changed::since(context, session, revision);
-    let changed = args.changed_since.as_ref().map(since).transpose()?;
+pub(super) fn check(session: &mut Session<'_>, request: &Request<'_>, found: Found) -> Checked {
+    let context = session.workspace();
+    let changed = request.changed.as_ref().map(|drawings| Changed::new(session, drawings));
     let scope = Scope::of(&found);
     let Found { drawings, listings, .. } = found;
-    let text = question(args);
-    let question = Question { whose: Concerns::Check, text: &text, scope, listings };
-    let opened = session.timings().measure(&VERIFYING, || Keeper::open(context, question));
+    let with_all_values = request.with_all_values;
+    let opened = session.timings().measure(&VERIFYING, || open(context, with_all_values, scope, listings));
     let keeper = opened.as_ref();
     let mut results: Vec<Option<DrawingResult>> =
         drawings.iter().map(|drawing| kept(keeper, drawing.as_str())).collect();
     let open: Vec<usize> = (0..drawings.len()).filter(|index| results[*index].is_none()).collect();
     let phrase =
         context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
-    context.printer.detail(format_args!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
+    context.reporter.detail(&format!("{phrase}: {} / {}", drawings.len() - open.len(), drawings.len()));
     let files: Vec<SourceFile> =
         session.db().files(open.iter().map(|index| drawings[*index].clone()).collect());
     let mut made = Vec::new();
-    let checked = session.settled(|session| check_drawings(session, &files, args.all_bindings));
+    let checked = session.settled(|session| check_drawings(session, &files, with_all_values));
     for ((result, traces), index) in checked.into_iter().zip(open) {
         made.push(new(drawings[index].as_str(), traces, &result));
         results[index] = Some(result);
@@ -67,7 +52,7 @@ pub(super) fn check(
     let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));
     checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
     leave(opened);
-    Ok(checked)
+    checked
 }
 
 /// Which results are shown.

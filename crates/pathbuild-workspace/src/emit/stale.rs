@@ -14,41 +14,36 @@ use pathbuild_gcode::native::{self, Charset, comment};
 
 use super::asked::Asked;
 use super::job::{Job, output_directory};
-use crate::context::Context;
-use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{HEAD, OutputKind, Provenance, Session};
+use crate::posting::Poster;
+use crate::session::{HEAD, OutputKind, Provenance, Session};
 
-/// Reports what is stale, or removes it.
+/// Reports what is stale, or removes it; what was removed.
 pub(super) fn deal_with(
-    context: &Context,
     session: &Session<'_>,
-    asked: &Asked,
-    jobs: &[Job],
-    poster: Option<&Poster>,
+    stale: Vec<Utf8PathBuf>,
     is_removed: bool,
-) -> Vec<Diagnostic> {
-    let deal_with = |path: Utf8PathBuf| {
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Utf8PathBuf> {
+    let mut removed = Vec::new();
+    for path in stale {
         let name = path.file_name().unwrap_or_default();
         if !is_removed {
-            return Some(Diagnostic::new(&messages::STALE).with("name", name).in_file(&path));
+            diagnostics.push(Diagnostic::new(&messages::STALE).with("name", name).in_file(&path));
+            continue;
         }
         match session.db().system().remove(&path) {
-            Ok(()) => {
-                let removed = context.choose("stale, removed", "veraltet, entfernt");
-                context.printer.status(format_args!("{path}: {removed}"));
-                None
-            }
+            Ok(()) => removed.push(path),
             Err(reason) => {
                 let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", name);
-                Some(problem.with("reason", &*reason).in_file(&path))
+                diagnostics.push(problem.with("reason", &*reason).in_file(&path));
             }
         }
-    };
-    stale(context, session, asked, jobs, poster).into_iter().filter_map(deal_with).collect()
+    }
+    removed
 }
 
-fn stale(
-    context: &Context,
+/// The programs that nothing would write now.
+pub(super) fn stale(
     session: &Session<'_>,
     asked: &Asked,
     jobs: &[Job],
@@ -58,8 +53,15 @@ fn stale(
         return Vec::new();
     }
     let outputs: HashSet<Utf8PathBuf> = jobs.iter().flat_map(|job| outputs(job, poster.is_none())).collect();
-    let writers = LazyCell::new(|| Writers::new(context, session, asked, jobs));
-    let out_dir = context.settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
+    let writers = LazyCell::new(|| Writers::new(session, asked, jobs));
+    let out_dir = session
+        .workspace()
+        .settings
+        .general
+        .out_dir
+        .value
+        .as_ref()
+        .map(|directory| session.normal(directory));
     let system = session.db().system();
     let mut stale = Vec::new();
     for directory in out_dir.as_ref().map_or(&*asked.directories, std::slice::from_ref) {
@@ -117,9 +119,9 @@ fn without_case(title: &str) -> String {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(context: &Context, session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
+    fn new(session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
         let db = session.db();
-        let place = |file: SourceFile| output_directory(context, session, file);
+        let place = |file: SourceFile| output_directory(session, file);
         let name = |file: SourceFile| file.path(db).file_name().unwrap_or_default();
         let drawing = |file: SourceFile| (place(file), without_case(&comment(name(file), Charset::Ascii)));
         let made: BTreeSet<Title> = jobs
@@ -140,7 +142,7 @@ impl Writers {
             idle: of_covered.filter(|title| !made.contains(title)).collect(),
             covered: asked.covered.iter().map(|file| drawing(*file)).collect(),
             others: library.into_iter().filter(|file| !covered.contains(file)).map(drawing).collect(),
-            knows_all: has_library || context.settings.general.out_dir.value.is_none(),
+            knows_all: has_library || session.workspace().settings.general.out_dir.value.is_none(),
         }
     }
 

@@ -1,9 +1,9 @@
 //! Checking drawings: what is found in each, with what it was found from.
 
+use crate::session::{Asking, DrawingResult, Session, by_place};
 use pathbuild_db::{Database, Role, SourceFile, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
-use pathbuild_workspace::session::{Asking, DrawingResult, Session, by_place};
 
 /// So many drawings are checked before what was read from them is dropped.
 const BATCH: usize = 1024;
@@ -16,7 +16,7 @@ pub(super) struct Asked {
 }
 
 /// What is found in drawings, each with what it was found from.
-pub(in crate::commands) fn check_drawings(
+pub(crate) fn check_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
     with_all_values: bool,

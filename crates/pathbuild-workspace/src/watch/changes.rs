@@ -8,13 +8,12 @@ use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, RecursiveMode, Watcher as _};
 
+use super::Request;
 use super::library::Library;
-use pathbuild_workspace::Input;
-
-use crate::args::WatchArgs;
-use crate::context::Context;
-use pathbuild_workspace::files;
-use pathbuild_workspace::session::Session;
+use crate::Input;
+use crate::config::clean;
+use crate::files;
+use crate::session::Session;
 
 /// Watches the directories of a library.
 pub(super) struct Watcher {
@@ -61,21 +60,21 @@ const GLANCE: Duration = Duration::from_millis(50);
 impl Watcher {
     /// Begins to watch. `post`: the files that a post is read from.
     pub(super) fn new(
-        context: &Context,
         session: &Session<'_>,
-        args: &WatchArgs,
+        request: &Request<'_>,
         post: &[Utf8PathBuf],
     ) -> notify::Result<Self> {
-        let settings = &context.settings;
+        let workspace = session.workspace();
+        let settings = &workspace.settings;
         let (sender, events) = channel();
-        let is_polling = args.poll || settings.watch.poll.value;
+        let is_polling = request.polls || settings.watch.poll.value;
         let mut watcher: Box<dyn notify::Watcher> = if is_polling {
             Box::new(PollWatcher::new(sender, Config::default().with_poll_interval(POLL_INTERVAL))?)
         } else {
             Box::new(RecommendedWatcher::new(sender, Config::default())?)
         };
         let post: Vec<Utf8PathBuf> = post.iter().map(|file| session.normal(file)).collect();
-        for (directory, mode) in directories(context, session, args, &post) {
+        for (directory, mode) in directories(session, request, &post) {
             let place = if directory.as_str().is_empty() { Utf8Path::new(".") } else { &directory };
             watcher.watch(place.as_std_path(), mode)?;
         }
@@ -85,7 +84,7 @@ impl Watcher {
             debounce: settings.watch.debounce.value,
             configuration: settings.file.iter().map(|file| session.normal(file)).chain(post).collect(),
             news: Changes::default(),
-            working_directory: context.working_directory.clone(),
+            working_directory: workspace.working_directory.clone(),
             unfinished: BTreeMap::new(),
         })
     }
@@ -148,9 +147,7 @@ impl Watcher {
             Ok(event) if event.need_rescan() => changes.is_incomplete = true,
             Ok(event) if tells(event.kind) => {
                 let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
-                let paths = paths.map(|path| {
-                    session.normal(&pathbuild_workspace::config::clean(&self.working_directory.join(path)))
-                });
+                let paths = paths.map(|path| session.normal(&clean(&self.working_directory.join(path))));
                 changes.paths.extend(paths.filter(|path| matters(path) || self.configuration.contains(path)));
             }
             Ok(_) => {}
@@ -182,12 +179,12 @@ impl Changes {
 
 /// The directories to watch: those that hold drawings, those that are searched, that of the configuration, and those of the post.
 fn directories(
-    context: &Context,
     session: &Session<'_>,
-    args: &WatchArgs,
+    request: &Request<'_>,
     post: &[Utf8PathBuf],
 ) -> Vec<(Utf8PathBuf, RecursiveMode)> {
-    let general = &context.settings.general;
+    let settings = &session.workspace().settings;
+    let general = &settings.general;
     let mut all: BTreeMap<Utf8PathBuf, RecursiveMode> = BTreeMap::new();
     let mut add = |directory: Utf8PathBuf, mode: RecursiveMode| {
         let known = all.entry(directory).or_insert(mode);
@@ -195,7 +192,7 @@ fn directories(
             *known = mode;
         }
     };
-    for input in args.inputs.iter() {
+    for input in request.inputs.iter() {
         match input {
             Input::Place(place) if session.is_directory(place) => {
                 add(session.normal(place), RecursiveMode::Recursive);
@@ -212,7 +209,7 @@ fn directories(
     for directory in &general.library.value {
         add(session.normal(directory), RecursiveMode::Recursive);
     }
-    let beside = context.settings.directory().map(|directory| session.normal(directory));
+    let beside = settings.directory().map(|directory| session.normal(directory));
     let posts = post.iter().filter_map(|file| file.parent().map(Utf8Path::to_owned));
     let searched = general.search.value.iter().map(|directory| session.normal(directory));
     for directory in searched.chain(beside).chain(posts) {

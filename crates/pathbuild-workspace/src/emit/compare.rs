@@ -8,8 +8,8 @@ use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
 use super::deliver::{Output, State, has_same_probes};
-use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::OutputKind;
+use crate::posting::Poster;
+use crate::session::OutputKind;
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
 /// of another program. Comes with where the moves part, or why they cannot be read.

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::deliver::{Delivered, Made, Means, Output, Task, finish, make};
 use super::job::Job;
-use pathbuild_workspace::session::Session;
+use crate::session::Session;
 
 /// Does jobs. Nothing of a path is written when something keeps one of its files from being written.
 pub(super) fn deliver_all(

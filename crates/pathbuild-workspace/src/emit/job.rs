@@ -11,9 +11,8 @@ use pathbuild_gcode::native;
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use super::store::KnownProgram;
-use crate::context::Context;
-use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
+use crate::posting::Poster;
+use crate::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
 #[derive(PartialEq)]
@@ -96,7 +95,6 @@ impl Job {
 
 /// What makes jobs of paths.
 pub(super) struct Maker<'a> {
-    pub(super) context: &'a Context,
     pub(super) session: &'a Session<'a>,
     /// The post that programs are written through.
     pub(super) poster: Option<&'a Poster>,
@@ -142,7 +140,7 @@ impl Maker<'_> {
                 sources.push(*file);
             }
         }
-        let directory = output_directory(self.context, self.session, first.target.file(self.session.db()));
+        let directory = output_directory(self.session, first.target.file(self.session.db()));
         match self.named(name, &directory) {
             Ok(stem) => {
                 let title = joined_title(name, checked);
@@ -161,7 +159,7 @@ impl Maker<'_> {
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
         let is_alone = path_names(db, file).len() == 1;
         let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
-        let directory = output_directory(self.context, self.session, file);
+        let directory = output_directory(self.session, file);
         let stem = self.named(&format!("{name}{}", emitted.suffix), &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
@@ -180,7 +178,7 @@ impl Maker<'_> {
 
     fn named(&self, name: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
         if stem_fault(name) {
-            let reason = self.context.choose(
+            let reason = self.session.workspace().choose(
                 "the name, of which R is a part, holds a character that cannot be in a file's name",
                 "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann",
             );
@@ -209,7 +207,7 @@ impl Maker<'_> {
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
             files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
-            provenance: Provenance::new(db, path, &sources, &self.context.settings, self.poster),
+            provenance: Provenance::new(db, path, &sources, &self.session.workspace().settings, self.poster),
             stem,
             sources,
         }
@@ -223,8 +221,8 @@ fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
 }
 
 /// Where the files of a drawing's paths go: beside it, or where the configuration says.
-pub(super) fn output_directory(context: &Context, session: &Session<'_>, drawing: SourceFile) -> Utf8PathBuf {
-    match &context.settings.general.out_dir.value {
+pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Utf8PathBuf {
+    match &session.workspace().settings.general.out_dir.value {
         Some(directory) => session.normal(directory),
         None => drawing.path(session.db()).parent().unwrap_or(Utf8Path::new("")).to_owned(),
     }

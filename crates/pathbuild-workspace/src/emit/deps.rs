@@ -8,14 +8,12 @@ use pathbuild_diagnostic::{Diagnostic, shown};
 
 use super::deliver::cannot_write;
 use super::job::Job;
-use crate::context::Context;
-use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::Session;
+use crate::posting::Poster;
+use crate::session::Session;
 
 /// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
 /// from. `inserted`: of each job what the post put in, relative to the post's directory.
 pub(super) fn write(
-    context: &Context,
     session: &Session<'_>,
     file: &Utf8Path,
     jobs: &[Job],
@@ -23,7 +21,7 @@ pub(super) fn write(
     inserted: &[Vec<Box<str>>],
 ) -> Option<Diagnostic> {
     let db = session.db();
-    let configuration = context.settings.file.as_ref().map(|file| session.normal(file));
+    let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
     let post = poster.and_then(Poster::file).map(|file| session.normal(file));
     let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));

@@ -9,10 +9,9 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::changes::Changes;
 use super::reverse::Reverse;
-use crate::commands::check::check_drawings;
-use crate::context::Context;
-use pathbuild_workspace::Inputs;
-use pathbuild_workspace::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
+use crate::Inputs;
+use crate::check::check_drawings;
+use crate::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
 
 /// The drawings.
 pub(super) struct Library<'a> {
@@ -32,7 +31,7 @@ pub(super) struct Library<'a> {
 
 /// What came of a batch of changes.
 #[derive(Default)]
-pub(super) struct Update {
+pub(super) struct Batch {
     /// The files that changed.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// The drawings that were asked again.
@@ -52,11 +51,11 @@ const PORTION: usize = 64;
 
 impl<'a> Library<'a> {
     /// Nothing is known yet.
-    pub(super) fn new(context: &Context, session: Session<'a>, inputs: &'a Inputs) -> Self {
+    pub(super) fn new(session: Session<'a>, inputs: &'a Inputs) -> Self {
         Self {
+            coverage: Coverage::new(session.workspace()),
             session,
             inputs,
-            coverage: Coverage::new(context),
             drawings: BTreeMap::new(),
             q_projects: BTreeMap::new(),
             pairs: None,
@@ -82,18 +81,18 @@ impl<'a> Library<'a> {
     }
 
     /// Checks everything.
-    pub(super) fn begin(&mut self) -> Update {
+    pub(super) fn begin(&mut self) -> Batch {
         let wanted = self.session.wanted(self.inputs);
         let mut drawings: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
         drawings.extend(wanted.paths.iter().map(|path| path.file));
-        let mut update = Update { now: wanted.problems, ..Update::default() };
+        let mut update = Batch { now: wanted.problems, ..Batch::default() };
         self.ask(drawings, &mut update);
         update
     }
 
     /// Takes over changes; what they concern is to be asked, portion by portion.
-    pub(super) fn take_over(&mut self, changes: &Changes) -> Update {
-        let mut update = Update::default();
+    pub(super) fn take_over(&mut self, changes: &Changes) -> Batch {
+        let mut update = Batch::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
         let mut is_other_library = self.take_over_names(&files, &mut concerned) || changes.is_incomplete;
@@ -129,7 +128,7 @@ impl<'a> Library<'a> {
     }
 
     /// Asks the next of the drawings that are to be asked; which they were.
-    pub(super) fn ask_portion(&mut self, update: &mut Update) -> Vec<SourceFile> {
+    pub(super) fn ask_portion(&mut self, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(PORTION).collect();
         self.ask(portion.clone(), update);
@@ -137,7 +136,7 @@ impl<'a> Library<'a> {
     }
 
     /// Leaves what is still to be asked for the next batch of changes.
-    pub(super) fn leave(&mut self, update: &mut Update) {
+    pub(super) fn leave(&mut self, update: &mut Batch) {
         update.open = self.open.len();
         if self.is_behind() {
             self.late.clone_from(&update.changed);
@@ -199,7 +198,7 @@ impl<'a> Library<'a> {
     }
 
     /// Finds the drawings anew: those that came are concerned, those that went are forgotten.
-    fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Update) {
+    fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
         let wanted = self.session.wanted(self.inputs);
         let db = self.session.db();
         let there: BTreeSet<&Utf8PathBuf> =
@@ -221,7 +220,7 @@ impl<'a> Library<'a> {
     }
 
     /// Checks drawings, and remembers what they were made from.
-    fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Update) {
+    fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Batch) {
         let results = self.session.settled(|session| check_drawings(session, &asked, false));
         for (file, (result, traces)) in asked.iter().zip(results) {
             self.reverse.set(*file, traces);
@@ -237,7 +236,7 @@ impl<'a> Library<'a> {
     }
 
     /// Holds those Q-projects against their drawings of which either was asked again.
-    fn ask_q_projects(&mut self, asked: &[SourceFile], update: &mut Update) {
+    fn ask_q_projects(&mut self, asked: &[SourceFile], update: &mut Batch) {
         if self.pairs.is_none() {
             self.find_pairs(update);
         }
@@ -255,7 +254,7 @@ impl<'a> Library<'a> {
     }
 
     /// Finds which drawings have a Q-project: among ten thousand that takes as long as an edit.
-    fn find_pairs(&mut self, update: &mut Update) {
+    fn find_pairs(&mut self, update: &mut Batch) {
         let pairs = q_project_pairs(self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();

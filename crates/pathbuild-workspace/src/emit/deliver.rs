@@ -13,38 +13,43 @@ use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
 use super::compare;
 use super::job::Job;
-use crate::args::EmitArgs;
-use pathbuild_workspace::posting::Poster;
-use pathbuild_workspace::session::{OutputKind, Writing, hash_output, without_values};
+use crate::posting::Poster;
+use crate::session::{OutputKind, Writing, hash_output, without_values};
 
 /// What is done with the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Task {
-    /// They are written. `force`: also over measured values.
-    Write { force: bool },
+pub enum Task {
+    /// They are written.
+    Write {
+        /// Whether measured values are overwritten.
+        force: bool,
+    },
     /// They are compared with what lies on disk.
-    Compare { moves_only: bool },
+    Compare {
+        /// Whether by their moves, not byte for byte.
+        moves_only: bool,
+    },
     /// They are printed.
     Print,
 }
 
 /// What became of a path's files.
-#[derive(Default)]
-pub(super) struct Delivered {
+#[derive(Debug, Default)]
+pub struct Delivered {
     /// Each file.
-    pub(super) files: Vec<(Utf8PathBuf, State)>,
+    pub files: Vec<(Utf8PathBuf, State)>,
     /// What should lie there, as [`hash_output`] tells it.
     pub(super) hashes: Vec<[u8; 32]>,
     /// The program's length in mm.
-    pub(super) length: f64,
+    pub length: f64,
     /// The program's time.
-    pub(super) minutes: f64,
+    pub minutes: f64,
     /// What went wrong, or where moves differ.
-    pub(super) problems: Vec<Diagnostic>,
+    pub problems: Vec<Diagnostic>,
     /// What a post notes.
-    pub(super) notes: Vec<Note>,
+    pub notes: Vec<Note>,
     /// The command that a post wants to be run, and the file that it is for.
-    pub(super) post_build: Option<(Vec<String>, Utf8PathBuf)>,
+    pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
     /// Files that a post put in.
     pub(super) inserted: Vec<Box<str>>,
 }
@@ -58,14 +63,15 @@ impl Delivered {
     }
 
     /// Whether a file lies on disk now as it should be.
-    pub(super) fn has_written(&self, file: &Utf8Path) -> bool {
+    pub fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
         self.files.iter().any(|(path, state)| path == file && is_there(state))
     }
 }
 
 /// What became of a file.
-pub(super) enum State {
+#[derive(Debug)]
+pub enum State {
     /// It was written.
     Written,
     /// It was there already.
@@ -81,16 +87,6 @@ pub(super) enum State {
 }
 
 impl Task {
-    pub(super) fn new(args: &EmitArgs) -> Self {
-        if args.check {
-            Self::Compare { moves_only: args.moves }
-        } else if args.output.is_some() {
-            Self::Print
-        } else {
-            Self::Write { force: args.force }
-        }
-    }
-
     /// Whether files of a kind are a part of it: measured values are no moves.
     pub(super) fn compares(self, kind: OutputKind) -> bool {
         self != Self::Compare { moves_only: true } || kind != OutputKind::Values

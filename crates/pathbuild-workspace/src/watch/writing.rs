@@ -6,14 +6,16 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
-use crate::commands::emit::{self, Configured, Owners};
-use crate::context::Context;
-use pathbuild_workspace::posting::{Poster, Wishes};
-use pathbuild_workspace::session::Session;
+use super::Listener;
+use crate::emit::{self, Configured, Owners};
+use crate::posting::{Poster, Wishes};
+use crate::session::Session;
+use crate::workspace::Workspace;
 
 /// Writes programs, if it is to.
 pub(super) struct Writer<'a> {
-    context: &'a Context,
+    workspace: &'a Workspace,
+    listener: &'a dyn Listener,
     is_on: bool,
     poster: Option<Poster>,
     owners: Owners,
@@ -24,16 +26,13 @@ impl<'a> Writer<'a> {
     ///
     /// # Errors
     /// What is wrong with the post that the configuration names.
-    pub(super) fn new(context: &'a Context, is_on: bool) -> Result<Self, Vec<Diagnostic>> {
-        let poster = if is_on { Poster::of_run(context, None, Wishes::default())? } else { None };
-        Ok(Self { context, is_on, poster, owners: Owners::default() })
-    }
-
-    /// What keeps it from writing.
-    pub(super) fn refusal(&self) -> Option<String> {
-        let has_targets = !self.context.settings.emit.targets.value.is_empty();
-        (self.is_on && !has_targets)
-            .then(|| "nothing to emit: set `[emit] targets` in pathbuild.toml".to_owned())
+    pub(super) fn new(
+        workspace: &'a Workspace,
+        listener: &'a dyn Listener,
+        is_on: bool,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let poster = if is_on { Poster::of_run(workspace, None, Wishes::default())? } else { None };
+        Ok(Self { workspace, listener, is_on, poster, owners: Owners::default() })
     }
 
     /// The files that the post is read from.
@@ -56,7 +55,7 @@ impl<'a> Writer<'a> {
 
     /// Writes the targets among all paths; what is wrong with them as programs, and targets that mean none.
     pub(super) fn begin(&mut self, session: &mut Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
-        let mut configured = Configured::new(&self.context.settings);
+        let mut configured = Configured::new(&self.workspace.settings);
         let mut problems = self.write_some(session, all, &mut configured);
         problems.extend(configured.unmet().filter(|_| self.is_on));
         problems
@@ -64,7 +63,7 @@ impl<'a> Writer<'a> {
 
     /// Writes the targets among the paths of drawings that were asked again; what is wrong with them as programs.
     pub(super) fn write(&mut self, session: &mut Session<'_>, asked: &[SourceFile]) -> Vec<Diagnostic> {
-        self.write_some(session, asked, &mut Configured::new(&self.context.settings))
+        self.write_some(session, asked, &mut Configured::new(&self.workspace.settings))
     }
 
     fn write_some(
@@ -81,6 +80,15 @@ impl<'a> Writer<'a> {
             let names = path_names(session.db(), *file).iter().filter(|name| configured.means(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
-        emit::write(self.context, session, self.poster.as_ref(), &targets, &mut self.owners)
+        match emit::write(session, self.poster.as_ref(), &targets, &mut self.owners) {
+            Ok(emission) => {
+                self.listener.written(&emission.delivered);
+                emission.diagnostics
+            }
+            Err(refusal) => {
+                self.listener.refused(&refusal);
+                Vec::new()
+            }
+        }
     }
 }

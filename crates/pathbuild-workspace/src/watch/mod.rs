@@ -1,0 +1,190 @@
+//! Watching: keeps checking, and writing programs, as drawings change. (spec/05-command-line.md, `watch`)
+//!
+//! One loop: wait for changes, let them come to rest, take them over into the database as one revision, and ask again only those drawings that
+//! the reverse index names. What is told carries the number of that revision. Those drawings are asked portion by portion: when more changes come
+//! meanwhile, what is still open waits for them and is asked together with what they concern.
+
+mod changes;
+mod library;
+mod reverse;
+mod writing;
+
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::Diagnostic;
+
+use crate::Inputs;
+use crate::emit::Delivered;
+use crate::session::Session;
+use crate::workspace::Workspace;
+
+use changes::{Batch, Watcher};
+use library::Library;
+use writing::Writer;
+
+/// What is to be watched.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Drawings, paths and directories; without any, the library.
+    pub inputs: &'a Inputs,
+    /// Whether the programs of `[emit] targets` are written.
+    pub emits: bool,
+    /// Whether it is looked for changes from time to time, because the system tells none.
+    pub polls: bool,
+}
+
+/// Hears what watching finds.
+pub trait Listener {
+    /// Everything was checked for the first time.
+    fn begun(&self, beginning: Beginning);
+    /// A batch of changes was worked on.
+    fn updated(&self, update: Update);
+    /// Programs were written.
+    fn written(&self, delivered: &[Delivered]);
+    /// Programs cannot be written because nobody gives options that they need.
+    fn refused(&self, reason: &str);
+}
+
+/// How things stand at the beginning.
+#[derive(Debug)]
+pub struct Beginning {
+    /// How many drawings there are.
+    pub drawings: usize,
+    /// How many paths are in them.
+    pub paths: usize,
+    /// Everything that was found.
+    pub diagnostics: Vec<Diagnostic>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// What came of a batch of changes.
+#[derive(Debug)]
+pub struct Update {
+    /// The number of the batch, from 1.
+    pub revision: u64,
+    /// The files that changed.
+    pub changed: BTreeSet<Utf8PathBuf>,
+    /// Those of them that are no longer there.
+    pub removed: BTreeSet<Utf8PathBuf>,
+    /// How many drawings were checked.
+    pub checked: usize,
+    /// How many are still to be checked, because more changes came.
+    pub open: usize,
+    /// What was found in these drawings before.
+    pub before: Vec<Diagnostic>,
+    /// What is found in them now.
+    pub now: Vec<Diagnostic>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// Why watching ended.
+#[derive(Debug)]
+pub enum Ended {
+    /// No more changes will come.
+    Over,
+    /// The configuration, or a file of the post that it names, changed: everything has to begin anew.
+    ConfigurationChanged,
+    /// Nothing is named, and the configuration has no library.
+    NothingNamed,
+    /// Programs are to be written, and the configuration names no targets.
+    NoTargets,
+    /// What is wrong with the post.
+    BadPost(Vec<Diagnostic>),
+    /// The system does not tell changes.
+    CannotWatch(String),
+}
+
+impl Request<'_> {
+    /// Watches until nothing more can come.
+    pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> Ended {
+        let session = Session::traced(workspace);
+        if self.inputs.inputs.is_empty() && !session.has_library() {
+            return Ended::NothingNamed;
+        }
+        let writer = match Writer::new(workspace, listener, self.emits) {
+            Ok(writer) => writer,
+            Err(problems) => return Ended::BadPost(problems),
+        };
+        if self.emits && workspace.settings.emit.targets.value.is_empty() {
+            return Ended::NoTargets;
+        }
+        // Before anything is read, so that no change is missed.
+        match Watcher::new(&session, self, &writer.sources()) {
+            Ok(watcher) => {
+                let library = Library::new(session, self.inputs);
+                Watching { listener, library, writer, watcher, revision: 0 }.run()
+            }
+            Err(reason) => Ended::CannotWatch(reason.to_string()),
+        }
+    }
+}
+
+/// A library while it is watched.
+struct Watching<'a> {
+    listener: &'a dyn Listener,
+    library: Library<'a>,
+    writer: Writer<'a>,
+    watcher: Watcher,
+    revision: u64,
+}
+
+impl Watching<'_> {
+    fn run(mut self) -> Ended {
+        self.begin();
+        loop {
+            match self.watcher.next(&self.library) {
+                Batch::ConfigurationChanged => return Ended::ConfigurationChanged,
+                Batch::Over => return Ended::Over,
+                Batch::Changes(changes) => self.update(&changes),
+            }
+        }
+    }
+
+    fn begin(&mut self) {
+        let begun = Instant::now();
+        let found = self.library.begin();
+        let written = self.writer.begin(self.library.session_mut(), &found.asked);
+        let time = begun.elapsed();
+        let (drawings, paths) = self.library.counts();
+        let diagnostics = self.library.session().with_elsewhere([found.now, written].concat());
+        self.listener.begun(Beginning { drawings, paths, diagnostics, time });
+    }
+
+    fn update(&mut self, changes: &changes::Changes) {
+        let begun = Instant::now();
+        let library = &mut self.library;
+        let mut found = library.take_over(changes);
+        if !library.is_behind() && found.removed.is_empty() {
+            return;
+        }
+        self.revision += 1;
+        self.writer.release(library.session(), library.open(), &found.removed);
+        let mut written = Vec::new();
+        while library.is_behind() {
+            let portion = library.ask_portion(&mut found);
+            written.extend(self.writer.write(library.session_mut(), &portion));
+            // What is still open may be something else by now.
+            if self.watcher.has_news(library.session()) {
+                break;
+            }
+        }
+        library.leave(&mut found);
+        let time = begun.elapsed();
+        let library::Batch { changed, asked, open, removed, before, now } = found;
+        let session = library.session();
+        self.listener.updated(Update {
+            revision: self.revision,
+            changed,
+            removed,
+            checked: asked.len(),
+            open,
+            before: session.with_elsewhere(before),
+            now: session.with_elsewhere([now, written].concat()),
+            time,
+        });
+    }
+}

@@ -1,0 +1,141 @@
+//! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
+
+use pathbuild_diagnostic::{Diagnostic, Note};
+use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
+use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
+use pathbuild_workspace::session::Session;
+
+use crate::args::EmitArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
+    let wishes = Wishes {
+        date: args.date.as_deref().map(Into::into),
+        dialect: args.dialect.as_deref().map(Into::into),
+        run_post_build: args.run_post_build,
+    };
+    match Poster::of_run(context, args.post.as_deref(), wishes) {
+        Ok(poster) => match refusal(args, poster.as_ref()) {
+            Some(refusal) => context.usage(refusal),
+            None => emit(context, args, poster.as_ref()),
+        },
+        Err(problems) => context.fail(problems),
+    }
+}
+
+/// Options that mean something only where programs are written through a post.
+fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
+    let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
+    match poster {
+        None if args.join.is_some() => Some(
+            "--join needs --post (or `post` in pathbuild.toml): the native program has one path and no tool changes",
+        ),
+        None if is_for_posts => Some(
+            "--date, --dialect and --run-post-build are for posts: give --post, or set `post` in pathbuild.toml",
+        ),
+        _ => None,
+    }
+}
+
+fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStatus {
+    let request = Request {
+        inputs: &args.inputs,
+        task: task(args),
+        poster,
+        join: args.join.as_deref(),
+        deps: args.deps.as_deref(),
+        removes_stale: args.remove_stale,
+    };
+    let mut session = Session::with_hashes(context);
+    let emission = request.run(&mut session);
+    // The run is over: to give back what every query holds, piece by piece, takes a twelfth of the time of a short one.
+    std::mem::forget(session);
+    match emission {
+        Ok(emission) => conclude(context, emission),
+        Err(refusal) => context.usage(&refusal),
+    }
+}
+
+fn task(args: &EmitArgs) -> Task {
+    if args.check {
+        Task::Compare { moves_only: args.moves }
+    } else if args.output.is_some() {
+        Task::Print
+    } else {
+        Task::Write { force: args.force }
+    }
+}
+
+/// Says what was found, and what became of the files; the status of the run.
+fn conclude(context: &Context, emission: Emission) -> ExitStatus {
+    let Emission { delivered, removed, mut diagnostics } = emission;
+    let is_current = show_all(context, &delivered);
+    diagnostics.extend(post_builds(&delivered));
+    for path in removed {
+        let removed = context.choose("stale, removed", "veraltet, entfernt");
+        context.printer.status(format_args!("{path}: {removed}"));
+    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// Says what became of all files, and what posts note; whether all files are as they should be.
+pub(super) fn show_all(context: &Context, delivered: &[Delivered]) -> bool {
+    let mut is_current = true;
+    let mut notes: Vec<&Note> = Vec::new();
+    for delivered in delivered {
+        is_current &= show(context, delivered);
+        notes.extend(delivered.notes.iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+    }
+    for note in notes {
+        context.printer.status(format_args!("{}", note.text(context.lang())));
+    }
+    is_current
+}
+
+/// Runs what posts want to be run on what they wrote; what went wrong.
+fn post_builds(delivered: &[Delivered]) -> Vec<Diagnostic> {
+    let wanted = delivered.iter().filter_map(|delivered| {
+        delivered.post_build.as_ref().filter(|(_, file)| delivered.has_written(file))
+    });
+    wanted.filter_map(|(command, file)| run_post_build(command, file).err()).map(|failure| *failure).collect()
+}
+
+/// Says what became of the files of a path; whether all of them are as they should be.
+fn show(context: &Context, delivered: &Delivered) -> bool {
+    let mut is_current = true;
+    for (index, (path, state)) in delivered.files.iter().enumerate() {
+        let phrase = |en, de| context.choose(en, de);
+        match state {
+            State::Written | State::Unchanged => {
+                let state = match state {
+                    State::Written => phrase("written", "geschrieben"),
+                    _ => phrase("unchanged", "unverändert"),
+                };
+                // The program comes first; what belongs to its probes has no length of its own.
+                if index == 0 {
+                    let (length, minutes) = (delivered.length, delivered.minutes);
+                    context.printer.status(format_args!("{path}: {state}, {length:.0} mm, {minutes:.0} min"));
+                } else {
+                    context.printer.status(format_args!("{path}: {state}"));
+                }
+            }
+            State::Printed(text) => context.printer.result_bytes(text),
+            State::Current => {
+                context.printer.result_line(format_args!("{path}: {}", phrase("current", "aktuell")));
+            }
+            State::Outdated | State::Missing => {
+                let state = match state {
+                    State::Missing => phrase("missing", "fehlt"),
+                    _ => phrase("not current", "nicht aktuell"),
+                };
+                context.printer.result_line(format_args!("{path}: {state}"));
+                is_current = false;
+            }
+        }
+    }
+    is_current
+}
