@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 const SIDE: i32 = 64;
 const CELLS: usize = (SIDE * SIDE) as usize;
 
+/// A row of a shape costs as much time as so many cells, and so does a shape that meets nothing.
+const ROW: u64 = 16;
+
 /// A sparse grid of heights. A cell's height is that of the whole cell.
 #[derive(Debug)]
 pub(super) struct HeightMap {
@@ -13,6 +16,8 @@ pub(super) struct HeightMap {
     resolution: f64,
     /// By row and column of the tile. `NaN` where nothing is known.
     tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
+    /// How many cells may still be visited.
+    left: u64,
 }
 
 /// The key of a tile, a row, and the row's first and last column.
@@ -27,8 +32,15 @@ pub(super) trait Shape {
 }
 
 impl HeightMap {
-    pub(super) fn new(resolution: f64) -> Self {
-        Self { resolution, tiles: BTreeMap::new() }
+    /// A map of which so many cells are visited at most, cells visited several times counted as often. After that, nothing changes and
+    /// nothing is found: see [`is_exhausted`](Self::is_exhausted).
+    pub(super) fn new(resolution: f64, cells: u64) -> Self {
+        Self { resolution, tiles: BTreeMap::new(), left: cells }
+    }
+
+    /// Whether as many cells were visited as may be.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.left == 0
     }
 
     /// Material stands up to `surface` in the shape; where some is known already, only up to the lower of both.
@@ -37,6 +49,9 @@ impl HeightMap {
         let (first, last) = self.centres_within(shape.rows());
         for row in first..=last {
             let Some((column, last)) = self.columns(shape, row) else { continue };
+            if !self.spend(column, last) {
+                return;
+            }
             for tile_column in column.div_euclid(SIDE)..=last.div_euclid(SIDE) {
                 let key = (row.div_euclid(SIDE), tile_column);
                 let tile = self.tiles.entry(key).or_insert_with(|| Box::new([f32::NAN; CELLS]));
@@ -61,7 +76,7 @@ impl HeightMap {
     }
 
     /// The highest material in the shape that is above `z`, with its place.
-    pub(super) fn highest_above(&self, shape: &impl Shape, z: f64) -> Option<(f64, [f64; 2])> {
+    pub(super) fn highest_above(&mut self, shape: &impl Shape, z: f64) -> Option<(f64, [f64; 2])> {
         let mut highest = rounded(z);
         let mut place = None;
         for (key, row, (column, last)) in self.stretches(shape) {
@@ -80,21 +95,45 @@ impl HeightMap {
     /// The rows of the shape, cut into the tiles that there are: the key of each tile, the row, and the row's columns.
     ///
     /// It goes by tiles, not by the shape: however far a move goes, what it costs depends on what is known of the material.
-    fn stretches(&self, shape: &impl Shape) -> Vec<Stretch> {
+    fn stretches(&mut self, shape: &impl Shape) -> Vec<Stretch> {
         let (first, last) = self.centres_within(shape.rows());
-        let tiles = (first.div_euclid(SIDE), i32::MIN)..=(last.div_euclid(SIDE), i32::MAX);
-        if first > last {
-            return Vec::new();
+        let mut found = Vec::new();
+        self.left = self.left.saturating_sub(ROW);
+        let mut row = first;
+        while row <= last {
+            let Some(((known, _), _)) = self.tiles.range((row.div_euclid(SIDE), i32::MIN)..).next() else {
+                break;
+            };
+            let (begin, end) = (row.max(known * SIDE), last.min(known * SIDE + SIDE - 1));
+            for row in begin..=end {
+                if let Some((column, last)) = self.columns(shape, row) {
+                    self.stretches_of_row(row, column, last, &mut found);
+                }
+                if self.is_exhausted() {
+                    return Vec::new();
+                }
+            }
+            row = end.max(begin) + 1;
         }
-        let rows = self.tiles.range(tiles).flat_map(|(key, _)| {
-            let top = key.0 * SIDE;
-            (first.max(top)..=last.min(top + SIDE - 1)).map(|row| (*key, row))
-        });
-        let with_columns = rows.filter_map(|(key, row)| Some((key, row, self.columns(shape, row)?)));
-        let is_in_tile = |(key, _, (column, last)): &Stretch| {
-            *last >= key.1 * SIDE && *column < (key.1 + 1) * SIDE && column <= last
-        };
-        with_columns.filter(is_in_tile).collect()
+        found
+    }
+
+    fn stretches_of_row(&mut self, row: i32, column: i32, last: i32, found: &mut Vec<Stretch>) {
+        let tile_row = row.div_euclid(SIDE);
+        let tiles = (tile_row, column.div_euclid(SIDE))..=(tile_row, last.div_euclid(SIDE));
+        let before = found.len();
+        if column <= last {
+            found.extend(self.tiles.range(tiles).map(|(key, _)| (*key, row, (column, last))));
+        }
+        let known = SIDE.saturating_mul(i32::try_from(found.len() - before).unwrap_or(i32::MAX));
+        self.spend(0, (last - column).min(known));
+    }
+
+    /// Counts a row from one column to another; whether it may be visited.
+    fn spend(&mut self, column: i32, last: i32) -> bool {
+        let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
+        self.left = self.left.saturating_sub(ROW + cells);
+        !self.is_exhausted()
     }
 
     /// The first and last column of cells in a row whose centres are in the shape.
@@ -141,9 +180,19 @@ fn whole(index: f64) -> i32 {
 /// All places within a distance of a segment: what a cutter covers on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Capsule {
-    pub(super) from: [f64; 2],
-    pub(super) to: [f64; 2],
-    pub(super) radius: f64,
+    from: [f64; 2],
+    to: [f64; 2],
+    radius: f64,
+    /// From the segment to one straight side; not a number where the segment has no length.
+    beside: [f64; 2],
+}
+
+impl Capsule {
+    pub(super) fn new(from: [f64; 2], to: [f64; 2], radius: f64) -> Self {
+        let [x, y] = [0, 1].map(|axis| to[axis] - from[axis]);
+        let share = radius / libm::hypot(x, y);
+        Self { from, to, radius, beside: [-y * share, x * share] }
+    }
 }
 
 impl Shape for Capsule {
@@ -156,14 +205,10 @@ impl Shape for Capsule {
 
     fn row(&self, y: f64) -> Option<(f64, f64)> {
         let ends = [self.from, self.to].into_iter().filter_map(|centre| disc_row(centre, self.radius, y));
-        let [along_x, along_y] = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
-        let length = libm::hypot(along_x, along_y);
         let sides = [1.0, -1.0].into_iter().filter_map(|side| {
-            // The straight side, a radius beside the segment.
-            let [beside_x, beside_y] =
-                [-side * along_y / length * self.radius, side * along_x / length * self.radius];
-            let share = (y - self.from[1] - beside_y) / along_y;
-            (0.0..=1.0).contains(&share).then(|| self.from[0] + beside_x + share * along_x).map(|x| (x, x))
+            let share = (y - self.from[1] - side * self.beside[1]) / (self.to[1] - self.from[1]);
+            let x = self.from[0] + side * self.beside[0] + share * (self.to[0] - self.from[0]);
+            (0.0..=1.0).contains(&share).then_some((x, x))
         });
         ends.chain(sides).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }

@@ -18,34 +18,50 @@ const MOST_KEPT: f64 = 16e6;
 /// Cells across the cutter that it takes to tell anything at all.
 const FEWEST_ACROSS: f64 = 4.0;
 
+/// A cell within O of a cut is visited so often: when the material is laid, when half of it is cut, and for each row.
+const VISITS: f64 = 3.0;
+
 /// Runs the moves over the stock and reports rapid ones that meet material. The program is gone through three times: how large a map it
 /// takes, where there is material, and what becomes of it.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     let mut extent = Extent::default();
     each_known_move(program, &mut |line, it| extent.add(line, it, stock));
-    let Some(resolution) = extent.resolution(stock) else {
-        let limit = stock.cells();
-        return problems.add_at_line(&say::TOO_LARGE_TO_FOLLOW, extent.line, |d| {
-            d.with("limit", limit).with("key", "verify-cells")
+    let Some(resolution) = extent.resolution(stock) else { return too_large(extent.line, stock, problems) };
+    let mut bench = Bench::new(stock, resolution, stock.cells());
+    let mut reached = 0;
+    let mut each = |take: &mut dyn FnMut(&mut Bench<'_>, u32, &Move)| {
+        each_known_move(program, &mut |line, it| {
+            if !bench.map.is_exhausted() {
+                reached = line;
+                take(&mut bench, line, it);
+            }
         });
     };
-    let mut bench = Bench { stock, resolution, map: HeightMap::new(resolution), dip: None };
-    each_known_move(program, &mut |line, it| bench.lay(line, it));
-    each_known_move(program, &mut |line, it| {
+    each(&mut |bench, line, it| bench.lay(line, it));
+    each(&mut |bench, line, it| {
         bench.dips(line, it, problems);
         match it.pace {
             Pace::Rapid => bench.pass(line, it, problems),
             Pace::Feed(_) | Pace::Probe { .. } => bench.mill(line, it),
         }
     });
+    if bench.map.is_exhausted() {
+        too_large(reached, stock, problems);
+    }
 }
 
-/// Whether these cuts have made room for a rapid move, if all round it is material up to the highest surface.
-pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock) -> bool {
+fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
+    problems.add_at_line(&say::TOO_LARGE_TO_FOLLOW, line, |d| {
+        d.with("limit", stock.cells()).with("key", "verify-cells")
+    });
+}
+
+/// Whether these cuts have made room for a rapid move, if all round it is material up to the highest surface. `false` also where so many
+/// cells are not enough to tell.
+pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock, cells: u64) -> bool {
     let Some(piece) = stock.at(line) else { return true };
-    let resolution = stock.resolution();
     let surface = stock.highest().unwrap_or(piece.surface);
-    let mut bench = Bench { stock, resolution, map: HeightMap::new(resolution), dip: None };
+    let mut bench = Bench::new(stock, stock.resolution(), cells);
     for part in bench.parts(it) {
         bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
     }
@@ -54,7 +70,7 @@ pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock
     }
     let mut problems = Problems::default();
     bench.pass(line, it, &mut problems);
-    problems.into_diagnostics().is_empty()
+    problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
 fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
@@ -69,7 +85,10 @@ fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, 
 struct Extent {
     /// At most the area in mm² within O of cutting moves, counted as often as they come.
     area: f64,
-    /// The box round all of that, in X and Y.
+    /// The same of rapid moves below the highest surface, and how many there are.
+    passed: f64,
+    passes: f64,
+    /// The box round all that is cut, in X and Y.
     sides: Option<[(f64, f64); 2]>,
     /// The last line that cuts.
     line: u32,
@@ -77,6 +96,10 @@ struct Extent {
 
 impl Extent {
     fn add(&mut self, line: u32, it: &Move, stock: &Stock) {
+        if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(it, stock)) {
+            self.passed += covered_area(it, piece.cutter);
+            self.passes += 1.0;
+        }
         let Some(piece) = cutting_piece(line, it, stock) else { return };
         self.line = line;
         self.area += covered_area(it, piece.cutter);
@@ -91,8 +114,11 @@ impl Extent {
     fn resolution(&self, stock: &Stock) -> Option<f64> {
         let in_box: f64 = self.sides.iter().flatten().map(|(low, high)| (high - low).max(0.0)).product();
         let kept = self.area.min(in_box);
+        let visited = VISITS * self.area + self.passed.min(self.passes * in_box);
+        #[expect(clippy::cast_precision_loss, reason = "a limit")]
+        let cells = stock.cells() as f64;
         let resolution =
-            stock.resolution().max(libm::sqrt(self.area / stock.cells())).max(libm::sqrt(kept / MOST_KEPT));
+            stock.resolution().max(libm::sqrt(visited / cells)).max(libm::sqrt(kept / MOST_KEPT));
         let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * FEWEST_ACROSS <= cutter);
         (is_of_use && resolution.is_finite()).then_some(resolution)
     }
@@ -107,7 +133,11 @@ struct Bench<'s> {
     dip: Option<(u32, Move)>,
 }
 
-impl Bench<'_> {
+impl<'s> Bench<'s> {
+    fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
+        Self { stock, resolution, map: HeightMap::new(resolution, cells), dip: None }
+    }
+
     /// There is material within O of where a move cuts.
     fn lay(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };
@@ -127,8 +157,8 @@ impl Bench<'_> {
         }
         let Some(piece) = self.stock.at(line).filter(|_| stays && to < from) else { return };
         let below = to < piece.surface - RESIDUE;
-        let tip =
-            Capsule { from: [it.to.x(), it.to.y()], to: [it.to.x(), it.to.y()], radius: piece.cutter / 2.0 };
+        let place = [it.to.x(), it.to.y()];
+        let tip = Capsule::new(place, place, piece.cutter / 2.0);
         if below && self.map.highest_above(&tip, f64::NEG_INFINITY).is_none() {
             self.dip = Some((line, *it));
         }
@@ -137,7 +167,8 @@ impl Bench<'_> {
     /// A cutting move takes away what it meets. Cells that it only touches count as cut, so that the grid is never the reason of a report.
     fn mill(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };
-        for part in self.parts(it) {
+        let highest = self.stock.highest().unwrap_or(piece.surface);
+        for part in self.parts(it).filter(|part| part.lowest() < highest) {
             self.map.cut(&capsule(&part, piece.cutter / 2.0 + self.slack()), part.lowest());
         }
     }
@@ -145,9 +176,7 @@ impl Bench<'_> {
     /// A rapid move reports what it meets. Cells that it only touches do not count.
     fn pass(&mut self, line: u32, it: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
-        let is_above = self.stock.highest().is_none_or(|highest| it.from.z().min(it.to.z()) >= highest);
-        let goes_up = it.from.at[..2] == it.to.at[..2] && it.to.z() >= it.from.z();
-        if is_above || goes_up {
+        if !is_low_rapid(it, self.stock) {
             return;
         }
         let is_plunge = it.from.at[..2] == it.to.at[..2];
@@ -183,7 +212,7 @@ impl Bench<'_> {
 
 fn capsule(part: &Piece, radius: f64) -> Capsule {
     let plane = |at: &[f64; 3]| [at[0], at[1]];
-    Capsule { from: plane(&part.from), to: plane(&part.to), radius }
+    Capsule::new(plane(&part.from), plane(&part.to), radius)
 }
 
 /// What holds where a move cuts; `None` where nothing is known or the move does not cut below the surface.
@@ -193,8 +222,16 @@ fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::Piece> {
     (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// At most the area in mm² within O of a move. An arc whose ends have different radii goes as far as the larger one.
+/// Whether a rapid move can meet material: not above all of it, and not straight up.
+fn is_low_rapid(it: &Move, stock: &Stock) -> bool {
+    let is_above = stock.highest().is_none_or(|highest| it.from.z().min(it.to.z()) >= highest);
+    let goes_up = it.from.at[..2] == it.to.at[..2] && it.to.z() >= it.from.z();
+    it.pace == Pace::Rapid && !is_above && !goes_up
+}
+
+/// At most the area in mm² within O of a move's pieces. An arc whose ends have different radii goes as far as the larger one.
 fn covered_area(it: &Move, cutter: f64) -> f64 {
     let widest = it.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
-    2.0 * cutter * (it.length().max(widest) + 2.0 * cutter)
+    let tips = 2.0 * cutter * pieces::slopes(it);
+    2.0 * cutter * (it.length().max(widest) + tips)
 }

@@ -27,12 +27,17 @@ impl Piece {
     }
 }
 
+/// How many pieces a move has because it is not level, from 1 on.
+pub(super) fn slopes(it: &Move) -> f64 {
+    let is_plunge = it.from.at[..2] == it.to.at[..2] && matches!(it.path, Path::Line);
+    let rise = libm::fabs(it.to.z() - it.from.z());
+    if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
+}
+
 /// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
 pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + use<> {
-    let slope = libm::fabs(it.to.z() - it.from.z()) / STEP;
-    let in_plane = it.from.at[..2] != it.to.at[..2];
+    let slope = slopes(it);
     let count = match it.path {
-        Path::Line if !in_plane => 1.0,
         Path::Line => slope,
         Path::Arc(arc) => {
             let radius = arc.radius(&it.from).max(sagitta);

@@ -14,6 +14,9 @@ use crate::read::Problems;
 /// So many cuts at most are looked at for a rapid move.
 const MOST_CUTS: usize = 256;
 
+/// So many cells at most are visited for a rapid move.
+const MOST_CELLS: u64 = 1_000_000;
+
 /// The rapid moves of a drawing's program that go into material, by the number of its step.
 pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
@@ -35,7 +38,7 @@ fn all_have_room(drawn: &Drawn, stock: &Stock) -> bool {
                 }
             }
             Pace::Rapid => {
-                if recent.len() > MOST_CUTS || !material::has_room(line, &it, &recent, stock) {
+                if recent.len() > MOST_CUTS || !material::has_room(line, &it, &recent, stock, MOST_CELLS) {
                     return false;
                 }
             }

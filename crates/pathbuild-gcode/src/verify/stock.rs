@@ -11,7 +11,7 @@ use crate::interpret::{Action, Move, Pace, Program as Steps};
 const FINEST: f64 = 0.01;
 
 /// Where nobody says otherwise, so many cells are visited at most.
-const MOST_VISITED: f64 = 1e9;
+const MOST_VISITED: u64 = 1_000_000_000;
 
 /// Cells across the narrowest cutter, where nobody says otherwise.
 const CELLS_ACROSS: f64 = 12.0;
@@ -24,7 +24,7 @@ pub struct Stock {
     /// Side of a cell of the height map, in mm.
     resolution: f64,
     /// The most cells that are visited, cells that many moves visit counted as often.
-    cells: f64,
+    cells: u64,
 }
 
 /// What holds from a line on.
@@ -95,13 +95,11 @@ impl Stock {
 
     /// The same with another limit of the cells that are visited. (`[limits] verify-cells`)
     pub fn with_cells(self, most: u64) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "a limit")]
-        let cells = most as f64;
-        Self { cells, ..self }
+        Self { cells: most, ..self }
     }
 
     /// The most cells that are visited.
-    pub(super) fn cells(&self) -> f64 {
+    pub(super) fn cells(&self) -> u64 {
         self.cells
     }
 
