@@ -37,6 +37,7 @@ mod shown;
 mod since;
 mod strangers;
 mod support;
+mod untrusted;
 mod usage;
 mod watch;
 mod why;

@@ -1,15 +1,18 @@
 //! The outside world, as the queries see it: one trait, so that tests run in memory and every file that a result depends on is known.
 
+mod confined;
 mod listing;
 mod memory;
 mod os;
 mod overlay;
 
 use std::fmt::Debug;
+use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
+pub use confined::{Confined, clean};
 pub use listing::{Entry, EntryKind, Listing, Names};
 pub use memory::MemorySystem;
 pub use os::OsSystem;
@@ -59,6 +62,32 @@ pub trait System: Debug + Send + Sync {
     fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
         take(self.list(directory)?);
         Ok(())
+    }
+
+    /// Each name in a directory, in no particular order, until `take` has enough. Links are links where the system has them.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), also after some of them.
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        let listing = self.list(directory)?;
+        let kinds = [(&listing.files, EntryKind::File), (&listing.directories, EntryKind::Directory)];
+        let mut entries =
+            kinds.into_iter().flat_map(|(names, kind)| names.iter().map(move |name| (name, kind)));
+        _ = entries.try_for_each(|(name, kind)| take(Entry { name, is_exact: true, kind }));
+        Ok(())
+    }
+
+    /// The last bytes of a file, at most so many.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = self.read(path, u64::MAX)?;
+        Ok(bytes.split_off(bytes.len().saturating_sub(length)))
     }
 
     /// What is under a name.

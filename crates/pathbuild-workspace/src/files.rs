@@ -7,9 +7,11 @@ use std::io::Write;
 
 use camino::Utf8Path;
 use pathbuild_db::System;
-use pathbuild_db::system::{OsSystem, ReadError};
+use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
+
+use crate::workspace::Workspace;
 
 /// Whether anything but a directory has that name: what cannot be read is told when it is read.
 pub fn is_there(file: &Utf8Path) -> bool {
@@ -20,19 +22,14 @@ pub fn is_there(file: &Utf8Path) -> bool {
 ///
 /// # Errors
 /// Why it cannot be read. It must be a regular file of at most `limit` bytes.
-pub fn read(file: &Utf8Path, limit: u64) -> Result<String, Box<str>> {
-    let bytes = OsSystem.read(file, limit).map_err(|error| match error {
+pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Box<str>> {
+    let bytes = system.read(file, limit).map_err(|error| match error {
         ReadError::Missing => "there is no such file".into(),
         ReadError::IsDirectory => "it is a directory".into(),
         ReadError::TooLarge { size } => format!("it has {size} bytes, the limit is {limit}").into(),
         ReadError::Other(reason) => reason,
     })?;
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".into())
-}
-
-/// The last bytes of a file, at most so many; `None` where there is none.
-pub fn tail(file: &Utf8Path, length: u64) -> Option<Vec<u8>> {
-    OsSystem.tail(file, length).ok()
 }
 
 /// Writes a file that must not be there yet.
@@ -48,15 +45,16 @@ pub fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
 ///
 /// # Errors
 /// A diagnostic that says why it cannot be written.
-pub fn replace(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
+pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
         return Err(Box::new(cannot_write(file, "there is no such directory")));
     }
     let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
-    let written = if is_stream {
+    let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
+    let written = if is_stream && is_allowed {
         fs::write(file, text).map_err(|reason| reason.to_string().into())
     } else {
-        OsSystem.write(file, text.as_bytes()).map(|_| ())
+        context.system.write(file, text.as_bytes()).map(|_| ())
     };
     written.map_err(|reason: Box<str>| Box::new(cannot_write(file, &reason)))
 }

@@ -1,7 +1,9 @@
 use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_cache::{Home, Place};
+use pathbuild_db::System;
 use pathbuild_diagnostic::Lang;
 
 use crate::config::Settings;
@@ -12,6 +14,10 @@ use crate::reporter::Reporter;
 pub struct Workspace {
     /// What the configuration and the command line say.
     pub settings: Settings,
+    /// The files.
+    pub system: Arc<dyn System>,
+    /// The language of everything that is said, where a person has chosen one for all trees.
+    pub own_lang: Option<Lang>,
     /// The directory that relative names mean.
     pub working_directory: Utf8PathBuf,
     /// With how many threads to work; `None`: as many as there are cores.
@@ -40,7 +46,7 @@ impl Workspace {
 
     /// The language of everything that is said.
     pub fn lang(&self) -> Lang {
-        self.settings.general.lang.value
+        self.own_lang.unwrap_or(self.settings.general.lang.value)
     }
 
     /// One of two phrases.

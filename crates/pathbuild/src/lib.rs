@@ -2,7 +2,6 @@
 //! crates below; this one holds no logic of theirs. (spec/05-command-line.md, spec/06-configuration.md)
 
 pub mod args;
-mod cache;
 pub mod commands;
 mod context;
 mod exit;
@@ -10,15 +9,20 @@ pub mod printer;
 pub mod progress;
 pub mod render;
 pub mod report;
+mod surroundings;
 mod usage;
 mod watching;
 
 use std::ffi::OsString;
+use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::Utf8PathBuf;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_workspace::config::{Overrides, User};
 use pathbuild_workspace::{Workspace, config};
-use std::rc::Rc;
 
 pub use context::Context;
 pub use exit::ExitStatus;
@@ -75,16 +79,24 @@ fn execute(cli: &Cli) -> ExitStatus {
 /// The surroundings, and what is wrong with the configuration.
 fn context_of(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
     let working_directory = working_directory();
-    let (settings, faults) = config::load(&common.overrides(), &command.inputs(), &working_directory);
+    let (user, mut faults) =
+        surroundings::user_configuration().map(|file| User::load(&file)).unwrap_or_default();
+    let given = Overrides { trusted: user.trusted, ..common.overrides() };
+    let (settings, more) = config::load(&given, &command.inputs(), &working_directory);
+    faults.extend(more);
     let printer = Rc::new(Printer::new(common.verbosity(), common.color.unwrap_or_default()));
+    let system: Arc<dyn System> = match &settings.confined {
+        Some(confined) => Arc::new(confined.clone()),
+        None => Arc::new(OsSystem),
+    };
+    let cache_home =
+        || surroundings::cache_home(common.cache_dir.as_deref(), user.cache_dir, &working_directory);
     let workspace = Workspace {
         settings,
+        system,
+        own_lang: common.lang.map(Lang::from).or(user.lang),
         jobs: common.jobs,
-        cache: if common.no_cache {
-            None
-        } else {
-            cache::home(common.cache_dir.as_deref(), &working_directory)
-        },
+        cache: if common.no_cache { None } else { cache_home() },
         working_directory,
         reporter: printer.clone(),
     };

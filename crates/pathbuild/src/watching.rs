@@ -3,15 +3,12 @@
 use std::thread;
 use std::time::Duration;
 
-use camino::Utf8PathBuf;
-use pathbuild_db::System;
-use pathbuild_db::system::OsSystem;
-
 use crate::args::{Cli, WatchArgs};
 use crate::commands::watch;
 use crate::context::Context;
 use crate::context_of;
 use crate::exit::ExitStatus;
+use camino::Utf8PathBuf;
 
 /// How often a configuration that is wrong is looked at.
 const PAUSE: Duration = Duration::from_millis(200);
@@ -64,7 +61,7 @@ impl Sources {
         let post = beside.join(&*settings.general.post.value.name);
         let limit = settings.limits.file_size.value;
         let read = |file: Utf8PathBuf| {
-            let bytes = OsSystem.read(&file, limit).ok();
+            let bytes = context.system.read(&file, limit).ok();
             (file, bytes)
         };
         Self(settings.file.clone().into_iter().chain([post]).map(read).collect())

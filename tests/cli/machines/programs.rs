@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 use camino::{Utf8Path, Utf8PathBuf};
 use clap::Parser;
 use pathbuild::args::Cli;
+use pathbuild_db::system::OsSystem;
 use pathbuild_db::{Role, program};
 use pathbuild_gcode::interpret::{Action, Step, moves_of};
 use pathbuild_toolpath::Program;
@@ -59,6 +60,8 @@ fn of_run(run: &Run) -> Vec<Named> {
     }
     let workspace = Workspace {
         settings,
+        system: Arc::new(OsSystem),
+        own_lang: None,
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,

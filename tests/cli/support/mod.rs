@@ -18,11 +18,17 @@ pub struct Place {
     directory: TempDir,
     /// The user's cache directory.
     caches: TempDir,
+    /// The user's directory of configurations.
+    configurations: TempDir,
 }
 
 impl Place {
     pub fn new() -> Self {
-        Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() }
+        Self {
+            directory: TempDir::new().unwrap(),
+            caches: TempDir::new().unwrap(),
+            configurations: TempDir::new().unwrap(),
+        }
     }
 
     /// A directory with the files of a fixture (crates/pathbuild-testkit, README.md).
@@ -36,6 +42,14 @@ impl Place {
         let path = self.path().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, content).unwrap();
+        self
+    }
+
+    /// The user's own configuration.
+    pub fn users(self, configuration: &str) -> Self {
+        let directory = self.configurations.path().join("pathbuild");
+        fs::create_dir_all(&directory).unwrap();
+        fs::write(directory.join("config.toml"), configuration).unwrap();
         self
     }
 
@@ -67,6 +81,7 @@ impl Place {
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
         let mut program = program();
         program.env("XDG_CACHE_HOME", self.caches.path());
+        program.env("XDG_CONFIG_HOME", self.configurations.path());
         let output = program.args(arguments).current_dir(self.path().join(directory)).output().unwrap();
         let text = |bytes: Vec<u8>| {
             let text = String::from_utf8(bytes).unwrap().replace(&*self.path().to_string_lossy(), "<PLACE>");

@@ -19,35 +19,6 @@ use super::{Entry, Kind, Listing, ReadError, System, Written};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OsSystem;
 
-impl OsSystem {
-    /// Each name in a directory, in no particular order, until `take` has enough. Links are links.
-    ///
-    /// # Errors
-    /// When there is no such directory, or it cannot be read, also after some of them.
-    pub fn each_entry(
-        self,
-        directory: &Utf8Path,
-        take: impl FnMut(Entry<'_>) -> ControlFlow<()>,
-    ) -> Result<(), ReadError> {
-        Ok(directory::each_entry(readable(directory), take)?)
-    }
-}
-
-impl OsSystem {
-    /// The last bytes of a file, at most so many.
-    ///
-    /// # Errors
-    /// As [`read`](System::read).
-    pub fn tail(self, path: &Utf8Path, length: u64) -> Result<Vec<u8>, ReadError> {
-        let mut file = open::open(path)?;
-        let size = open::regular_size(&file)?;
-        file.seek(SeekFrom::Start(size.saturating_sub(length)))?;
-        let mut tail = Vec::new();
-        file.take(length).read_to_end(&mut tail)?;
-        Ok(tail)
-    }
-}
-
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         let mut room = Vec::new();
@@ -74,6 +45,16 @@ impl System for OsSystem {
         Ok(bytes)
     }
 
+    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let length = length as u64;
+        let mut file = open::open(path)?;
+        let size = open::regular_size(&file)?;
+        file.seek(SeekFrom::Start(size.saturating_sub(length)))?;
+        let mut tail = Vec::new();
+        file.take(length).read_to_end(&mut tail)?;
+        Ok(tail)
+    }
+
     fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
         fs::metadata(path).ok()?.modified().ok()
     }
@@ -89,6 +70,14 @@ impl System for OsSystem {
 
     fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
         Ok(directory::list_by_parts(readable(directory), take)?)
+    }
+
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        Ok(directory::each_entry(readable(directory), take)?)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

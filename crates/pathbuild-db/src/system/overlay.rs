@@ -1,11 +1,12 @@
 //! A system with one file more, or with other bytes in it: what would be, were it written.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Kind, Listing, ReadError, System, Written};
+use super::{Entry, Kind, Listing, ReadError, System, Written};
 
 /// Another system, with this file in it. Only reading is as if it were there.
 #[derive(Debug)]
@@ -70,6 +71,15 @@ impl System for Overlay {
             listing.files.push(name);
         }
         Ok(listing)
+    }
+
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        // Where directories are walked, what is not written yet is no part of them.
+        self.below.each_entry(directory, take)
     }
 
     fn kind(&self, path: &Utf8Path) -> Kind {

@@ -55,6 +55,27 @@ messages! {
         en: "`{key}` must be {expected}, not {found}",
         de: "`{key}` muss {expected} sein, nicht {found}",
     }
+    /// A place outside of a repository that is not trusted.
+    OUTSIDE: InvalidConfiguration {
+        en: "`{key}` leads out of the repository, which is not trusted",
+        de: "`{key}` führt aus dem Repository hinaus, dem nicht vertraut wird",
+        help_en: "keep it below {root}; if the repository is your own, leave out --untrusted or name it in `[trust] roots` of your config.toml",
+        help_de: "es unterhalb von {root} ablegen; beim eigenen Repository --untrusted weglassen oder es unter `[trust] roots` in der eigenen config.toml nennen",
+    }
+    /// A limit that a stranger raises.
+    RAISED_LIMIT: InvalidConfiguration {
+        en: "`{key}` is above its default, and the repository is not trusted",
+        de: "`{key}` liegt über der Vorgabe, und dem Repository wird nicht vertraut",
+        help_en: "lower it to {default} or less",
+        help_de: "auf höchstens {default} senken",
+    }
+    /// A stranger answers for nothing.
+    UNCHECKED_BY_STRANGER: InvalidConfiguration {
+        en: "`{key}` needs somebody who answers for the programs, and the repository is not trusted",
+        de: "für `{key}` muss jemand einstehen, und dem Repository wird nicht vertraut",
+        help_en: "remove it: what cannot be read back is an error then",
+        help_de: "entfernen: was sich nicht zurücklesen lässt, ist dann ein Fehler",
+    }
     /// Not one of those that there are.
     INVALID_CHOICE: InvalidConfiguration {
         en: "`{key}` has no value {found}",
@@ -157,6 +178,8 @@ expectations! {
     SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
     DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
     TEXT: "a text", "ein Text";
+    ABSOLUTE: "an absolute path", "ein absoluter Pfad";
+    ABSOLUTES: "a list of absolute paths", "eine Liste absoluter Pfade";
     NOT_EMPTY: "a text that is not empty", "ein nicht leerer Text";
     LIST_OF_TEXTS: "a list of texts", "eine Liste von Texten";
     SWITCH: "true or false", "true oder false";

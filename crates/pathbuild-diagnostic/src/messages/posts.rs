@@ -480,6 +480,13 @@ messages! {
         help_en: "the program was written; only the command failed",
         help_de: "das Programm wurde geschrieben, nur der Befehl ist fehlgeschlagen",
     }
+    /// The definition is a stranger's.
+    POST_BUILD_REFUSED: PostBuildFailed {
+        en: "the post's command \"{command}\" is not run: the repository is not trusted",
+        de: "der Befehl »{command}« des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
+        help_en: "nothing was written; leave out --run-post-build",
+        help_de: "nichts wurde geschrieben; --run-post-build weglassen",
+    }
     /// A path with probes, emitted through a post.
     POST_WITH_PROBES: UncorrectedHeights {
         en: "the path has Z-probes: written through a post, its heights would stay uncorrected",

@@ -37,6 +37,10 @@ pub struct Overrides {
     pub compatible: bool,
     /// `--config`: this configuration, not the nearest.
     pub config: Option<Utf8PathBuf>,
+    /// `--untrusted`: the tree is a stranger's.
+    pub untrusted: bool,
+    /// Below which directories trees are a person's own; `None`: all are.
+    pub trusted: Option<Vec<Utf8PathBuf>>,
 }
 
 /// What the command line says, and what is wrong with it.

@@ -1,4 +1,6 @@
-use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::{Kind, OsSystem, clean};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 
@@ -11,6 +13,12 @@ pub const FILE_NAME: &str = "pathbuild.toml";
 /// The configuration of a directory: in it, or in the nearest directory above.
 pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
     directory.ancestors().map(|directory| directory.join(FILE_NAME)).find(|file| files::is_there(file))
+}
+
+/// The repository of a directory: the nearest directory above that Git takes for one, else the directory itself.
+pub(super) fn repository(directory: &Utf8Path) -> &Utf8Path {
+    let is_repository = |directory: &&Utf8Path| OsSystem.kind(&directory.join(".git")) != Kind::Missing;
+    directory.ancestors().find(is_repository).unwrap_or(directory)
 }
 
 /// Arguments that lie under another configuration than the one of the run.
@@ -28,21 +36,6 @@ pub(super) fn strangers(
         (Some(&*other) != used).then(|| complaint(&place, &other, used))
     };
     inputs.iter().filter_map(place).filter_map(stranger).collect()
-}
-
-/// The path without `.` and `..`, as it is written: links are not followed, so that a linked drawing belongs where it is seen.
-pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
-    let mut clean = Utf8PathBuf::new();
-    for component in path.components() {
-        match component {
-            Utf8Component::ParentDir if clean.file_name().is_some() => _ = clean.pop(),
-            // Nothing is above the root.
-            Utf8Component::ParentDir if clean.has_root() => {}
-            Utf8Component::CurDir => {}
-            other => clean.push(other),
-        }
-    }
-    clean
 }
 
 fn complaint(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {

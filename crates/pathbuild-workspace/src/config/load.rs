@@ -1,4 +1,8 @@
+use std::sync::Arc;
+
 use camino::Utf8Path;
+use pathbuild_db::System;
+use pathbuild_db::system::{Confined, OsSystem};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 use toml::de::DeTable;
@@ -8,7 +12,7 @@ use super::options::Options;
 use super::reader::Reader;
 use super::settings::Settings;
 use super::source::Source;
-use super::{arguments, discover};
+use super::{arguments, clean, discover};
 use crate::files;
 use crate::inputs::Inputs;
 
@@ -18,28 +22,45 @@ use crate::inputs::Inputs;
 pub fn load(given: &Overrides, inputs: &Inputs, working_directory: &Utf8Path) -> (Settings, Vec<Diagnostic>) {
     let (options, mut diagnostics) = arguments::read(given, working_directory);
     let file = match &given.config {
-        Some(file) => Some(discover::clean(&working_directory.join(file))),
-        None => discover::above(&discover::clean(&working_directory.join(inputs.first_directory()))),
+        Some(file) => Some(clean(&working_directory.join(file))),
+        None => discover::above(&clean(&working_directory.join(inputs.first_directory()))),
     };
+    let confined = confinement(given, file.as_deref(), inputs, working_directory);
     if given.config.is_none() {
         diagnostics.extend(discover::strangers(inputs, working_directory, file.as_deref()));
     }
-    let configured = file.as_deref().map(|file| read(file, &mut diagnostics)).unwrap_or_default();
-    (Settings { file, ..options.over(configured).resolve() }, diagnostics)
+    let read = |file: &Utf8Path| read(file, confined.as_ref(), &mut diagnostics);
+    let configured = file.as_deref().map(read).unwrap_or_default();
+    (Settings { file, confined, ..options.over(configured).resolve() }, diagnostics)
+}
+
+/// The repository that a run may not leave, where it is a stranger's.
+fn confinement(
+    given: &Overrides,
+    file: Option<&Utf8Path>,
+    inputs: &Inputs,
+    working_directory: &Utf8Path,
+) -> Option<Confined> {
+    let first = || clean(&working_directory.join(inputs.first_directory()));
+    let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
+    let confined = Confined::new(Arc::new(OsSystem), discover::repository(&directory), working_directory);
+    let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
+    (given.untrusted || !is_trusted).then_some(confined)
 }
 
 /// Bytes of a configuration. What limits everything else is written in it, so this one is fixed.
-const LARGEST: u64 = 4 << 20;
+pub(super) const LARGEST: u64 = 4 << 20;
 
 /// What is wrong with the text of a configuration.
 pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
-    parse(file, text).1
+    parse(file, text, None).1
 }
 
-fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
-    match files::read(file, LARGEST) {
+fn read(file: &Utf8Path, confined: Option<&Confined>, diagnostics: &mut Vec<Diagnostic>) -> Options {
+    let system: &dyn System = confined.map_or(&OsSystem, |confined| confined);
+    match files::read(system, file, LARGEST) {
         Ok(text) => {
-            let (options, faults) = parse(file, &text);
+            let (options, faults) = parse(file, &text, confined);
             diagnostics.extend(faults);
             options
         }
@@ -53,19 +74,29 @@ fn read(file: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Options {
 }
 
 /// A text that is no TOML gives its faults only, since what can still be read of it may lack half of a table.
-fn parse(file: &Utf8Path, text: &str) -> (Options, Vec<Diagnostic>) {
+fn parse(file: &Utf8Path, text: &str, confined: Option<&Confined>) -> (Options, Vec<Diagnostic>) {
+    read_table(file, text, confined, Options::read)
+}
+
+/// Reads the text of a configuration.
+pub(super) fn read_table<T: Default>(
+    file: &Utf8Path,
+    text: &str,
+    confined: Option<&Confined>,
+    read: impl FnOnce(&DeTable<'_>, &mut Reader<'_>) -> T,
+) -> (T, Vec<Diagnostic>) {
     let source = Source::new(file, text);
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         let mut faults: Vec<_> = errors.iter().map(|error| syntax_fault(error, &source)).collect();
         // What follows on the same line only follows from it.
         faults.dedup_by_key(|fault| fault.place.line);
-        return (Options::default(), faults);
+        return (T::default(), faults);
     }
     let directory = file.parent().unwrap_or(Utf8Path::new(""));
-    let mut reader = Reader::new(source, directory);
-    let options = Options::read(root.get_ref(), &mut reader);
-    (options, reader.finish())
+    let mut reader = Reader::new(source, directory, confined);
+    let value = read(root.get_ref(), &mut reader);
+    (value, reader.finish())
 }
 
 fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {

@@ -26,6 +26,7 @@ mod show;
 mod source;
 mod template;
 pub mod types;
+mod user;
 
 pub use arguments::{Overrides, number, positive, regex};
 pub use concerns::Concerns;
@@ -36,6 +37,8 @@ pub use schema::schema;
 pub use settings::Settings;
 pub use show::show;
 pub use template::template;
+pub use user::User;
 
-pub use discover::{FILE_NAME, clean};
+pub use discover::FILE_NAME;
 pub use kinds::table::nearest_code;
+pub use pathbuild_db::system::clean;

@@ -23,7 +23,7 @@ impl Options {
             let options = Self {
                 general: general::Options::read(table),
                 emit: table.section("emit", emit::Options::read),
-                limits: table.section("limits", limits::Options::read),
+                limits: table.section("limits", limits::Options::read_lowered),
                 machine: table.section("machine", machine::Options::read),
                 watch: table.section("watch", watch::Options::read),
                 tables: tables::Options::read(table),
@@ -49,6 +49,7 @@ impl Options {
     pub fn resolve(self) -> Settings {
         Settings {
             file: None,
+            confined: None,
             general: self.general.resolve(),
             emit: self.emit.resolve(),
             limits: self.limits.resolve(),

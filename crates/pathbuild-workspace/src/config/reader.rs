@@ -2,6 +2,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Confined;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use toml::Spanned;
@@ -16,14 +17,16 @@ use super::source::Source;
 pub(super) struct Reader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
+    /// Where a stranger's configuration may lead.
+    confined: Option<&'a Confined>,
     key: String,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> Reader<'a> {
     /// A reader of a file whose names of files are relative to `directory`.
-    pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path) -> Self {
-        Self { source, directory, key: String::new(), diagnostics: Vec::new() }
+    pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
+        Self { source, directory, confined, key: String::new(), diagnostics: Vec::new() }
     }
 
     /// Reads a table whose keys are all known to `read`; others are reported.
@@ -41,9 +44,22 @@ impl<'a> Reader<'a> {
         value
     }
 
-    /// A name of a file, relative to the configuration's directory.
-    pub(super) fn path(&self, name: &str) -> Utf8PathBuf {
-        self.directory.join(name).components().collect()
+    /// A file or directory that a value names, relative to the configuration's directory.
+    pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
+        let path: Utf8PathBuf = self.directory.join(name).components().collect();
+        match self.confined.filter(|confined| !confined.holds(&path)) {
+            None => Some(path),
+            Some(confined) => {
+                let fault = self.fault(&messages::OUTSIDE, value.span());
+                self.report(fault.with("root", confined.root().as_str()));
+                None
+            }
+        }
+    }
+
+    /// Whether the configuration is a stranger's.
+    pub(super) fn is_strangers(&self) -> bool {
+        self.confined.is_some()
     }
 
     /// The key that is being read, for messages.
@@ -129,6 +145,19 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.key = format!("{}{name}", self.prefix);
         let line = self.reader.source.line_number(value.span().start);
         (kind.read)(value, self.reader).map(|value| Sourced { value, origin: Origin::File(line) })
+    }
+
+    /// Whether the configuration is a stranger's.
+    pub(super) fn is_strangers(&self) -> bool {
+        self.reader.is_strangers()
+    }
+
+    /// Reports a limit that is above its default, shown as TOML.
+    pub(super) fn report_raised(&mut self, name: &'static str, default: &str) {
+        let Some(value) = self.content.get(name) else { return };
+        self.reader.key = format!("{}{name}", self.prefix);
+        let fault = self.reader.fault(&messages::RAISED_LIMIT, value.span()).with("default", default);
+        self.reader.report(fault);
     }
 
     /// Reads a table in the table; one that is not there is empty.

@@ -1,5 +1,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 
+use pathbuild_db::system::Confined;
+
 use super::sections::{emit, general, limits, machine, tables, watch};
 use super::types::{Severities, ZModel};
 
@@ -9,6 +11,8 @@ use super::types::{Severities, ZModel};
 pub struct Settings {
     /// The configuration that was read; `None`: options and defaults hold, and nothing is cached.
     pub file: Option<Utf8PathBuf>,
+    /// The repository that nothing leads out of, where it is a stranger's.
+    pub confined: Option<Confined>,
     pub general: general::Settings,
     pub emit: emit::Settings,
     pub limits: limits::Settings,

@@ -36,7 +36,12 @@ pub(super) fn writing(context: &Workspace) -> Writing {
     };
     let rapid = general.rapid.value.unwrap_or_default();
     Writing {
-        options: WriteOptions { lang: context.lang(), charset, rapid, correction: correction(context) },
+        options: WriteOptions {
+            lang: context.settings.general.lang.value,
+            charset,
+            rapid,
+            correction: correction(context),
+        },
         most_moves: context.settings.limits.embedding_moves.value,
     }
 }

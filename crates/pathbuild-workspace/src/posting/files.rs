@@ -2,24 +2,29 @@
 
 use camino::Utf8Path;
 use pathbuild_db::System;
-use pathbuild_db::system::{OsSystem, ReadError};
+use pathbuild_db::system::ReadError;
 use pathbuild_post::PostFiles;
 
 /// A directory with all that is below it.
 #[derive(Debug)]
-pub(super) struct Below<'a>(pub(super) &'a Utf8Path);
+pub(super) struct Below<'a> {
+    pub(super) directory: &'a Utf8Path,
+    pub(super) system: &'a dyn System,
+}
 
 /// Larger texts are no part of a program.
 const LARGEST: u64 = 1 << 24;
 
 impl PostFiles for Below<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, String> {
-        let base = OsSystem.canonical(if self.0.as_str().is_empty() { Utf8Path::new(".") } else { self.0 });
-        let file = OsSystem.canonical(&self.0.join(path));
+        let Self { directory, system } = self;
+        let base =
+            system.canonical(if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory });
+        let file = system.canonical(&directory.join(path));
         if !file.starts_with(&base) && file.is_absolute() {
             return Err("it leads out of the post's directory".to_owned());
         }
-        OsSystem.read(&file, LARGEST).map_err(|error| match error {
+        system.read(&file, LARGEST).map_err(|error| match error {
             ReadError::Missing => "there is no such file".to_owned(),
             ReadError::IsDirectory => "it is a directory".to_owned(),
             ReadError::TooLarge { size } => format!("it has {size} bytes"),

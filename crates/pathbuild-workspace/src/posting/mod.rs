@@ -4,10 +4,12 @@ mod build;
 mod files;
 mod tools;
 
+use std::sync::Arc;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts as messages;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
 use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable};
@@ -37,6 +39,9 @@ pub struct Poster {
     charset: Charset,
     wishes: Wishes,
     manner: Manner,
+    system: Arc<dyn System>,
+    /// The definition is a stranger's.
+    runs_no_command: bool,
 }
 
 /// What the configuration says about how programs are written.
@@ -95,7 +100,7 @@ impl Poster {
             let file = relative(&base.join(name), context);
             let limit = context.settings.limits.file_size.value;
             let bytes =
-                OsSystem.read(&file, limit).map_err(|error| vec![unreadable(&file, &error, limit)])?;
+                context.system.read(&file, limit).map_err(|error| vec![unreadable(&file, &error, limit)])?;
             (Post::read(&bytes, &file)?, bytes, Some(file))
         } else {
             let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
@@ -103,7 +108,9 @@ impl Poster {
         };
         let macros = context.settings.tables.macros.value.iter();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
-        let inserted = directory.as_deref().map(|it| insertions(&definition, &Below(it))).unwrap_or_default();
+        let system = &*context.system;
+        let insertions = |directory| insertions(&definition, &Below { directory, system });
+        let inserted = directory.as_deref().map(insertions).unwrap_or_default();
         Ok(Self {
             post,
             directory,
@@ -117,6 +124,8 @@ impl Poster {
                 types::Charset::Utf8 => Charset::Utf8,
             },
             wishes,
+            system: Arc::clone(&context.system),
+            runs_no_command: context.settings.confined.is_some(),
             manner: Manner {
                 unchecked: general.post.value.unchecked,
                 program_number: general.post.value.program_number,
@@ -170,7 +179,8 @@ impl Poster {
     /// # Errors
     /// What the post cannot say, or says wrongly.
     pub fn write(&self, job: &Job, output: Option<&Utf8Path>) -> Result<Output, Vec<Diagnostic>> {
-        let below = self.directory.as_deref().map(Below);
+        let system = &*self.system;
+        let below = self.directory.as_deref().map(|directory| Below { directory, system });
         let mut options = PostOptions {
             date: self.wishes.date.clone(),
             macros: self.macros.clone(),
@@ -189,7 +199,14 @@ impl Poster {
         if let Some(below) = &below {
             options.files = below;
         }
-        self.post.write(job, &options)
+        let output = self.post.write(job, &options)?;
+        match &output.post_build {
+            Some(command) if self.runs_no_command => {
+                let refusal = Diagnostic::new(&messages::POST_BUILD_REFUSED);
+                Err(vec![refusal.with("command", command.join(" "))])
+            }
+            _ => Ok(output),
+        }
     }
 
     /// Everything that a program's text depends on beside drawings and general options, for its provenance.
@@ -218,7 +235,7 @@ fn inserted_names(text: &str) -> impl Iterator<Item = &str> {
 const INSERTION: &str = r"\\\~*";
 
 /// Whether a post's name is a file's: it has an extension or a directory.
-fn is_file_name(name: &str) -> bool {
+pub(crate) fn is_file_name(name: &str) -> bool {
     name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
 }
 

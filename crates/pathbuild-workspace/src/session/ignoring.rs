@@ -7,7 +7,7 @@ use camino::Utf8Path;
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_db::System;
-use pathbuild_db::system::{Kind, OsSystem, ReadError};
+use pathbuild_db::system::{Kind, ReadError};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 
@@ -37,12 +37,13 @@ impl Rules {
     /// # Errors
     /// Why one cannot be read: then nobody knows what counts.
     pub(super) fn read(
+        system: &dyn System,
         directory: &Utf8Path,
         above: Option<Arc<Self>>,
         limit: u64,
     ) -> Result<Arc<Self>, Box<Diagnostic>> {
-        let read = |name| patterns(directory, name, limit);
-        let is_repository = OsSystem.kind(&directory.join(".git")) != Kind::Missing;
+        let read = |name| patterns(system, directory, name, limit);
+        let is_repository = system.kind(&directory.join(".git")) != Kind::Missing;
         Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
     }
 
@@ -68,9 +69,14 @@ impl Rules {
     }
 }
 
-fn patterns(directory: &Utf8Path, name: &str, limit: u64) -> Result<Gitignore, Box<Diagnostic>> {
+fn patterns(
+    system: &dyn System,
+    directory: &Utf8Path,
+    name: &str,
+    limit: u64,
+) -> Result<Gitignore, Box<Diagnostic>> {
     let file = directory.join(name);
-    let bytes = match OsSystem.read(&file, limit) {
+    let bytes = match system.read(&file, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),
         Err(error) => return Err(Box::new(unreadable_by(&file, &error, limit, "ignore-file-size"))),

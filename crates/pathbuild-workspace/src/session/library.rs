@@ -8,12 +8,13 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, EntryKind, Kind, OsSystem};
+use pathbuild_db::system::{Entry, EntryKind, Kind};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
 
 use super::ignoring::{self, Rules};
+use crate::files::unreadable_by;
 
 /// What lies in a directory and below.
 #[derive(Debug, Default)]
@@ -24,8 +25,9 @@ pub(super) struct Walked {
     pub(super) directories: Vec<Utf8PathBuf>,
     /// What is in these directories, as far as it is known.
     pub(super) listings: Listings,
-    /// PB005 where there is more than the limit allows: then there is nothing else, since nobody knows what is missing.
-    pub(super) problem: Option<Box<Diagnostic>>,
+    /// Directories that cannot be listed; PB005 where there is more than the limit allows: then there is nothing else, since nobody knows
+    /// what is missing.
+    pub(super) problems: Vec<Diagnostic>,
 }
 
 /// So many directories are sooner listed one after the other than threads are started for them.
@@ -33,7 +35,9 @@ const FEW: usize = 4;
 
 /// How directories are walked.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Walk {
+pub(super) struct Walk<'a> {
+    /// The files.
+    pub(super) system: &'a dyn System,
     /// How many files and directories there may be.
     pub(super) limit: u64,
     /// How many bytes a file of rules may have.
@@ -42,17 +46,16 @@ pub(super) struct Walk {
     pub(super) is_parallel: bool,
 }
 
-impl Walk {
+impl Walk<'_> {
     /// Every drawing in a directory and below; .gitignore and .ignore files inside are respected. Links to directories are not followed: they
     /// could lead anywhere, and round in circles. What is found is spelt as the root is: normally, if that is.
     pub(super) fn through(self, root: &Utf8Path) -> Walked {
         let (mut walked, count) = match self.levels(root) {
             Ok(walked) => walked,
-            Err(problem) => return Walked { problem: Some(problem), ..Walked::default() },
+            Err(problem) => return Walked { problems: vec![*problem], ..Walked::default() },
         };
         if count > self.limit.saturating_add(1) {
-            let problem = Some(Box::new(too_many(readable(root), self.limit)));
-            return Walked { problem, ..Walked::default() };
+            return Walked { problems: vec![too_many(readable(root), self.limit)], ..Walked::default() };
         }
         // Each directory's are in order already.
         walked.drawings.sort_by(|a, b| by_place(a, b));
@@ -81,12 +84,13 @@ impl Walk {
                     Some(listed) => {
                         count += listed.count;
                         walked.drawings.extend(listed.drawings);
+                        walked.problems.extend(listed.problem.map(|problem| *problem));
                         let rules = listed.rules;
                         next.extend(listed.directories.into_iter().map(|below| (below, rules.clone())));
                         walked.listings.insert(directory.clone(), listed.listing);
                     }
                     // What was named may be a drawing.
-                    None if directory == *root && OsSystem.kind(root) == Kind::File => {
+                    None if directory == *root && self.system.kind(root) == Kind::File => {
                         walked.drawings.extend(is_drawing(root).then(|| root.to_owned()));
                         continue;
                     }
@@ -122,18 +126,20 @@ struct Directory {
     rules: Option<Arc<Rules>>,
     /// How much there is that counts.
     count: u64,
+    /// Why it cannot be listed.
+    problem: Option<Box<Diagnostic>>,
 }
 
 impl Directory {
-    /// Nothing where it cannot be listed.
+    /// Nothing where there is none.
     fn list(
         directory: &Utf8Path,
         above: Option<Arc<Rules>>,
-        walk: Walk,
+        walk: Walk<'_>,
     ) -> Result<Option<Self>, Box<Diagnostic>> {
         let mut found = Self { rules: above.clone(), ..Self::default() };
         let mut has_own = false;
-        let mut listed = OsSystem.each_entry(directory, |entry| {
+        let mut listed = walk.system.each_entry(directory, &mut |entry| {
             has_own = entry.is_exact && ignoring::changes_rules(entry.name, above.is_some());
             found.add(directory, entry);
             if has_own || found.count > walk.limit {
@@ -144,14 +150,21 @@ impl Directory {
         });
         if has_own {
             // Most directories have no rules of their own: those that have are listed again, by them.
-            found = Self { rules: Some(Rules::read(directory, above, walk.rules_limit)?), ..Self::default() };
-            listed = OsSystem.each_entry(directory, |entry| {
+            found = Self {
+                rules: Some(Rules::read(walk.system, directory, above, walk.rules_limit)?),
+                ..Self::default()
+            };
+            listed = walk.system.each_entry(directory, &mut |entry| {
                 found.add(directory, entry);
                 if found.count > walk.limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
         }
-        if listed.is_err() && found.listing.names.is_empty() && found.count == 0 {
-            return Ok(None);
+        if let Err(error) = &listed {
+            if walk.system.kind(directory) != Kind::Directory {
+                return Ok(None);
+            }
+            found.problem =
+                Some(Box::new(unreadable_by(readable(directory), error, walk.limit, "library-entries")));
         }
         // Who looks for a path must not miss what was not told.
         found.listing.is_doubtful |= listed.is_err();

@@ -21,7 +21,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{OsSystem, Overlay, System};
+use pathbuild_db::system::{Overlay, System};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
@@ -63,19 +63,19 @@ pub struct Session<'a> {
 const ROUNDS: usize = 8;
 
 impl<'a> Session<'a> {
-    /// A session over the files of the operating system.
+    /// A session over the files.
     pub fn new(context: &'a Workspace) -> Self {
-        Self::over(context, false, Arc::new(OsSystem))
+        Self::over(context, false, Arc::clone(&context.system))
     }
 
     /// A session that makes programs, and can say out of which drawings.
     pub fn with_hashes(context: &'a Workspace) -> Self {
-        Self::over(context, true, Arc::new(OsSystem))
+        Self::over(context, true, Arc::clone(&context.system))
     }
 
     /// A session whose results may be kept for later runs: what they were made from is noted.
     pub fn traced(context: &'a Workspace) -> Self {
-        Self { is_traced: true, ..Self::over(context, true, Arc::new(OsSystem)) }
+        Self { is_traced: true, ..Self::over(context, true, Arc::clone(&context.system)) }
     }
 
     /// From now on it is noted what targets are made from.
@@ -95,7 +95,7 @@ impl<'a> Session<'a> {
 
     /// A session in which a drawing is there that has not been written yet.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
-        let overlay = Overlay::new(Arc::new(OsSystem), path.to_owned(), bytes);
+        let overlay = Overlay::new(Arc::clone(&context.system), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
     }
 

@@ -118,7 +118,7 @@ impl Session<'_> {
         };
         let mut found = Found::default();
         for walked in self.walked_each(&directories) {
-            if walked.problem.is_some() {
+            if !walked.problems.is_empty() {
                 return None;
             }
             found.drawings.extend(walked.drawings.into_iter().map(|drawing| self.normalised(drawing)));
@@ -176,9 +176,10 @@ impl Session<'_> {
         }
     }
 
-    fn walk(&self) -> library::Walk {
+    fn walk(&self) -> library::Walk<'_> {
         let limits = &self.context.settings.limits;
         library::Walk {
+            system: &*self.context.system,
             limit: limits.library_entries.value,
             rules_limit: limits.ignore_file_size.value,
             is_parallel: self.context.jobs != Some(1),
@@ -191,8 +192,8 @@ impl Session<'_> {
         let working_directory = Utf8PathBuf::new();
         let directories =
             if self.has_library() { library.as_slice() } else { std::slice::from_ref(&working_directory) };
-        let problem = |directory: &Utf8PathBuf| self.walked(&self.normal(directory)).problem;
-        directories.iter().filter_map(problem).map(|problem| *problem).collect()
+        let problems = |directory: &Utf8PathBuf| self.walked(&self.normal(directory)).problems;
+        directories.iter().flat_map(problems).collect()
     }
 
     fn add_place(&self, place: &Utf8Path, wanted: &mut Wanted) {
@@ -207,7 +208,7 @@ impl Session<'_> {
     fn add_directory(&self, directory: Utf8PathBuf, wanted: &mut Wanted) {
         self.rouse_workers();
         let walked = self.walked(&directory);
-        wanted.problems.extend(walked.problem.as_deref().cloned());
+        wanted.problems.extend(walked.problems);
         wanted.add_drawings(self.db.files(walked.drawings));
         wanted.listings.extend(walked.listings);
         wanted.directories.push(directory);

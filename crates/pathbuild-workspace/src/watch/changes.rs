@@ -1,18 +1,19 @@
 //! What changed on disk, in batches: events are gathered until nothing has come for a while, and files that a CAD is still writing are waited for.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, RecursiveMode, Watcher as _};
+use pathbuild_db::System;
 
 use super::Request;
 use super::library::Library;
 use crate::Input;
 use crate::config::clean;
-use crate::files;
 use crate::session::Session;
 
 /// Watches the directories of a library.
@@ -24,6 +25,7 @@ pub(super) struct Watcher {
     /// The configuration, and what belongs to it.
     configuration: BTreeSet<Utf8PathBuf>,
     working_directory: Utf8PathBuf,
+    system: Arc<dyn System>,
     /// What came while a batch was worked on.
     news: Changes,
     /// Files without their end, and when they are taken as they are.
@@ -85,6 +87,7 @@ impl Watcher {
             configuration: settings.file.iter().map(|file| session.normal(file)).chain(post).collect(),
             news: Changes::default(),
             working_directory: workspace.working_directory.clone(),
+            system: Arc::clone(&workspace.system),
             unfinished: BTreeMap::new(),
         })
     }
@@ -159,14 +162,16 @@ impl Watcher {
     fn hold_back(&mut self, changes: &mut Changes) {
         let now = Instant::now();
         for path in std::mem::take(&mut changes.paths) {
-            if is_unfinished(&path) {
+            if is_unfinished(&*self.system, &path) {
                 self.unfinished.insert(path, now + PATIENCE);
             } else {
                 self.unfinished.remove(&path);
                 changes.paths.insert(path);
             }
         }
-        let is_ready = |path: &Utf8PathBuf, until: &mut Instant| now >= *until || !is_unfinished(path);
+        let system = &*self.system;
+        let is_ready =
+            |path: &Utf8PathBuf, until: &mut Instant| now >= *until || !is_unfinished(system, path);
         changes.paths.extend(self.unfinished.extract_if(.., is_ready).map(|(path, _)| path));
     }
 }
@@ -231,10 +236,10 @@ fn matters(path: &Utf8Path) -> bool {
 }
 
 /// Where the end of a drawing says so.
-const TAIL: u64 = 256;
+const TAIL: usize = 256;
 
 /// Whether a drawing is there and does not end as drawings do.
-fn is_unfinished(path: &Utf8Path) -> bool {
+fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
     let is_drawing = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
-    is_drawing && files::tail(path, TAIL).is_some_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
+    is_drawing && system.tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
 }

@@ -64,6 +64,9 @@ pub struct CommonArgs {
     /// Work with so many threads
     #[arg(short, long, global = true, value_name = "N", value_parser = jobs)]
     pub jobs: Option<u16>,
+    /// The tree is a stranger's: nothing leads out of it, and nothing of it is run
+    #[arg(long, global = true)]
+    pub untrusted: bool,
     /// Neither read nor write the cache
     #[arg(long, global = true)]
     pub no_cache: bool,
@@ -90,6 +93,8 @@ impl CommonArgs {
             out_dir: self.out_dir.clone(),
             compatible: self.compatible,
             config: self.config.clone(),
+            untrusted: self.untrusted,
+            trusted: None,
         }
     }
 

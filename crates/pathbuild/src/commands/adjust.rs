@@ -1,8 +1,7 @@
 //! `pathbuild adjust`: measured heights put into programs. (spec/70-z-probes.md, "Adjusting")
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::System;
-use pathbuild_db::system::{OsSystem, Written};
+use pathbuild_db::system::Written;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use regex::Regex;
@@ -110,7 +109,7 @@ impl<'a> Adjustment<'a> {
             log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
             max_correction: self.max_correction,
         })?;
-        let written = OsSystem.write(&job.milling, &adjusted.program);
+        let written = self.context.system.write(&job.milling, &adjusted.program);
         let written = written.map_err(|reason| vec![cannot_write(&job.milling, &reason)])?;
         self.say_written(&job.milling, written, &adjusted);
         self.warnings.extend(adjusted.warnings);
@@ -121,8 +120,9 @@ impl<'a> Adjustment<'a> {
     #[expect(clippy::type_complexity, clippy::result_large_err, reason = "taken apart at its one caller")]
     fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
         let limit = self.context.settings.limits.file_size.value;
-        let read =
-            |file: &Utf8Path| OsSystem.read(file, limit).map_err(|error| unreadable(file, &error, limit));
+        let read = |file: &Utf8Path| {
+            self.context.system.read(file, limit).map_err(|error| unreadable(file, &error, limit))
+        };
         match (read(&job.clean), read(&job.values), self.log.map(read).transpose()) {
             (Ok(clean), Ok(values), Ok(log)) => Ok((clean, values, log)),
             (clean, values, log) => {

@@ -1,8 +1,7 @@
 //! `pathbuild post`: a program written for another machine, and the posts that come with pathbuild. (spec/85-post-processors.md)
 
 use camino::Utf8Path;
-use pathbuild_db::System;
-use pathbuild_db::system::{OsSystem, Written};
+use pathbuild_db::system::Written;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
@@ -96,7 +95,7 @@ fn written(
         context.printer.result_bytes(&output.text);
         return Ok(());
     };
-    let written = OsSystem.write(to, &output.text).map_err(|reason| vec![cannot_write(to, &reason)])?;
+    let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, &reason)])?;
     let state = match written {
         Written::Changed => context.choose("written", "geschrieben"),
         Written::Unchanged => context.choose("unchanged", "unverändert"),

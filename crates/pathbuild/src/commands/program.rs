@@ -1,8 +1,6 @@
 //! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (spec/90-gcode-import.md)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::System;
-use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
@@ -54,7 +52,8 @@ impl Program {
         args: &ReadingArgs,
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
-        let text = OsSystem.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
+        let text =
+            context.system.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let options = options(args);

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use camino::Utf8Path;
+use pathbuild_db::System;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value, shown};
 
@@ -33,8 +34,8 @@ impl Baseline {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn read(file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
-        let text = files::read(file, limit).map_err(|reason| {
+    pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
+        let text = files::read(system, file, limit).map_err(|reason| {
             vec![Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", &*reason)]
         })?;
         Self::parse(file, &text)

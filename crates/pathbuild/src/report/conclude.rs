@@ -21,6 +21,7 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Dur
             update(context, &context.working_directory.join(file), &findings)
         }
         Some(file) => match Baseline::read(
+            &*context.system,
             &context.working_directory.join(file),
             context.settings.limits.file_size.value,
         ) {
@@ -57,7 +58,9 @@ fn write_reports(context: &Context, reports: &[ReportFile], findings: &Findings)
     let view = plain_view(context, context.lang());
     let write = |report: &ReportFile| {
         let file = context.working_directory.join(&report.file);
-        files::replace(&file, render(report.format, findings, &view).as_str()).err().map(|fault| *fault)
+        files::replace(context, &file, render(report.format, findings, &view).as_str())
+            .err()
+            .map(|fault| *fault)
     };
     reports.iter().filter_map(write).collect()
 }
@@ -65,7 +68,7 @@ fn write_reports(context: &Context, reports: &[ReportFile], findings: &Findings)
 fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
     // In English, so that the file does not change with the language of who writes it.
     let text = Baseline::text(findings, &plain_view(context, Lang::En));
-    match files::replace(file, &text) {
+    match files::replace(context, file, &text) {
         Ok(()) => {
             let (name, count) = (file.file_name().unwrap_or_default(), findings.diagnostics.len());
             context.printer.status(format_args!(

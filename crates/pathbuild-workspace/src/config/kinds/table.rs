@@ -14,6 +14,7 @@ use crate::config::kind::Kind;
 use crate::config::nearest::nearest;
 use crate::config::reader::{Reader, Table};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
+use crate::posting::is_file_name;
 
 /// Names of line types, each with what it stands for.
 pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
@@ -69,6 +70,31 @@ pub(in crate::config) const SEVERITY_IN: Kind<Vec<SeveritiesIn>> = Kind {
     },
 };
 
+/// The name of a post-processor, or of a file with one.
+const POST_NAME: Kind<Box<str>> = Kind {
+    read: |value, reader| {
+        let name = (TEXT.read)(value, reader)?;
+        if is_file_name(&name) {
+            reader.path(&name, value)?;
+        }
+        Some(name)
+    },
+    ..TEXT
+};
+
+/// Whether somebody answers for what cannot be read back.
+const UNCHECKED: Kind<bool> = Kind {
+    read: |value, reader| {
+        let is_unchecked = (SWITCH.read)(value, reader)?;
+        if is_unchecked && reader.is_strangers() {
+            let fault = reader.fault(&messages::UNCHECKED_BY_STRANGER, value.span());
+            reader.report(fault);
+        }
+        Some(is_unchecked)
+    },
+    ..SWITCH
+};
+
 /// Tools by name.
 pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
     read: |value, reader| {
@@ -102,12 +128,12 @@ pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
 pub(in crate::config) const POST: Kind<PostChoice> = Kind {
     read: |value, reader| {
         let Some(table) = value.get_ref().as_table() else {
-            return (TEXT.read)(value, reader).map(|name| (&*name).into());
+            return (POST_NAME.read)(value, reader).map(|name| (&*name).into());
         };
         let prefix = format!("{}.", reader.key());
         Some(reader.table(table, &prefix, |table| PostChoice {
-            name: table.take("name", &TEXT).map_or_else(|| "native".into(), |it| it.value),
-            unchecked: table.take("unchecked", &SWITCH).is_some_and(|it| it.value),
+            name: table.take("name", &POST_NAME).map_or_else(|| "native".into(), |it| it.value),
+            unchecked: table.take("unchecked", &UNCHECKED).is_some_and(|it| it.value),
             program_number: table.take("program-number", &COUNT).and_then(|it| u32::try_from(it.value).ok()),
         }))
     },

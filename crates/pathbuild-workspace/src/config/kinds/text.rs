@@ -1,6 +1,6 @@
 //! Texts, names of files, and choices.
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Value, shown};
 use serde_json::{Value as Json, json};
@@ -24,9 +24,9 @@ pub(in crate::config) const TEXT: Kind<Box<str>> = Kind {
 
 /// A directory, where there is one. The empty text is none.
 pub(in crate::config) const DIRECTORY: Kind<Option<Utf8PathBuf>> = Kind {
-    read: |value, reader| {
-        let text = reader.text(value)?;
-        Some((!text.is_empty()).then(|| reader.path(text)))
+    read: |value, reader| match reader.text(value)? {
+        "" => Some(None),
+        text => reader.path(text, value).map(Some),
     },
     show: |directory| Some(quoted(directory.as_ref().map_or("", |directory| directory.as_str()))),
     schema: || json!({ "type": "string" }),
@@ -36,10 +36,33 @@ pub(in crate::config) const DIRECTORY: Kind<Option<Utf8PathBuf>> = Kind {
 pub(in crate::config) const DIRECTORIES: Kind<Directories> = Kind {
     read: |value, reader| {
         let names = texts(value, reader)?;
-        Some(names.iter().map(|(name, _)| reader.path(name)).collect())
+        Some(names.into_iter().filter_map(|(name, value)| reader.path(name, value)).collect())
     },
     show: |directories| Some(list(directories.iter().map(|directory| directory.as_str()))),
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
+};
+
+/// A directory that does not depend on where the configuration lies.
+pub(in crate::config) const ABSOLUTE: Kind<Utf8PathBuf> = Kind {
+    read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
+        path if path.is_absolute() => Some(path),
+        _ => reader.expected(Value::Word(&messages::ABSOLUTE), value),
+    },
+    show: |path| Some(quoted(path.as_str())),
+    schema: || json!({ "type": "string" }),
+};
+
+/// Several of these.
+pub(in crate::config) const ABSOLUTES: Kind<Directories> = Kind {
+    read: |value, reader| {
+        let names = texts(value, reader)?;
+        if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
+            Some(names.into_iter().map(|(name, _)| name.into()).collect())
+        } else {
+            reader.expected(Value::Word(&messages::ABSOLUTES), value)
+        }
+    },
+    ..DIRECTORIES
 };
 
 /// One of the names of a choice.

@@ -10,7 +10,30 @@ use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
 
-section! {
+/// [`section!`] of values of which a stranger may only lower the defaults.
+macro_rules! limits {
+    ($(
+        $(#[doc = $meaning:literal])+
+        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident;
+    )*) => {
+        section! {
+            $($(#[doc = $meaning])+ $field: $type = $name, $kind, $default, $example, $concerns;)*
+        }
+
+        impl Options {
+            /// Reads them; those of a stranger are not above their defaults.
+            pub(in crate::config) fn read_lowered(table: &mut Table<'_, '_, '_>) -> Self {
+                let options = Self::read(table);
+                $(if table.is_strangers() && options.$field.as_ref().is_some_and(|it| it.value > $default) {
+                    table.report_raised($name, $example);
+                })*
+                options
+            }
+        }
+    };
+}
+
+limits! {
     /// largest drawing
     file_size: u64 = "file-size", SIZE, 256 << 20, r#""256 MiB""#, Check;
     /// most entities in a drawing

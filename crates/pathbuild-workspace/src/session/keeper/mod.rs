@@ -15,8 +15,8 @@ use pathbuild_cache::{
     Clock, FileState, Kept, Key, Listings, Looking, Lookup, Place, Reason, Stamp, Unusable, Verdict, reasons,
     verify,
 };
-use pathbuild_db::Trace;
-use pathbuild_db::system::{Kind, OsSystem, System};
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, Trace};
 
 use super::Session;
 use super::outputs::{OutputKind, without_values};
@@ -192,7 +192,7 @@ impl Keeper {
         let mut writing = Writing::new(self, verdict, session, begun, made);
         for number in (0..self.kept.records()).filter(|number| verdict.holds[*number]) {
             let of = self.kept.record(number).of();
-            if !made_now.contains(of) && self.scope.may_return(of) {
+            if !made_now.contains(of) && self.scope.may_return(of, session.db().system()) {
                 writing.add_kept(number);
             }
         }
@@ -220,7 +220,7 @@ pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
 
 /// Earlier versions kept results beside the configuration.
 fn note_old(context: &Workspace, base: &Utf8Path) {
-    if OsSystem.kind(&base.join(OLD)) == Kind::Directory {
+    if context.system.kind(&base.join(OLD)) == Kind::Directory {
         context.reporter.status(context.choose(
             "results are kept in your cache directory now: .pathbuild beside the configuration is not used any more and can be deleted",
             "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis aufgehoben: .pathbuild neben der Konfiguration wird nicht mehr gebraucht und kann gelöscht werden",

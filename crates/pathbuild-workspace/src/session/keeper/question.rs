@@ -20,7 +20,8 @@ pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &st
         let value = if base.is_empty() { value } else { value.replace(&base, "\"./") };
         _ = write!(text, "\n{name} = {value}");
     });
-    _ = write!(text, "\n{}", place_of(context));
+    // What is refused of a stranger's tree may be right in one's own.
+    _ = write!(text, "\n{}\n{}", context.settings.confined.is_some(), place_of(context));
     text
 }
 

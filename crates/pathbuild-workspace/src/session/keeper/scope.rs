@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use camino::Utf8Path;
-use pathbuild_db::system::{Kind, OsSystem, System};
+use pathbuild_db::system::{Kind, System};
 
 use crate::session::Found;
 
@@ -39,7 +39,7 @@ impl Scope {
     }
 
     /// Whether a result may be asked for another time: its drawing is there.
-    pub(super) fn may_return(&self, of: &str) -> bool {
+    pub(super) fn may_return(&self, of: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(of));
         let was_looked_through = match self {
             Self::All => false,
@@ -47,7 +47,7 @@ impl Scope {
                 drawing.parent().is_some_and(|parent| directories.contains(parent.as_str()))
             }
         };
-        self.holds(of) && was_looked_through || !was_looked_through && OsSystem.kind(drawing) == Kind::File
+        self.holds(of) && was_looked_through || !was_looked_through && system.kind(drawing) == Kind::File
     }
 }
 

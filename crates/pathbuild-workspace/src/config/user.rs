@@ -1,0 +1,48 @@
+//! A person's own configuration, `config.toml`: what no repository may decide. (spec/06-configuration.md, "The user's own configuration")
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use toml::de::DeTable;
+
+use super::kinds::text::{ABSOLUTE, ABSOLUTES, choice};
+use super::load::{LARGEST, read_table};
+use super::reader::Reader;
+use super::types::Directories;
+use crate::files;
+
+/// What a person says for all trees.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct User {
+    /// `lang`: the language of messages. Programs are written in that of their tree.
+    pub lang: Option<Lang>,
+    /// `[cache] dir`: where results are kept, each tree's in a directory of its own.
+    pub cache_dir: Option<Utf8PathBuf>,
+    /// `[trust] roots`: trees that lie elsewhere are taken as with `--untrusted`.
+    pub trusted: Option<Directories>,
+}
+
+impl User {
+    /// Reads the file, if there is one, with everything that is wrong in it.
+    pub fn load(file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
+        if !files::is_there(file) {
+            return (Self::default(), Vec::new());
+        }
+        match files::read(&OsSystem, file, LARGEST) {
+            Ok(text) => read_table(file, &text, None, Self::read),
+            Err(reason) => {
+                let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
+                (Self::default(), vec![fault.with("reason", &*reason)])
+            }
+        }
+    }
+
+    fn read(root: &DeTable<'_>, reader: &mut Reader<'_>) -> Self {
+        reader.table(root, "", |table| Self {
+            lang: table.take("lang", &choice()).map(|lang| lang.value),
+            cache_dir: table.section("cache", |cache| cache.take("dir", &ABSOLUTE)).map(|it| it.value),
+            trusted: table.section("trust", |trust| trust.take("roots", &ABSOLUTES)).map(|it| it.value),
+        })
+    }
+}

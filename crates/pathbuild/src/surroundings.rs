@@ -1,0 +1,56 @@
+//! Where a person's configuration is, and where results are kept for later runs. (spec/06-configuration.md, "The user's own configuration")
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the environment is asked where a person's own files are, which no result depends on"
+)]
+
+use std::env;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_workspace::CacheHome;
+
+/// A person's `config.toml`, there or not; `None` where nobody says where it would be.
+pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
+    let below_home = |directory: &str| absolute("HOME").map(|home| home.join(directory));
+    let directory = if cfg!(windows) {
+        absolute("APPDATA")
+    } else if cfg!(target_os = "macos") {
+        absolute("XDG_CONFIG_HOME").or_else(|| below_home("Library/Application Support"))
+    } else {
+        absolute("XDG_CONFIG_HOME").or_else(|| below_home(".config"))
+    };
+    directory.map(|directory| directory.join("pathbuild").join("config.toml"))
+}
+
+/// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the person's own, which `config.toml` may name; `None` where nobody says
+/// where it is.
+pub(crate) fn cache_home(
+    named: Option<&Utf8Path>,
+    configured: Option<Utf8PathBuf>,
+    working_directory: &Utf8Path,
+) -> Option<CacheHome> {
+    let named = named.map(Utf8Path::to_owned).or_else(|| directory("PATHBUILD_CACHE_DIR"));
+    match named {
+        Some(named) => Some(CacheHome::Named(working_directory.join(named))),
+        None => configured.or_else(user_caches).map(CacheHome::User),
+    }
+}
+
+/// As XDG says, or the system's own rules.
+fn user_caches() -> Option<Utf8PathBuf> {
+    if cfg!(windows) {
+        return absolute("LOCALAPPDATA").map(|local| local.join("pathbuild").join("cache"));
+    }
+    let below_home = if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" };
+    let caches = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(below_home)));
+    caches.map(|caches| caches.join("pathbuild"))
+}
+
+/// XDG: what is not absolute does not count.
+fn absolute(variable: &str) -> Option<Utf8PathBuf> {
+    directory(variable).filter(|directory| directory.is_absolute())
+}
+
+fn directory(variable: &str) -> Option<Utf8PathBuf> {
+    env::var(variable).ok().filter(|value| !value.is_empty()).map(Utf8PathBuf::from)
+}
