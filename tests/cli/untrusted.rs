@@ -227,9 +227,8 @@ fn a_stranger_answers_for_no_program() {
 
 #[test]
 fn posts_of_strangers_run_no_command() {
-    let post = "<MachinePostProcessor><PostBuildCommand>touch</PostBuildCommand>\
-        <PostBuildCommandArgs>ran</PostBuildCommandArgs><PostFile>{$mops}\n</PostFile>\
-        <Rapid>{$g0} {$_x} {$_y} {$_z}</Rapid><FeedMove>{$_g1} {$_f} {$_x} {$_y} {$_z}</FeedMove></MachinePostProcessor>";
+    let post = "<PostProcessor><PostBuildCommand>/bin/touch</PostBuildCommand>\
+        <PostBuildCommandArgs>ran</PostBuildCommandArgs></PostProcessor>";
     for (option, is_run) in [("", true), (" --untrusted", false)] {
         let place = repository("spindle = \"manual\"\n").file("tree/work/p.cbpp", post);
         let command = format!("emit 1202.1P.dxf --post ./p.cbpp --dialect linuxcnc --run-post-build{option}");
