@@ -64,7 +64,7 @@ fn what_is_no_regular_file_is_refused() {
 /// The entries of a directory, in order of name.
 fn entries(directory: &Utf8Path) -> Vec<(String, bool, EntryKind)> {
     let mut entries = Vec::new();
-    let listed = OsSystem.each_entry(directory, |Entry { name, is_exact, kind }| {
+    let listed = OsSystem.each_entry(directory, &mut |Entry { name, is_exact, kind }| {
         entries.push((name.to_owned(), is_exact, kind));
         ControlFlow::Continue(())
     });
@@ -90,7 +90,7 @@ fn a_directory_says_what_is_a_file_a_directory_or_a_link() {
         ("to-nowhere", EntryKind::Link),
     ];
     assert_eq!(entries(directory), expected.map(|(name, kind)| (name.to_owned(), true, kind)));
-    assert!(OsSystem.each_entry(&file, |_| ControlFlow::Continue(())).is_err(), "a file has no entries");
+    assert!(OsSystem.each_entry(&file, &mut |_| ControlFlow::Continue(())).is_err(), "a file has no entries");
 }
 
 /// No file can be found under the spelling that is shown; one whose name is just that spelling can.
@@ -120,7 +120,7 @@ fn entries_end_where_there_are_enough() {
         OsSystem.write(&file.with_file_name(name), b"x").unwrap();
     }
     let mut seen = 0;
-    let listed = OsSystem.each_entry(file.parent().unwrap(), |_| {
+    let listed = OsSystem.each_entry(file.parent().unwrap(), &mut |_| {
         seen += 1;
         if seen == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
