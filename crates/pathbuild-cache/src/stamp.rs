@@ -7,7 +7,7 @@
     reason = "the stat index is about files as the system has them, beside the drawings' bytes"
 )]
 
-use std::fs::{self, Metadata};
+use std::fs::{self, File, Metadata};
 use std::io;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -15,7 +15,7 @@ use camino::Utf8Path;
 
 use crate::private;
 
-/// What the system says of a file, as bytes that are compared as a whole.
+/// What the system says of a file, as bytes that are compared as a whole: size, times of its last changes in whole seconds, the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp([u8; Stamp::SIZE]);
 
@@ -40,18 +40,32 @@ impl Stamp {
         fs::metadata(file).map_or(Self::MISSING, |data| Self::of_data(&data))
     }
 
-    /// The same, to be kept by a run that began to read at `begun`: unknown if the file had not rested by then.
-    pub fn settled(file: &Utf8Path, begun: Clock) -> Self {
-        match fs::metadata(file) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Self::MISSING,
-            Ok(data) if has_rested(&data, begun) => Self::of_data(&data),
-            _ => Self::UNKNOWN,
-        }
+    /// That of an open file; unknown where the system does not tell it.
+    pub fn of_open(file: &File) -> Self {
+        file.metadata().map_or(Self::UNKNOWN, |data| Self::of_data(&data))
     }
 
-    /// Whether a file changed while a run that began at `begun` was reading. What the run read of it first may not be what it read of it last.
-    pub fn has_changed_since(file: &Utf8Path, Clock(begun): Clock) -> bool {
-        fs::metadata(file).and_then(|data| data.modified()).is_ok_and(|modified| modified > begun)
+    /// The same, to be kept by a run that began to read at `begun`: unknown if the file had not rested by then.
+    #[must_use]
+    pub fn settled(self, begun: Clock) -> Self {
+        let is_of_file = self != Self::MISSING && self != Self::UNKNOWN;
+        if is_of_file && !self.has_rested(begun) { Self::UNKNOWN } else { self }
+    }
+
+    /// Whether a file was last changed so long before a time that a later change would show.
+    fn has_rested(self, Clock(begun): Clock) -> bool {
+        let number =
+            |index: usize| self.0[8 * index..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
+        // Before 1970 is not believed.
+        let is_before = |seconds: u64| {
+            let time = i64::try_from(seconds)
+                .ok()
+                .and_then(|_| UNIX_EPOCH.checked_add(Duration::from_secs(seconds)));
+            // Parts of a second count as a whole one.
+            time.and_then(|time| time.checked_add(TICK + Duration::from_secs(1)))
+                .is_some_and(|time| time < begun)
+        };
+        is_before(number(1)) && is_before(number(2))
     }
 
     pub(crate) fn from_bytes(bytes: [u8; Self::SIZE]) -> Self {
@@ -84,24 +98,6 @@ impl Clock {
         _ = fs::remove_file(&probe);
         time.map(Self)
     }
-}
-
-/// Whether a file was last changed so long before a time that a later change would show.
-fn has_rested(data: &Metadata, Clock(begun): Clock) -> bool {
-    let is_before = |time: SystemTime| time.checked_add(TICK).is_some_and(|time| time < begun);
-    data.modified().is_ok_and(is_before) && changed(data).is_none_or(is_before)
-}
-
-#[cfg(unix)]
-fn changed(data: &Metadata) -> Option<SystemTime> {
-    use std::os::unix::fs::MetadataExt;
-    let seconds = Duration::from_secs(u64::try_from(data.ctime()).ok()?);
-    UNIX_EPOCH.checked_add(seconds)
-}
-
-#[cfg(not(unix))]
-fn changed(_: &Metadata) -> Option<SystemTime> {
-    None
 }
 
 #[cfg(unix)]

@@ -1,11 +1,5 @@
 //! Which results still hold: those whose files are as they were, and to whose questions directories still give the same answers.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the stat index is about files as the system has them, beside the drawings' bytes"
-)]
-
 use std::collections::BTreeSet;
-use std::fs;
 
 use camino::Utf8Path;
 use rayon::prelude::*;
@@ -40,6 +34,8 @@ pub struct Looking<'a> {
     pub covers: Covers<'a>,
     /// Which records are looked at, by what they are of.
     pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
+    /// The bytes of a file, and the stamp that it had before and after they were read: unknown if that was not the same.
+    pub read: &'a (dyn Fn(&Utf8Path) -> Option<(Vec<u8>, Stamp)> + Sync),
     /// What the content of an output is hashed to: some is written by people.
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
@@ -77,8 +73,8 @@ fn files(kept: &Kept, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileState>
     }
     let state = |(number, role): (usize, &Role)| match role {
         Role::None => FileState::Unlooked,
-        Role::Source => state(kept.file(number), &|_, bytes| *blake3::hash(bytes).as_bytes()),
-        Role::Output => state(kept.file(number), looking.hash_output),
+        Role::Source => state(kept.file(number), looking, &|_, bytes| *blake3::hash(bytes).as_bytes()),
+        Role::Output => state(kept.file(number), looking, looking.hash_output),
     };
     roles.par_iter().enumerate().with_min_len(256).map(state).collect()
 }
@@ -118,22 +114,28 @@ fn holding(
 pub enum FileState {
     /// Its stamp is what it was.
     Resting,
-    /// Its stamp is another, or was not known, and its bytes are what they were.
-    Restored,
+    /// Its stamp is another, or was not known, and its bytes are what they were: this is the stamp that they were read under.
+    Restored(Stamp),
     /// It is not what it was.
     Changed,
     /// Nobody asked.
     Unlooked,
 }
 
-fn state(file: KeptFile<'_>, hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32]) -> FileState {
+fn state(
+    file: KeptFile<'_>,
+    looking: Looking<'_>,
+    hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32],
+) -> FileState {
     let (path, stamp) = (file.path(), Stamp::of(file.path()));
     if stamp == file.stamp() && stamp != Stamp::UNKNOWN {
         return FileState::Resting;
     }
     let Some(hash) = file.hash().filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
-    let is_restored = fs::read(path).is_ok_and(|bytes| hash_of(path, &bytes) == hash);
-    if is_restored { FileState::Restored } else { FileState::Changed }
+    match (looking.read)(path) {
+        Some((bytes, stamp)) if hash_of(path, &bytes) == hash => FileState::Restored(stamp),
+        _ => FileState::Changed,
+    }
 }
 
 /// What became of a directory.

@@ -95,7 +95,8 @@ fn covers(file: &str, path: &str) -> bool {
 
 /// Everything is looked at; of outputs all counts.
 fn looking<'a>(base: &'a Utf8Path, covers: pathbuild_cache::Covers<'a>) -> Looking<'a> {
-    Looking { base, covers, is_asked: &|_| true, hash_output: &|_, bytes| *blake3::hash(bytes).as_bytes() }
+    let hash_output = &|_: &Utf8Path, bytes: &[u8]| *blake3::hash(bytes).as_bytes();
+    Looking { base, covers, is_asked: &|_| true, read: &read, hash_output }
 }
 
 /// A cache that is there.
@@ -156,15 +157,20 @@ fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     (file, cache(base).clock().unwrap())
 }
 
+fn read(file: &Utf8Path) -> Option<(Vec<u8>, Stamp)> {
+    Some((fs::read(file).ok()?, Stamp::of(file)))
+}
+
 #[test]
 fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let (_directory, base) = place();
     let (file, begun) = written(&base, Duration::ZERO);
-    let stamp = Stamp::settled(&file, begun);
+    let stamp = Stamp::of(&file).settled(begun);
     assert_eq!(stamp, Stamp::UNKNOWN);
     let kept = catalogue(&base, stamp, b"one");
     let verdict = verify(&kept, &base, &covers);
-    assert_eq!((verdict.files[0], verdict.holds[0], verdict.is_current), (FileState::Restored, true, false));
+    let expected = (FileState::Restored(Stamp::of(&file)), true, false);
+    assert_eq!((verdict.files[0], verdict.holds[0], verdict.is_current), expected);
     // Of the same size, and perhaps within the same tick of the clock.
     fs::write(&file, "two").unwrap();
     assert_eq!(verify(&kept, &base, &covers).holds, [false]);
@@ -175,26 +181,40 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (_directory, base) = place();
     // A tick of the coarsest clock, and what a clock that counts seconds may hide.
     let (file, begun) = written(&base, Duration::from_millis(3200));
-    let stamp = Stamp::settled(&file, begun);
+    let stamp = Stamp::of(&file).settled(begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
     let kept = catalogue(&base, stamp, b"one");
     assert!(verify(&kept, &base, &covers).is_current);
     fs::write(&file, "two").unwrap();
     assert_eq!(verify(&kept, &base, &covers).files, [FileState::Changed]);
     fs::write(&file, "one").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).files, [FileState::Restored]);
+    assert_eq!(verify(&kept, &base, &covers).files, [FileState::Restored(Stamp::of(&file))]);
     fs::remove_file(&file).unwrap();
     assert_eq!(verify(&kept, &base, &covers).holds, [false]);
 }
 
+/// A clock that is set back makes a file of now one of the past: it is the bytes' own stamp that is kept.
 #[test]
-fn a_file_that_changes_while_a_run_reads_is_told_from_one_that_changed_before() {
+fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
     let (_directory, base) = place();
-    let (file, begun) = written(&base, Duration::from_millis(50));
-    assert!(!Stamp::has_changed_since(&file, begun));
-    sleep(Duration::from_millis(50));
-    fs::write(&file, "two").unwrap();
-    assert!(Stamp::has_changed_since(&file, begun));
+    let (file, begun) = written(&base, Duration::ZERO);
+    let set = |seconds_ago| {
+        let time = std::time::SystemTime::now() - Duration::from_secs(seconds_ago);
+        fs::File::options().write(true).open(&file).unwrap().set_modified(time).unwrap();
+        Stamp::of(&file).settled(begun)
+    };
+    // The time of the last change of what is known of it tells, where there is one.
+    assert_eq!(set(10) == Stamp::UNKNOWN, cfg!(unix));
+    assert_eq!(set(2), Stamp::UNKNOWN);
+    let open = fs::File::open(&file).unwrap();
+    assert_eq!(Stamp::of_open(&open), Stamp::of(&file));
+    fs::write(base.join("b"), "one").unwrap();
+    fs::rename(base.join("b"), &file).unwrap();
+    assert_ne!(Stamp::of_open(&open), Stamp::of(&file));
+    assert_eq!(
+        (Stamp::MISSING.settled(begun), Stamp::UNKNOWN.settled(begun)),
+        (Stamp::MISSING, Stamp::UNKNOWN)
+    );
 }
 
 #[test]
@@ -240,12 +260,13 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
     });
     let looking = Looking { is_asked: &|of| of == "a", ..looking(&base, &covers) };
     let states = || pathbuild_cache::verify(&kept, looking, Listings::new());
-    assert_eq!(states().files, [FileState::Restored, FileState::Restored, FileState::Unlooked]);
+    let restored = |name: &str| FileState::Restored(Stamp::of(&base.join(name)));
+    assert_eq!(states().files, [restored("a.dxf"), restored("a.gcode"), FileState::Unlooked]);
     assert_eq!(states().holds, [true, false]);
     fs::write(base.join("a.gcode"), "two").unwrap();
     assert_eq!((states().files[1], states().holds[0]), (FileState::Changed, true));
     let people = Looking { hash_output: &|_, _| *blake3::hash(b"one").as_bytes(), ..looking };
-    assert_eq!(pathbuild_cache::verify(&kept, people, Listings::new()).files[1], FileState::Restored);
+    assert_eq!(pathbuild_cache::verify(&kept, people, Listings::new()).files[1], restored("a.gcode"));
 }
 
 /// Files and results in no order, several of one file, with texts that begin alike and are no ASCII.

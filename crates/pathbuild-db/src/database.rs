@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use salsa::Setter;
 
 use crate::db::Db;
@@ -30,6 +30,8 @@ struct Shared {
     listings: Listings,
     /// Drawings with other bytes than their indexes were made from, some more than once.
     changed: Mutex<Vec<SourceFile>>,
+    /// Those that ever did.
+    drifted: Mutex<FxHashSet<SourceFile>>,
     scratch: ScratchPool,
 }
 
@@ -63,6 +65,7 @@ impl Database {
             inputs: Mutex::default(),
             listings: Listings::default(),
             changed: Mutex::default(),
+            drifted: Mutex::default(),
             scratch: ScratchPool::default(),
         };
         Self { shared: Arc::new(shared), storage }
@@ -108,10 +111,17 @@ impl Database {
     pub fn take_over_changes(&mut self) -> bool {
         let changed = std::mem::take(&mut *lock(&self.shared.changed));
         let has_changes = !changed.is_empty();
+        lock(&self.shared.drifted).extend(&changed);
         for file in changed {
             self.touch(file);
         }
         has_changes
+    }
+
+    /// Whether a drawing turned out to have other bytes than those that it was indexed by, however long ago: what was made before that
+    /// and what was made after it may be of different bytes.
+    pub fn has_drifted(&self, file: SourceFile) -> bool {
+        lock(&self.shared.drifted).contains(&file)
     }
 
     /// A directory will be listed by another thread. The query that wants its names waits for them.

@@ -29,9 +29,9 @@ pub use listing::PendingListing;
 pub use queries::{
     Closure, Destination, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey, Outcome, PathIndex,
     PathPlace, PathSummary, Reached, Resolved, Sought, Trace, assigned_texts, chains, check_file,
-    check_target, closure, combinations, content_hash, drawing_names, embeds, embeds_others, file_index,
-    holders, likely_file, locate, name_table, path, path_index, path_names, path_place, prefetch, program,
-    q_project, q_project_findings, raw_file, resolve_path, search_directories, summary, trace,
+    check_target, closure, combinations, content, content_hash, drawing_names, embeds, embeds_others,
+    file_index, holders, likely_file, locate, name_table, path, path_index, path_names, path_place, prefetch,
+    program, q_project, q_project_findings, raw_file, resolve_path, search_directories, summary, trace,
 };
 pub use scratch::ScratchPool;
 pub use settings::{Limits, Lookup, Reading, Settings};

@@ -34,7 +34,7 @@ pub use closures::{Closure, MissingOption, Reached, closure};
 pub use combinations::combinations;
 pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
-pub use index::{FileIndex, NameKey, PathIndex, content_hash, file_index, path_index, path_names};
+pub use index::{FileIndex, NameKey, PathIndex, content, content_hash, file_index, path_index, path_names};
 pub use instance::{Instance, chains, path, summary};
 pub use lookup::{Resolved, holders, resolve_path, search_directories};
 pub use names::{drawing_names, name_table};

@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Stamp;
 
 pub use confined::{Confined, clean};
 pub use listing::{Entry, EntryKind, Listing, Names};
@@ -38,6 +39,20 @@ pub trait System: Debug + Send + Sync {
     ) -> Result<&'r [u8], ReadError> {
         *room = self.read(path, limit)?;
         Ok(room)
+    }
+
+    /// The same with the stamp that the file had before and after it was read. Unknown where that was not the same, or nobody tells:
+    /// then nobody can say later whether a file still has these bytes without reading it.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        self.read_into(path, limit, room).map(|bytes| (bytes, Stamp::UNKNOWN))
     }
 
     /// The first bytes of a file, at most so many.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, PathHeader, PathName, RawFile, RawPath};
 
@@ -28,8 +29,8 @@ pub struct FileIndex {
 #[derive(Clone, Debug, Default)]
 struct Content {
     fingerprint: Option<Fingerprint>,
-    /// Where the settings ask for it.
-    hash: Option<[u8; 32]>,
+    /// Where the settings ask for it: their hash, and under which stamp they were read.
+    hash: Option<([u8; 32], Stamp)>,
 }
 
 /// A path in short.
@@ -56,12 +57,12 @@ pub struct NameKey<'db> {
 pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let settings = Settings::get(db);
     let (reading, language) = (settings.reading(db), settings.language(db));
-    let index = read(db, file, |bytes, drawing| {
+    let index = read(db, file, |bytes, stamp, drawing| {
         let read = catch_bugs(|| {
             read_entities(bytes, drawing, reading, &|layer| language.path_pattern.is_layer(layer));
             pathbuild_path::raw_file(drawing, language)
         });
-        let content = Content::of(bytes, reading);
+        let content = Content::of(bytes, stamp, reading);
         match read {
             Ok(raw) => {
                 let read_all = || entities(bytes, reading, &|_| true);
@@ -90,6 +91,11 @@ pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
 
 /// The hash of the bytes that a drawing was indexed by; `None` where it could not be read, or the settings do not ask for hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
+    content(db, file).map(|(hash, _)| hash)
+}
+
+/// The same, with the stamp that these bytes were read under.
+pub fn content(db: &dyn Db, file: SourceFile) -> Option<([u8; 32], Stamp)> {
     file_index(db, file).content.hash
 }
 
@@ -142,8 +148,8 @@ impl PartialEq for FileIndex {
 }
 
 impl Content {
-    fn of(bytes: &[u8], reading: &Reading) -> Self {
-        let hash = || *blake3::hash(bytes).as_bytes();
+    fn of(bytes: &[u8], stamp: Stamp, reading: &Reading) -> Self {
+        let hash = || (*blake3::hash(bytes).as_bytes(), stamp);
         Self { fingerprint: Some(Fingerprint::of(bytes)), hash: reading.is_hashed.then(hash) }
     }
 }

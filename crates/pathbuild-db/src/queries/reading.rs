@@ -2,6 +2,7 @@
 
 use std::hash::Hasher;
 
+use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_dxf::{Drawing, Options};
@@ -25,22 +26,27 @@ impl Fingerprint {
     }
 }
 
-/// Works on the bytes of a drawing, with memory for what they say.
+/// Works on the bytes of a drawing, with memory for what they say. Of drawings that are hashed it is told under which stamp they were read.
 ///
 /// # Errors
 /// Why it cannot be read, without a place.
 pub(super) fn read<R>(
     db: &dyn Db,
     file: SourceFile,
-    work: impl FnOnce(&[u8], &mut Drawing) -> R,
+    work: impl FnOnce(&[u8], Stamp, &mut Drawing) -> R,
 ) -> Result<R, Box<Diagnostic>> {
     // Asked for first: it stands for the bytes that are read behind salsa's back.
     file.revision(db);
-    let limit = Settings::get(db).reading(db).file_size;
+    let reading = Settings::get(db).reading(db);
+    let (path, limit) = (file.path(db), reading.file_size);
     db.scratch().with(|scratch| {
-        let bytes = db.system().read_into(file.path(db), limit, &mut scratch.bytes);
-        let bytes = bytes.map_err(|error| Box::new(unreadable(error, limit)))?;
-        Ok(work(bytes, &mut scratch.drawing))
+        let read = if reading.is_hashed {
+            db.system().read_stamped(path, limit, &mut scratch.bytes)
+        } else {
+            db.system().read_into(path, limit, &mut scratch.bytes).map(|bytes| (bytes, Stamp::UNKNOWN))
+        };
+        let (bytes, stamp) = read.map_err(|error| Box::new(unreadable(error, limit)))?;
+        Ok(work(bytes, stamp, &mut scratch.drawing))
     })
 }
 

@@ -17,7 +17,7 @@ pub(super) fn read_again<R>(
     work: impl FnOnce(&[u8], &mut Drawing) -> R,
 ) -> Option<R> {
     let indexed = file_index(db, file).fingerprint();
-    let result = read(db, file, |bytes, drawing| {
+    let result = read(db, file, |bytes, _, drawing| {
         (Some(Fingerprint::of(bytes)) == indexed).then(|| work(bytes, drawing))
     });
     match result {

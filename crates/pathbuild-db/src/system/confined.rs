@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Stamp;
 
 use super::{Entry, Kind, Listing, ReadError, System, Written};
 
@@ -88,6 +89,15 @@ impl System for Confined {
         room: &'r mut Vec<u8>,
     ) -> Result<&'r [u8], ReadError> {
         self.allowed(path)?.read_into(path, limit, room)
+    }
+
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        self.allowed(path)?.read_stamped(path, limit, room)
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {

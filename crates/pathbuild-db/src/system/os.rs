@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Stamp;
 
 use super::{Entry, Kind, Listing, ReadError, System, Written};
 
@@ -35,6 +36,19 @@ impl System for OsSystem {
     ) -> Result<&'r [u8], ReadError> {
         let length = whole::read(&open::open(path)?, limit, room)?;
         Ok(&room[..length])
+    }
+
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        let file = open::open(path)?;
+        let before = Stamp::of_open(&file);
+        let length = whole::read(&file, limit, room)?;
+        let stamp = if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN };
+        Ok((&room[..length], stamp))
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {

@@ -130,7 +130,7 @@ impl Keeper {
             }
         };
         let coverage = Coverage::new(context);
-        let verdict = look(&kept, &base, &coverage, &scope, listings);
+        let verdict = look(context, &kept, &coverage, &scope, listings);
         Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
     }
 
@@ -144,7 +144,7 @@ impl Keeper {
     pub fn outputs(&self, of: &str) -> Vec<OutputState> {
         let Some(number) = self.record(of) else { return Vec::new() };
         let state = |file: usize| match self.verdict.files[file] {
-            FileState::Resting | FileState::Restored => OutputState::Current,
+            FileState::Resting | FileState::Restored(_) => OutputState::Current,
             FileState::Changed | FileState::Unlooked
                 if Stamp::of(self.kept.file(file).path()) == Stamp::MISSING =>
             {
@@ -184,7 +184,7 @@ impl Keeper {
         let all: Verdict;
         let mut records = (0..self.kept.records()).map(|number| self.kept.record(number));
         let verdict = if records.any(|record| !self.scope.holds(record.of())) {
-            all = look(&self.kept, &self.base, &self.coverage, &Scope::All, Listings::new());
+            all = look(session.context, &self.kept, &self.coverage, &Scope::All, Listings::new());
             &all
         } else {
             &self.verdict
@@ -205,10 +205,27 @@ impl Keeper {
 }
 
 /// Holds what was kept against the files as they are.
-fn look(kept: &Kept, base: &Utf8Path, coverage: &Coverage, scope: &Scope, listings: Listings) -> Verdict {
+fn look(
+    workspace: &Workspace,
+    kept: &Kept,
+    coverage: &Coverage,
+    scope: &Scope,
+    listings: Listings,
+) -> Verdict {
+    let base = workspace.settings.directory().unwrap_or(Utf8Path::new(""));
     let is_asked = |of: &str| scope.holds(of);
     let covers = |file: &str, path: &str| coverage.may_hold(file, path);
-    verify(kept, Looking { base, covers: &covers, is_asked: &is_asked, hash_output: &hash_output }, listings)
+    let (system, limit) = (&*workspace.system, workspace.settings.limits.file_size.value);
+    let read = |file: &Utf8Path| {
+        let mut room = Vec::new();
+        let (bytes, stamp) = system.read_stamped(file, limit, &mut room).ok()?;
+        let length = bytes.len();
+        room.truncate(length);
+        Some((room, stamp))
+    };
+    let looking =
+        Looking { base, covers: &covers, is_asked: &is_asked, read: &read, hash_output: &hash_output };
+    verify(kept, looking, listings)
 }
 
 /// The hash of a file that a program becomes; of one into which people enter measured values, without them.

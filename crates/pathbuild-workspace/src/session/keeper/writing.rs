@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp, Verdict};
-use pathbuild_db::{Db, SourceFile, content_hash, drawing_names};
+use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
 
 use super::{Keeper, Made, MadeOutput};
 use crate::session::Session;
@@ -21,8 +21,9 @@ pub(super) struct Writing<'a> {
     /// The new number of each kept file and directory.
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
-    /// The drawings that this run read, with what it read.
-    read: HashMap<Utf8PathBuf, Option<[u8; 32]>>,
+    /// The drawings that this run read, with the hash of what it read and the stamp it was read under; `None` where it could not be read,
+    /// or was not always the same.
+    read: HashMap<Utf8PathBuf, Option<([u8; 32], Stamp)>>,
 }
 
 impl<'a> Writing<'a> {
@@ -46,7 +47,7 @@ impl<'a> Writing<'a> {
             directories: HashMap::new(),
             kept_files: vec![None; kept.files()],
             kept_directories: vec![None; kept.directories()],
-            read: read.map(|file| (file.path(db).clone(), content_hash(db, *file))).collect(),
+            read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
         }
     }
 
@@ -65,9 +66,14 @@ impl<'a> Writing<'a> {
         self.catalogue.records.push(Record { of, files, lookups, outputs, payload });
     }
 
-    /// Adds a record that was made now.
+    /// Adds a record that was made now; not where a drawing could not be read, or changed meanwhile: what follows from that passes with it.
     pub(super) fn add_made(&mut self, made: &Made) {
         let Some(payload) = &made.payload else { return };
+        let db = self.session.db();
+        let mut drawings = made.traces.iter().flat_map(|trace| &trace.files);
+        if drawings.any(|file| self.content(file.path(db)).is_none()) {
+            return;
+        }
         let mut files = BTreeSet::new();
         let mut lookups = BTreeSet::new();
         for trace in &made.traces {
@@ -98,12 +104,12 @@ impl<'a> Writing<'a> {
         let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
         match self.verdict.files[number] {
             FileState::Resting | FileState::Unlooked => {}
-            FileState::Restored => fact.stamp = present(Stamp::settled(&fact.path, self.begun)),
+            FileState::Restored(stamp) => fact.stamp = stamp.settled(self.begun),
             // An output that is not what it should be: its hash is still that of what should be there.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
-        if self.read.get(&fact.path).is_some_and(|hash| *hash != fact.hash) || self.is_torn(&fact.path) {
+        if self.read.get(&fact.path).is_some_and(|content| content.map(|(hash, _)| hash) != fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
         let new = self.push_file(fact);
@@ -113,42 +119,38 @@ impl<'a> Writing<'a> {
 
     /// A drawing that was read now.
     fn drawing(&mut self, file: SourceFile) -> usize {
-        let db = self.session.db();
-        let path = file.path(db);
-        let hash = content_hash(db, file);
+        let path = file.path(self.session.db());
         let known = self.keeper.kept.file_of(path);
         match known.filter(|number| self.verdict.files[*number] != FileState::Changed) {
             Some(number) => self.kept_file(number),
-            None => self.new_file(path, hash),
+            None => self.new_file(path, self.content(path)),
         }
     }
 
     /// A file beside drawings that was read now.
     fn further_file(&mut self, path: &Utf8Path) -> usize {
-        let bytes = self.session.db().system().read(path, u64::MAX);
-        self.new_file(path, bytes.ok().map(|bytes| *blake3::hash(&bytes).as_bytes()))
+        let mut room = Vec::new();
+        let read = self.session.db().system().read_stamped(path, u64::MAX, &mut room);
+        self.new_file(path, read.ok().map(|(bytes, stamp)| (*blake3::hash(bytes).as_bytes(), stamp)))
     }
 
     /// A file that was written, or compared, now.
     fn output(&mut self, MadeOutput { path, hash, is_there }: &MadeOutput) -> usize {
-        let settled = || present(Stamp::settled(path, self.begun));
-        let stamp = if *is_there { settled() } else { Stamp::UNKNOWN };
+        let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
+        // Were it gone by now, the hash would be of something else.
+        let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
         self.push_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
 
     /// What could not be read has neither stamp nor hash: whatever was made of it is made again.
-    fn new_file(&mut self, path: &Utf8Path, hash: Option<[u8; 32]>) -> usize {
-        if let Some(known) = self.files.get(path) {
-            return *known;
-        }
-        let hash = hash.filter(|_| !self.is_torn(path));
-        let stamp = hash.map_or(Stamp::UNKNOWN, |_| present(Stamp::settled(path, self.begun)));
-        self.push_file(FileFact { path: path.to_owned(), stamp, hash })
+    fn new_file(&mut self, path: &Utf8Path, content: Option<([u8; 32], Stamp)>) -> usize {
+        let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.settled(self.begun));
+        self.push_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
     }
 
-    /// Whether a drawing changed while this run went on, which may have read it twice.
-    fn is_torn(&self, path: &Utf8Path) -> bool {
-        self.read.contains_key(path) && Stamp::has_changed_since(path, self.begun)
+    /// What this run read of a drawing.
+    fn content(&self, path: &Utf8Path) -> Option<([u8; 32], Stamp)> {
+        self.read.get(path).copied().flatten()
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
@@ -200,7 +202,7 @@ impl<'a> Writing<'a> {
     }
 }
 
-/// The stamp of a file whose content is known: were it gone by now, the content would be of something else.
-fn present(stamp: Stamp) -> Stamp {
-    if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp }
+/// What was read of a drawing, if that was always the same.
+fn steady_content(db: &Database, file: SourceFile) -> Option<([u8; 32], Stamp)> {
+    content(db, file).filter(|_| !db.has_drifted(file))
 }
