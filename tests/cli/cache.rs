@@ -422,6 +422,8 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     let drawing = |name: &str| dxf(&[path(name, 5, &[])]);
     let place = Place::new()
         .file("pathbuild.toml", CONFIGURATION)
+        .file("library/parts/notes.txt", "")
+        .file("spare/notes.txt", "")
         .file("library/1001.DXF", drawing("1001.1P"))
         .file("library/a/b/1002.dxf", drawing("1002.1P"))
         .file("library/a/b.dxf/1003.dxf", drawing("1003.1P"))

@@ -25,6 +25,7 @@ mod library;
 mod licences;
 mod machines;
 mod nesting;
+mod nothing;
 mod posts;
 mod prefetch;
 mod probes;

@@ -96,12 +96,16 @@ codes! {
     510 PathTBelowSubpathT "path-t-below-subpath-t" Error "PB510: path t below subpath t";
     511 SubpathHasErrors "subpath-has-errors" Error "PB511: an embedded path has errors of its own";
     512 SeveralPaths "several-paths" Error "PB512: a file is emitted that holds more than one path and none is named";
-    513 NoPath "no-path" Error "PB513: a file is emitted that holds no path (checking one is no error)";
+    513 NoPath "no-path" Error "PB513: a file is emitted, or named for checking, that holds no path";
     514 SameOutput "same-output" Error "PB514: two outputs would get one name";
     515 QProjectLacksPath "q-project-lacks-path" Warning "PB515: a Q-project lacks a path of its drawing";
     516 QProjectDiffers "q-project-differs" Warning "PB516: a subpath text of a Q-project differs from the proxy line";
     517 ProxyDiffers "proxy-differs" Error "PB517: a proxy line disagrees with its own path";
+    518 NothingFound "nothing-found" Error "PB518: nothing to look at: no drawing, or no path in any drawing";
+    519 PromisedPath "promised-path" Warning "PB519: the file's name names a path that no layer has";
     520 StaleOutput "stale-output" Warning "PB520: stale output";
+    521 StrayPath "stray-path" Warning "PB521: a path that is not looked for in a file of this name";
+    522 OlderOutput "older-output" Warning "PB522: a program of before the path became wrong";
     601 InvalidProbeLine "invalid-probe-line" Error "PB601: invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "PB602: correction too large";
     603 UnknownProbe "unknown-probe" Error "PB603: unknown probe";

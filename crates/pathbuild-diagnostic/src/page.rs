@@ -104,7 +104,11 @@ pages! {
     QProjectLacksPath "PB515" example;
     QProjectDiffers "PB516" example;
     ProxyDiffers "PB517" example;
+    NothingFound "PB518" example;
+    PromisedPath "PB519" example;
     StaleOutput "PB520" example;
+    StrayPath "PB521" example;
+    OlderOutput "PB522" example;
     InvalidProbeLine "PB601" example;
     CorrectionTooLarge "PB602" example;
     UnknownProbe "PB603" example;

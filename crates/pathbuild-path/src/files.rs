@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use crate::PathPattern;
 use crate::default_pattern::{DASHES, DefaultPattern};
@@ -82,6 +83,11 @@ impl FilePattern {
         self.0.each(stem, |name| take(NameRange::new(name, None)));
     }
 
+    /// Where in a stem ranges stand.
+    pub(crate) fn range_spans(&self, stem: &str) -> Vec<Range<usize>> {
+        if stem.contains(DASHES) { self.0.range_spans(stem) } else { Vec::new() }
+    }
+
     /// The regular expression as it was given.
     pub fn as_str(&self) -> &str {
         self.0.as_str()
@@ -92,6 +98,12 @@ impl PathKey {
     /// The key of a name; `None` when the path pattern does not match it.
     pub fn new(name: &str, pattern: &PathPattern) -> Option<Self> {
         pattern.groups(name).map(|groups| Self { number: number_key(&groups), groups })
+    }
+
+    /// Whether another name says the same when it is compared as file names are: numbers as numbers, 01 and 1 alike.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.groups.len() == other.groups.len()
+            && self.groups.iter().zip(other.groups.iter()).all(|(one, other)| one.compare(other).is_eq())
     }
 
     /// The first of its groups.

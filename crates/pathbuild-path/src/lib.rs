@@ -13,6 +13,7 @@ mod default_pattern;
 mod definition;
 mod element;
 mod embedding;
+mod file_name;
 mod files;
 mod geometry;
 mod group;
@@ -44,6 +45,7 @@ pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
     Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, near_names,
 };
+pub use file_name::{is_q_project, judge_file_name};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use letter::Letter;

@@ -145,6 +145,16 @@ impl Pattern {
             }
         }
     }
+
+    /// Where each range stands.
+    pub(crate) fn range_spans(&self, text: &str) -> Vec<Range<usize>> {
+        match self {
+            Self::Default(pattern) => {
+                pattern.find_ranges(text).map(|(from, to)| from.range.start..to.range.end).collect()
+            }
+            Self::Regex(pattern) => pattern.range.get().find_iter(text).map(|found| found.range()).collect(),
+        }
+    }
 }
 
 impl Name<'_> {

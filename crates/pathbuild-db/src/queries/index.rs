@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, PathHeader, PathName, RawFile, RawPath};
+use pathbuild_path::{Bindings, PathHeader, PathName, RawFile, RawPath, judge_file_name};
 
 use super::hints::LayerEnds;
 use super::reading::{Fingerprint, entities, read, read_entities};
@@ -66,7 +66,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
         match read {
             Ok(raw) => {
                 let read_all = || entities(bytes, reading, &|_| true);
-                FileIndex::new(db, raw, &LayerEnds::new(&read_all), content)
+                FileIndex::new(db, raw, &LayerEnds::new(&read_all), content).with_name_judged(db, file)
             }
             Err(bug) => FileIndex::failed(*bug, content),
         }
@@ -106,6 +106,17 @@ impl FileIndex {
         let mut paths: Vec<Arc<PathIndex>> = raw.paths.into_iter().map(path).collect();
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         Self { names, paths, diagnostics: raw.diagnostics, content }
+    }
+
+    /// With what is wrong with the file's name, if the drawing's paths are known.
+    fn with_name_judged(mut self, db: &dyn Db, file: SourceFile) -> Self {
+        if !self.diagnostics.iter().any(Diagnostic::is_error) {
+            let settings = Settings::get(db);
+            let stem = file.path(db).file_stem().unwrap_or_default();
+            let (files, paths) = (&settings.lookup(db).file_pattern, &settings.language(db).path_pattern);
+            self.diagnostics.extend(judge_file_name(stem, &self.names, files, paths));
+        }
+        self
     }
 
     /// A drawing of which nothing is known.

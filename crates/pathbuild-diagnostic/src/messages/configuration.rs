@@ -76,6 +76,13 @@ messages! {
         help_en: "remove it: what cannot be read back is an error then",
         help_de: "entfernen: was sich nicht zurücklesen lässt, ist dann ein Fehler",
     }
+    /// A directory that is not there.
+    NO_DIRECTORY: InvalidConfiguration {
+        en: "`{key}` names {directory}, which is no directory",
+        de: "`{key}` nennt {directory}, das kein Verzeichnis ist",
+        help_en: "correct the name; names in pathbuild.toml are relative to it, those of options to the working directory",
+        help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf deren Ort, die von Optionen auf das Arbeitsverzeichnis",
+    }
     /// Not one of those that there are.
     INVALID_CHOICE: InvalidConfiguration {
         en: "`{key}` has no value {found}",

@@ -15,6 +15,34 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht",
     }
+    /// Directories without drawings.
+    NO_DRAWING: NothingFound {
+        en: "there is no drawing in {directories}",
+        de: "es gibt keine Zeichnung in {directories}",
+        help_en: "name a directory that holds .dxf files; hidden ones and those that .gitignore or .ignore excludes do not count",
+        help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene zählen nicht",
+    }
+    /// Drawings without paths.
+    NO_PATH_ANYWHERE: NothingFound {
+        en: "none of the drawings holds a path; drawings: {count}",
+        de: "keine der Zeichnungen enthält einen Pfad; Zeichnungen: {count}",
+        help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
+        help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
+    }
+    /// A path that only the file's name knows.
+    PROMISED_PATH: PromisedPath {
+        en: "the file's name names path {name}, but no layer of the drawing has that name",
+        de: "der Dateiname nennt den Pfad {name}, aber kein Layer der Zeichnung heißt so",
+        help_en: "rename the layer, or the file",
+        help_de: "den Layer oder die Datei umbenennen",
+    }
+    /// A path that no other drawing finds.
+    STRAY_PATH: StrayPath {
+        en: "path {name} is not looked for in a file of this name, so other drawings cannot embed it",
+        de: "Pfad {name} wird in einer Datei dieses Namens nicht gesucht, andere Zeichnungen können ihn nicht einbetten",
+        help_en: "put the path's name into the file's name, or correct the layer's name",
+        help_de: "den Namen des Pfads in den Dateinamen aufnehmen, oder den Namen des Layers berichtigen",
+    }
     /// A pattern of targets that no path has.
     NO_TARGET: NoPath {
         en: "no path of the library matches the target {pattern}",
@@ -42,6 +70,13 @@ messages! {
         de: "{name} wurde früher geschrieben, jetzt würde es nichts mehr schreiben",
         help_en: "check that nobody needs it; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch jemand braucht; emit --remove-stale entfernt solche Dateien",
+    }
+    /// Output of before the path became wrong.
+    OLDER_OUTPUT: OlderOutput {
+        en: "path {path} was not written, and {name} is older",
+        de: "Pfad {path} wurde nicht geschrieben, und {name} ist älter",
+        help_en: "do not mill from {name} before the path's errors are mended and it is written anew",
+        help_de: "nicht nach {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
     /// A path without an embedding.
     LACKS_PATH: QProjectLacksPath {

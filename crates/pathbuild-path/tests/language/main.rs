@@ -8,6 +8,7 @@ mod circles;
 mod crowded;
 mod default_patterns;
 mod embedding;
+mod file_name;
 mod files;
 mod full_circles;
 mod letters;

@@ -4,6 +4,7 @@
 //! (spec/20-paths-and-files.md, spec/40-variables.md, spec/50-path-building.md, spec/80-diagnostics.md)
 
 mod embedding;
+mod file_names;
 mod finding;
 mod names;
 mod q_projects;
@@ -141,7 +142,8 @@ impl Drawing {
 
     /// What is wrong with the drawing and is about none of its paths.
     fn faults(&self) -> Vec<Finding> {
-        self.content.diagnostics.iter().map(|found| Finding::shared(found, &self.path)).collect()
+        let own = self.content.diagnostics.iter().map(|found| Finding::shared(found, &self.path));
+        own.chain(self.name_faults()).collect()
     }
 
     /// The handle of an element of a path.

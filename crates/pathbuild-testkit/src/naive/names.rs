@@ -13,7 +13,7 @@ static PART: LazyLock<Regex> = LazyLock::new(|| pattern(r"([0-9]{4})(?:[.]([0-9]
 static RANGE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"([0-9]{4})(?:[.]([0-9]+))?-([0-9]{4})(?:[.]([0-9]+))?"));
 
-fn pattern(text: &str) -> Regex {
+pub(super) fn pattern(text: &str) -> Regex {
     Regex::new(text).expect("a regular expression of the model's own")
 }
 
@@ -47,7 +47,7 @@ pub(super) fn stem(path: &str) -> &str {
 }
 
 /// Whether a file of this stem may hold a path by the default patterns.
-fn may_hold(stem: &str, path: &str) -> bool {
+pub(super) fn may_hold(stem: &str, path: &str) -> bool {
     let Some(path) = PATH.captures(path) else { return false };
     let path: Vec<&str> = (1..=3).map(|group| &path[group]).collect();
     let end = |found: &regex::Captures<'_>, first: usize| -> Vec<String> {

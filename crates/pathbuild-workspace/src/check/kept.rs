@@ -17,7 +17,7 @@ pub(super) fn check(session: &mut Session<'_>, request: &Request<'_>, found: Fou
     let context = session.workspace();
     let changed = request.changed.as_ref().map(|drawings| Changed::new(session, drawings));
     let scope = Scope::of(&found);
-    let Found { drawings, listings, .. } = found;
+    let Found { drawings, listings, problems, .. } = found;
     let with_all_values = request.with_all_values;
     let opened = session.timings().measure(&VERIFYING, || open(context, with_all_values, scope, listings));
     let keeper = opened.as_ref();
@@ -41,7 +41,8 @@ pub(super) fn check(session: &mut Session<'_>, request: &Request<'_>, found: Fou
         session.timings().measure(&KEEPING, || keeper.keep(session, &made));
     }
     let concerned = Concerned::new(session, keeper, &made, changed.as_ref());
-    let mut checked = Checked::default();
+    let mut checked = Checked { diagnostics: problems, ..Checked::default() };
+    checked.diagnostics.extend(session.no_path_anywhere(results.iter().flatten().map(DrawingResult::parts)));
     for (drawing, result) in drawings.into_iter().zip(results.into_iter().flatten()) {
         if !concerned.contains(drawing.as_str()) {
             continue;

@@ -115,6 +115,13 @@ fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Ch
     let found = check_paths(session, &asked, with_all_values);
     let files = asked.iter().map(|asked| asked.file);
     let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
+    if !session.is_compatible() {
+        let named = wanted.drawings.iter().filter(|drawing| drawing.is_named);
+        checked.diagnostics.extend(named.filter_map(|drawing| session.no_path(drawing.file)));
+    }
+    if !checked.diagnostics.iter().any(Diagnostic::is_error) {
+        checked.diagnostics.extend(session.no_path_anywhere(found.iter().map(|(result, _)| result.parts())));
+    }
     checked.files.reserve(found.len());
     for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
         checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths: names });

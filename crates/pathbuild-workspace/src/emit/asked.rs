@@ -74,7 +74,8 @@ impl Asked {
         {
             return None;
         }
-        let (wanted, directories) = if let Some(Found { drawings, directories, .. }) = found {
+        let (wanted, directories) = if let Some(Found { drawings, directories, problems, .. }) = found {
+            diagnostics.extend_from_slice(problems);
             (session.wanted_drawings(drawings.clone()), directories.clone())
         } else {
             let wanted = session.wanted(inputs);
@@ -90,7 +91,7 @@ impl Asked {
             asking.diagnostics.extend(wanted.problems);
             asking.configured(&covered);
         } else {
-            asking.named(wanted);
+            asking.named(wanted, &covered);
         }
         Some(Self { targets: asking.targets, covered, drawings, directories })
     }
@@ -141,16 +142,15 @@ impl Asking<'_> {
     }
 
     /// A drawing must hold just one path, unless it lies in a directory that was named.
-    fn named(&mut self, wanted: Wanted) {
+    fn named(&mut self, wanted: Wanted, covered: &[SourceFile]) {
         let (db, drawings) = (self.session.db(), self.drawings);
         self.diagnostics.extend(wanted.problems);
         for drawing in wanted.drawings {
             let found = drawings.diagnostics(self.session, drawing.file);
             self.diagnostics.extend_from_slice(found);
-            let is_unreadable = found.iter().any(Diagnostic::is_error);
             match drawings.names(self.session, drawing.file) {
-                [] if is_unreadable || !drawing.is_named => {}
-                [] => self.diagnostics.push(self.no_path(drawing.file.path(db))),
+                [] if drawing.is_named => self.diagnostics.extend(self.session.no_path(drawing.file)),
+                [] => {}
                 names @ [_, _, ..] if drawing.is_named => self.refuse_several(drawing.file, names),
                 names => names.iter().for_each(|name| self.add(drawing.file, name)),
             }
@@ -158,6 +158,12 @@ impl Asking<'_> {
         for path in &wanted.paths {
             self.diagnostics.extend_from_slice(check_file(db, path.file));
             self.add(path.file, &path.name);
+        }
+        if self.targets.is_empty() && !self.diagnostics.iter().any(Diagnostic::is_error) {
+            let parts = |file: &SourceFile| {
+                (drawings.names(self.session, *file), drawings.diagnostics(self.session, *file))
+            };
+            self.diagnostics.extend(self.session.no_path_anywhere(covered.iter().map(parts)));
         }
     }
 
@@ -177,11 +183,6 @@ impl Asking<'_> {
         if self.known.insert((file, name.clone())) {
             self.targets.push(self.session.target_in(file, name, Role::Emitted));
         }
-    }
-
-    fn no_path(&self, file: &Utf8Path) -> Diagnostic {
-        let pattern = &*self.session.workspace().settings.general.path_pattern.value;
-        Diagnostic::new(&messages::NO_PATH).with("pattern", pattern).in_file(file)
     }
 }
 

@@ -196,7 +196,7 @@ impl Maker<'_> {
         kinds: &[OutputKind],
     ) -> Job {
         let name = |kind: &OutputKind| match self.poster {
-            Some(poster) => Utf8PathBuf::from(format!("{stem}_Milling.{}", poster.extension())),
+            Some(poster) => program_name(stem.as_str(), poster).into(),
             None => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
         };
         let db = self.session.db();
@@ -218,6 +218,11 @@ impl Maker<'_> {
 fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
     format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
+}
+
+/// The file that a post's program is written to.
+pub(super) fn program_name(stem: &str, poster: &Poster) -> String {
+    format!("{stem}_Milling.{}", poster.extension())
 }
 
 /// Where the files of a drawing's paths go: beside it, or where the configuration says.

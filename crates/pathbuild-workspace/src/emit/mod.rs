@@ -6,6 +6,7 @@ mod configured;
 mod deliver;
 mod deps;
 mod job;
+mod older;
 mod options;
 mod stale;
 mod store;
@@ -74,9 +75,11 @@ impl Request<'_> {
         session.prefetch(self.inputs);
         let making = Making { request: self, store: store.as_ref(), found };
         let made = session.settled(|session| making.make(session))?;
-        let Made { asked, checked, jobs, delivered, mut diagnostics } = made;
+        let Made { asked, checked, jobs, mut delivered, mut diagnostics } = made;
         tell_known(session.workspace(), &asked, checked.len());
-        diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
+        let older = older::programs(session, self, &asked.targets, &jobs, &delivered);
+        let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
+        diagnostics.extend(problems.cloned());
         if let Some(file) = self.deps {
             let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
             diagnostics.extend(deps::write(session, file, &jobs, self.poster, &inserted));
@@ -88,6 +91,7 @@ impl Request<'_> {
             let (checked, jobs, delivered) = (&checked, &jobs, &delivered);
             store.keep(session, &Run { task, drawings, checked, jobs, delivered, poster });
         }
+        delivered.extend(older);
         Ok(Emission { delivered, removed, diagnostics: session.with_elsewhere(diagnostics) })
     }
 }

@@ -85,7 +85,7 @@ pub(super) fn stale(
     stale
 }
 
-fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
+pub(super) fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
     let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
     Utf8Path::new(name).extension().is_some_and(|extension| {
         is_like(extension, "gcode") || poster.is_some_and(|poster| is_like(extension, poster.extension()))
@@ -108,6 +108,12 @@ struct Writers {
 /// What a program says that it was made from, in ASCII and without case.
 fn title(drawing: &str, path: &str) -> String {
     without_case(&comment(&native::title(drawing, path), Charset::Ascii))
+}
+
+/// Whether a program's title is this one.
+pub(super) fn same_title(of_program: &str, title: &str) -> bool {
+    let shown = |title: &str| without_case(&comment(title, Charset::Ascii));
+    shown(of_program) == shown(title)
 }
 
 /// Some posts write capitals only.

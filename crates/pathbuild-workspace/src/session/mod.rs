@@ -6,6 +6,7 @@ mod graph;
 mod ignoring;
 mod keeper;
 mod library;
+mod nothing;
 mod outputs;
 mod prefetch;
 mod provenance;

@@ -29,6 +29,8 @@ pub struct Wanted {
     pub problems: Vec<Diagnostic>,
     /// What is in directories that were looked through.
     pub listings: Listings,
+    /// The directories that were looked through, each with whether there is a drawing in it or below.
+    walked: Vec<(Utf8PathBuf, bool)>,
     /// Where each drawing stands in `drawings`.
     places: FxHashMap<SourceFile, usize>,
 }
@@ -42,6 +44,8 @@ pub struct Found {
     pub directories: Vec<Utf8PathBuf>,
     /// What is in each directory, as far as it was looked at.
     pub listings: Listings,
+    /// Directories that are not there, or hold no drawing.
+    pub problems: Vec<Diagnostic>,
 }
 
 /// A drawing that was asked for.
@@ -65,7 +69,7 @@ pub struct WantedPath {
 impl Session<'_> {
     /// What the arguments mean; without any, the library.
     pub fn wanted(&self, inputs: &Inputs) -> Wanted {
-        let mut wanted = Wanted::default();
+        let mut wanted = Wanted { problems: self.missing_directories(), ..Wanted::default() };
         let directories = LazyCell::new(|| self.name_directories());
         for input in inputs.iter() {
             match input {
@@ -77,6 +81,9 @@ impl Session<'_> {
             for directory in &self.context.settings.general.library.value {
                 self.add_directory(self.normal(directory), &mut wanted);
             }
+        }
+        if !wanted.problems.iter().any(Diagnostic::is_error) {
+            wanted.problems.extend(Self::without_drawings(inputs, &wanted.walked));
         }
         wanted
     }
@@ -116,11 +123,13 @@ impl Session<'_> {
         } else {
             inputs.iter().map(directory).collect::<Option<_>>()?
         };
-        let mut found = Found::default();
-        for walked in self.walked_each(&directories) {
+        let mut found = Found { problems: self.missing_directories(), ..Found::default() };
+        let mut asked = Vec::new();
+        for (walked, directory) in self.walked_each(&directories).into_iter().zip(directories) {
             if !walked.problems.is_empty() {
                 return None;
             }
+            asked.push((directory, !walked.drawings.is_empty()));
             found.drawings.extend(walked.drawings.into_iter().map(|drawing| self.normalised(drawing)));
             found.directories.extend(walked.directories.into_iter().map(|below| self.normalised(below)));
             let listed = walked.listings.into_iter();
@@ -128,6 +137,9 @@ impl Session<'_> {
         }
         found.drawings.sort_by(|a, b| library::by_place(a, b));
         found.drawings.dedup();
+        if found.problems.is_empty() {
+            found.problems = Self::without_drawings(inputs, &asked);
+        }
         Some(found)
     }
 
@@ -209,6 +221,7 @@ impl Session<'_> {
         self.rouse_workers();
         let walked = self.walked(&directory);
         wanted.problems.extend(walked.problems);
+        wanted.walked.push((directory.clone(), !walked.drawings.is_empty()));
         wanted.add_drawings(self.db.files(walked.drawings));
         wanted.listings.extend(walked.listings);
         wanted.directories.push(directory);

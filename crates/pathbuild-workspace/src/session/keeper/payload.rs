@@ -14,6 +14,11 @@ pub struct DrawingResult {
 }
 
 impl DrawingResult {
+    /// Its paths, and what is wrong.
+    pub fn parts(&self) -> (&[PathName], &[Diagnostic]) {
+        (&self.names, &self.diagnostics)
+    }
+
     /// As bytes; `None` where another run may find something else.
     pub fn encode(&self) -> Option<Vec<u8>> {
         if self.diagnostics.iter().any(is_passing) {

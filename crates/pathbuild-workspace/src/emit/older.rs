@@ -1,0 +1,86 @@
+//! Programs of paths that could not be written: what lies there is of an earlier state of the drawing. (PB522)
+
+use std::collections::HashSet;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{Db, Target};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_gcode::native;
+
+use super::Request;
+use super::deliver::{Delivered, State, Task};
+use super::job::{Job, output_directory, program_name};
+use super::stale::{is_gcode, same_title};
+use crate::posting::Poster;
+use crate::session::{HEAD, Provenance, Session};
+
+/// The programs on disk of targets of which nothing was written or compared now, each as a piece of its own: a comparison counts it as not
+/// current.
+pub(super) fn programs(
+    session: &Session<'_>,
+    request: &Request<'_>,
+    targets: &[Target],
+    jobs: &[Job],
+    delivered: &[Delivered],
+) -> Vec<Delivered> {
+    match (request.task, request.join, request.poster) {
+        (Task::Print, ..) => Vec::new(),
+        (task, Some(name), Some(poster)) => {
+            let is_done = delivered.iter().any(|delivered| !delivered.files.is_empty());
+            let joined = targets.first().filter(|_| !is_done);
+            let program = joined.and_then(|first| of_joined(session, *first, name, poster));
+            program.map(|program| older(program, name, task)).into_iter().collect()
+        }
+        (task, _, poster) => {
+            let done = jobs.iter().zip(delivered).filter(|(_, delivered)| !delivered.files.is_empty());
+            let done: HashSet<Target> = done.flat_map(|(job, _)| job.targets.iter().copied()).collect();
+            let open = targets.iter().filter(|target| !done.contains(target));
+            let older = |target: &Target| {
+                let programs = of_target(session, *target, poster).into_iter();
+                programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
+            };
+            open.flat_map(older).collect()
+        }
+    }
+}
+
+fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
+    let problem = Diagnostic::new(&messages::OLDER_OUTPUT)
+        .with("name", program.file_name().unwrap_or_default())
+        .with("path", path)
+        .in_file(&program);
+    let is_compared = matches!(task, Task::Compare { .. });
+    let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
+    Delivered { files, problems: vec![problem], ..Delivered::default() }
+}
+
+/// Their names begin with the drawing's or the path's, whatever R was; of which path they are, they say themselves.
+fn of_target(session: &Session<'_>, target: Target, poster: Option<&Poster>) -> Vec<Utf8PathBuf> {
+    let (db, system) = (session.db(), session.db().system());
+    let (drawing, path) = (target.file(db).path(db), &**target.name(db));
+    let directory = output_directory(session, target.file(db));
+    let stems = [drawing.file_stem().unwrap_or_default(), path].map(str::to_lowercase);
+    let title = native::title(drawing.file_name().unwrap_or_default(), path);
+    let is_of_target = |program: &Utf8PathBuf| {
+        let head = system.head(program, HEAD).unwrap_or_default();
+        Provenance::of_program(&head).is_some_and(|(_, found)| same_title(&found, &title))
+    };
+    let listing = system.list(&directory).unwrap_or_default();
+    let may_be = |name: &&str| {
+        let lower = name.to_lowercase();
+        is_gcode(name, poster) && stems.iter().any(|stem| lower.starts_with(&**stem))
+    };
+    let programs = listing.files.iter().filter(may_be).map(|name| directory.join(name));
+    let mut programs: Vec<Utf8PathBuf> = programs.filter(is_of_target).collect();
+    programs.sort_unstable();
+    programs
+}
+
+/// The program that targets were joined into earlier.
+fn of_joined(session: &Session<'_>, first: Target, name: &str, poster: &Poster) -> Option<Utf8PathBuf> {
+    let directory = output_directory(session, first.file(session.db()));
+    let program = directory.join(program_name(name, poster));
+    let head = session.db().system().head(&program, HEAD).unwrap_or_default();
+    Provenance::of_program(&head).map(|_| program)
+}

@@ -1,0 +1,96 @@
+//! Looking at nothing is not right: directories that are missing or hold no drawing, drawings without paths. (spec/80-diagnostics.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, SourceFile, check_file, path_names};
+use pathbuild_diagnostic::messages::{configuration, outputs as messages};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_path::PathName;
+
+use super::Session;
+use crate::config::{Origin, Sourced};
+use crate::inputs::Inputs;
+
+impl Session<'_> {
+    /// PB003 for each directory of the library, and for each that is searched, that is not there.
+    pub(super) fn missing_directories(&self) -> Vec<Diagnostic> {
+        let general = &self.context.settings.general;
+        let library = self.missing("library", &general.library, &[Kind::Directory, Kind::File]);
+        library.chain(self.missing("search", &general.search, &[Kind::Directory])).collect()
+    }
+
+    fn missing<'a>(
+        &'a self,
+        key: &'static str,
+        directories: &'a Sourced<Vec<Utf8PathBuf>>,
+        expected: &'a [Kind],
+    ) -> impl Iterator<Item = Diagnostic> + 'a {
+        let is_missing =
+            |directory: &&Utf8PathBuf| !expected.contains(&self.db.system().kind(&self.normal(directory)));
+        directories.value.iter().filter(is_missing).map(move |directory| {
+            let problem = Diagnostic::new(&configuration::NO_DIRECTORY)
+                .with("key", key)
+                .with("directory", self.normal(directory).as_str());
+            match (&self.context.settings.file, directories.origin) {
+                (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
+                _ => problem,
+            }
+        })
+    }
+
+    /// PB518 for each named directory without drawings; of the library only if no directory of it has one, for it may be new.
+    /// `asked`: each directory, and whether there is a drawing in it or below.
+    pub(super) fn without_drawings(inputs: &Inputs, asked: &[(Utf8PathBuf, bool)]) -> Vec<Diagnostic> {
+        let is_library = inputs.inputs.is_empty();
+        let empty: Vec<&Utf8Path> = asked.iter().filter(|it| !it.1).map(|it| it.0.as_path()).collect();
+        match empty.as_slice() {
+            [] => Vec::new(),
+            all if is_library && all.len() == asked.len() => vec![no_drawing(all)],
+            _ if is_library => Vec::new(),
+            each => each.iter().map(|directory| no_drawing(&[*directory])).collect(),
+        }
+    }
+
+    /// PB518 if there are drawings and no path in any of them. A drawing with an error of its own may hold one. PathDxf2GCode takes that for
+    /// right. `drawings`: of each its paths, and what was found in it.
+    pub fn no_path_anywhere<'a>(
+        &self,
+        drawings: impl IntoIterator<Item = (&'a [PathName], &'a [Diagnostic])>,
+    ) -> Option<Diagnostic> {
+        let mut count = 0_usize;
+        for (names, found) in drawings {
+            count += 1;
+            if !names.is_empty() || found.iter().any(Diagnostic::is_error) {
+                return None;
+            }
+        }
+        (count > 0 && !self.is_compatible()).then(|| {
+            Diagnostic::new(&messages::NO_PATH_ANYWHERE)
+                .with("count", count)
+                .with("pattern", &*self.context.settings.general.path_pattern.value)
+        })
+    }
+
+    /// Whether everything is as with PathDxf2GCode.
+    pub fn is_compatible(&self) -> bool {
+        self.context.settings.general.compatible.value
+    }
+
+    /// PB513 of a drawing that was named and holds no path, unless it cannot be read.
+    pub fn no_path(&self, file: SourceFile) -> Option<Diagnostic> {
+        let db = &self.db;
+        let is_right =
+            !path_names(db, file).is_empty() || check_file(db, file).iter().any(Diagnostic::is_error);
+        (!is_right).then(|| {
+            Diagnostic::new(&messages::NO_PATH)
+                .with("pattern", &*self.context.settings.general.path_pattern.value)
+                .in_file(file.path(db))
+        })
+    }
+}
+
+fn no_drawing(directories: &[&Utf8Path]) -> Diagnostic {
+    let shown = directories.iter().map(|it| if it.as_str().is_empty() { "." } else { it.as_str() });
+    let directories: Value = shown.collect();
+    Diagnostic::new(&messages::NO_DRAWING).with("directories", directories)
+}

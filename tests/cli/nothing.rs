@@ -1,0 +1,151 @@
+//! Looking at nothing is not right. (spec/80-diagnostics.md, PB513, PB518)
+
+use std::fs;
+
+use crate::support::{Place, Run};
+
+const PATH: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
+const REMARKS: &str = "layer remarks\nline 0,0 40,0\n";
+const OPTIONS: &str = "--feed 150 --rapid 1000 --sweep-height 20";
+
+fn place(files: &[(&str, &str)]) -> Place {
+    let dxf = |text: &str| pathbuild_testkit::sheet(text).unwrap().to_dxf();
+    files.iter().fold(Place::new(), |place, (name, text)| match name.strip_suffix(".toml") {
+        Some(_) => place.file(name, text),
+        None => place.file(name, dxf(text)),
+    })
+}
+
+/// The status, and the codes on stderr.
+fn found(run: &Run) -> (Option<i32>, Vec<&str>) {
+    let codes = run.stderr.split("[PB").skip(1).map(|rest| &rest[..3]);
+    (run.status, codes.collect())
+}
+
+#[track_caller]
+fn assert_found(place: &Place, arguments: &str, status: i32, codes: &[&str]) {
+    // With kept results, and without.
+    for cache in ["", "--no-cache", ""] {
+        let run = place.run(&format!("{arguments} {cache} --format concise"));
+        assert_eq!(found(&run), (Some(status), codes.to_vec()), "{run}");
+    }
+}
+
+#[test]
+fn a_directory_of_the_configuration_that_is_missing_is_an_error() {
+    for key in ["library = [\"parts\", \"gone\"]", "library = [\"parts\"]\nsearch = [\"gone\"]"] {
+        let place = place(&[("pathbuild.toml", key), ("parts/1234.1P.dxf", PATH)]);
+        for command in ["check".to_owned(), "check parts".to_owned(), format!("emit parts {OPTIONS} --check")]
+        {
+            assert!(place.run(&command).stderr.contains("names gone, which is no directory"), "{command}");
+            assert_eq!(place.run(&command).status, Some(1));
+        }
+        fs::create_dir(place.path().join("gone")).unwrap();
+        assert_found(&place, "check", 0, &[]);
+    }
+}
+
+#[test]
+fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
+    let place = place(&[("1234.1P.dxf", PATH)]);
+    assert_found(&place, "check 1234.1P.dxf --search gone", 1, &["003"]);
+    assert_found(&place, "check 1234.1P.dxf --search .", 0, &[]);
+    // A drawing is no directory to search, though a library may name one.
+    assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
+}
+
+#[test]
+fn a_drawing_that_was_named_holds_a_path() {
+    let place = place(&[("remarks.dxf", REMARKS), ("1234.1P.dxf", PATH)]);
+    assert_found(&place, "check remarks.dxf", 1, &["513"]);
+    assert_found(&place, "check remarks.dxf 1234.1P.dxf", 1, &["513"]);
+    assert_found(&place, "check 1234.1P.dxf", 0, &[]);
+    assert_found(&place, "check remarks.dxf --compatible", 0, &[]);
+    // In a directory drawings without paths are usual.
+    assert_found(&place, "check .", 0, &[]);
+}
+
+#[test]
+fn a_drawing_that_cannot_be_read_is_one_error() {
+    let place = Place::new().file("1234.dxf", "no drawing");
+    assert_found(&place, "check 1234.dxf", 1, &["002"]);
+}
+
+#[test]
+fn a_directory_without_drawings_is_an_error() {
+    let place = place(&[("parts/1234.1P.dxf", PATH), ("empty/notes.toml", ""), ("none/notes.toml", "")]);
+    assert_found(&place, "check empty", 1, &["518"]);
+    assert_found(&place, "check parts empty none", 1, &["518", "518"]);
+    assert_found(&place, &format!("emit empty {OPTIONS}"), 1, &["518"]);
+    assert_found(&place, "check .", 0, &[]);
+}
+
+/// A new library has no project yet.
+#[test]
+fn a_library_needs_one_drawing() {
+    let configured = [("pathbuild.toml", "library = [\"parts\", \"new\"]"), ("new/notes.toml", "")];
+    let place = place(&configured).file("parts/notes.txt", "");
+    assert_found(&place, "check", 1, &["518"]);
+    let place = place.file("parts/1234.1P.dxf", pathbuild_testkit::sheet(PATH).unwrap().to_dxf());
+    assert_found(&place, "check", 0, &[]);
+    fs::write(place.path().join("parts/.ignore"), "*.dxf").unwrap();
+    assert_found(&place, "check", 1, &["518"]);
+}
+
+#[test]
+fn drawings_without_any_path_are_an_error() {
+    let place = place(&[("parts/remarks.dxf", REMARKS), ("parts/more.dxf", REMARKS)]);
+    assert_found(&place, "check parts", 1, &["518"]);
+    assert_found(&place, "check parts --compatible", 0, &[]);
+    assert_found(&place, &format!("emit parts {OPTIONS}"), 1, &["518"]);
+}
+
+#[test]
+fn a_path_that_became_wrong_leaves_an_older_program() {
+    let place =
+        place(&[("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n"), ("1234.1P.dxf", PATH)]);
+    let emit = |arguments: &str| place.run(&format!("emit {arguments} --format concise"));
+    assert_eq!(emit(".").status, Some(0));
+    assert!(!emit(".").stderr.contains("PB522"));
+    let wrong = PATH.replace("B0", "");
+    fs::write(place.path().join("1234.1P.dxf"), pathbuild_testkit::sheet(&wrong).unwrap().to_dxf()).unwrap();
+    for arguments in [".", "1234.1P.dxf", "1234.1P", ". --check", ". --no-cache", "."] {
+        let run = emit(arguments);
+        assert_eq!(run.status, Some(1), "{run}");
+        let said = "1234.1P_Milling.gcode: warning[PB522] path 1234.1P was not written";
+        assert!(run.stderr.contains(said), "{run}");
+    }
+    let compared = emit(". --check").stdout;
+    assert_eq!(compared, "1234.1P_Milling.gcode: not current\n");
+    // What is printed says nothing of files.
+    assert!(!emit("1234.1P -o -").stderr.contains("PB522"));
+    fs::remove_file(place.path().join("1234.1P_Milling.gcode")).unwrap();
+    assert!(!emit(".").stderr.contains("PB522"));
+}
+
+#[test]
+fn a_program_of_another_path_is_not_older() {
+    let both = format!("{PATH}{}", PATH.replace("1234.1P", "1234.2P").replace(",0", ",20"));
+    let place =
+        place(&[("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n"), ("1234.dxf", &*both)]);
+    assert_eq!(place.run("emit .").status, Some(0));
+    let wrong = both.replacen("B0", "", 1);
+    fs::write(place.path().join("1234.dxf"), pathbuild_testkit::sheet(&wrong).unwrap().to_dxf()).unwrap();
+    let run = place.run("emit . --format concise");
+    assert!(run.stderr.contains("path 1234.1P was not written"), "{run}");
+    assert!(!run.stderr.contains("path 1234.2P was not written"), "{run}");
+}
+
+#[test]
+fn paths_that_cannot_be_joined_leave_an_older_program() {
+    let place = place(&[
+        ("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n"),
+        ("1234.1P.dxf", PATH),
+    ]);
+    let emit = || place.run("emit 1234.1P --join all --post grbl --format concise");
+    assert_eq!(emit().status, Some(0), "{}", emit());
+    let wrong = PATH.replace("B0", "");
+    fs::write(place.path().join("1234.1P.dxf"), pathbuild_testkit::sheet(&wrong).unwrap().to_dxf()).unwrap();
+    let run = emit();
+    assert!(run.stderr.contains("PB522") && run.stderr.contains("all_Milling"), "{run}");
+}
