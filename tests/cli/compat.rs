@@ -40,7 +40,15 @@ fn values_are_glued_or_follow() {
 fn the_command_is_told_by_the_options() {
     assert_eq!(translated(&["/c", "a.dxf"]), "pathbuild check --compatible -- a.dxf");
     assert_eq!(translated(&["/C", "a.dxf"]), "pathbuild check --compatible -- a.dxf");
-    assert_eq!(translated(&["/x", "O2", "a.dxf"]), "pathbuild texts --match=O2 --compatible -- a.dxf");
+    assert_eq!(
+        translated(&["/x", "O2", "a.dxf"]),
+        "pathbuild texts --match=O2 --compatible -- a.dxf\npathbuild emit --compatible -- a.dxf"
+    );
+    assert_eq!(
+        translated(&["/xO2", "/c", "a.dxf"]).lines().last(),
+        Some("pathbuild check --compatible -- a.dxf")
+    );
+    assert_eq!(translated(&["a_Clean.gcode"]), "pathbuild adjust --compatible -- a_Clean.gcode");
     assert_eq!(
         translated(&["/m0,5", "a_Z.txt"]),
         "pathbuild adjust --max-correction=0,5 --compatible -- a_Z.txt"
@@ -96,4 +104,16 @@ fn options_of_ours_stand_before_compat() {
     assert_eq!(run.status, Some(2), "{run}");
     let run = Place::new().run("-v compat /fx /c a.dxf");
     assert!(run.stderr.starts_with("pathbuild check --feed=x --compatible -- a.dxf\n"), "{run}");
+}
+
+#[test]
+fn options_with_a_hyphen_are_theirs_and_with_two_ours() {
+    assert_eq!(
+        translated(&["-f150", "-v", "1000", "-s15", "a.dxf", "--format", "concise", "--force"]),
+        "pathbuild emit --feed=150 --rapid=1000 --sweep-height=15 --format concise --force --compatible -- a.dxf"
+    );
+    assert_eq!(
+        translated(&["-c", "/l", "de-AT", "a.dxf"]),
+        "pathbuild check --lang=de --compatible -- a.dxf"
+    );
 }

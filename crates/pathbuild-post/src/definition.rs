@@ -131,7 +131,7 @@ impl Post {
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.inserted = written.inserted;
-                output.note_switches(definition, job);
+                output.note_switches(definition, job, options.spin_up);
                 written.shadow
             }
         };
@@ -239,6 +239,9 @@ impl Post {
         if written.leaves_out_coolant {
             output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
         }
+        if options.spin_up > 0.0 && definition.switches_spindle() && !definition.waits_for_spindle() {
+            output.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "{$spindle(up)}");
+        }
         match written.post_build {
             Some(command) if !options.run_post_build => {
                 output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
@@ -275,7 +278,7 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 
 impl Output {
     /// Tells what the job switches and the texts do not.
-    fn note_switches(&mut self, definition: &cad6::Definition, job: &Job) {
+    fn note_switches(&mut self, definition: &cad6::Definition, job: &Job, spin_up: f64) {
         let cools =
             job.operations.iter().any(|it| matches!(it.coolant, Some(Coolant::Flood | Coolant::Mist)));
         let turns = job
@@ -284,6 +287,9 @@ impl Output {
             .any(|it| matches!(it.spindle, Some(Spindle::Clockwise | Spindle::CounterClockwise)));
         if cools && !definition.uses("ToolControl1") && !definition.uses("ToolControl2") {
             self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
+        }
+        if turns && spin_up > 0.0 && definition.uses("MillingSpindleDir") && !definition.uses("SpinUpTime") {
+            self.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "~SpinUpTime~");
         }
         if turns && !definition.uses("MillingSpindleDir") {
             self.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");

@@ -33,7 +33,7 @@ pub fn native_remark(text: &str) -> Remark<'_> {
 impl Job {
     /// The steps of a program that was read. Operations begin where the tool, the spindle or the coolant changes, and where `remark`
     /// says so. Several moves of one line are taken for a drilled hole where they are one. The upper face of the material is taken to
-    /// be at Z 0, as a program does not say where it is.
+    /// be at Z 0, as a program does not say where it is: see [`set_surface`](Self::set_surface).
     ///
     /// # Errors
     /// What a job cannot say: other coordinate systems, places that only the machine knows, arcs of several turns.
@@ -254,7 +254,7 @@ impl Builder {
         let step = match (it.path, it.pace) {
             (Path::Line, Pace::Rapid) => Step::Rapid { to },
             (Path::Line, Pace::Feed(_)) => Step::Feed { to, feed },
-            (Path::Line, Pace::Probe { toward: true, must_answer: true, .. }) => Step::Probe { to, feed },
+            (Path::Line, Pace::Probe { toward: true, .. }) => Step::Probe { to, feed },
             (Path::Arc(arc), _) if arc.extra_turns == 0 => {
                 self.state.plane = plane_of(arc.plane);
                 self.update();
@@ -278,12 +278,20 @@ impl Builder {
             // The way home is the post's.
             self.job.operations.pop();
         }
-        for operation in &mut self.job.operations {
-            describe(operation, 0.0);
+        self.job.set_surface(0.0);
+        Ok(self.job)
+    }
+}
+
+impl Job {
+    /// Puts the upper face of the material of a program that was read at a height in mm.
+    pub fn set_surface(&mut self, surface: f64) {
+        for operation in &mut self.operations {
+            operation.surface = surface;
+            describe(operation, surface);
             let retract = operation.holes().map(|hole| hole.retract).next();
             operation.retract = retract.unwrap_or(operation.retract);
         }
-        Ok(self.job)
     }
 }
 

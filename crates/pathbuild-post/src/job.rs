@@ -200,8 +200,13 @@ impl Operation {
     }
 
     /// Whether the tool cuts something in it.
-    pub(super) fn cuts(&self) -> bool {
+    pub fn cuts(&self) -> bool {
         self.steps.iter().any(|step| matches!(step, Step::Feed { .. } | Step::Arc(_) | Step::Hole(_)))
+    }
+
+    /// Whether it measures the material and cuts nothing: the tool touches it, so the spindle stands.
+    pub fn only_probes(&self) -> bool {
+        !self.cuts() && self.steps.iter().any(|step| matches!(step, Step::Probe { .. }))
     }
 
     /// The holes in it.

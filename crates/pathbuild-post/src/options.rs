@@ -32,6 +32,8 @@ pub struct PostOptions<'a> {
     pub manual_spindle: bool,
     /// A definition that switches the spindle needs its speed: without one it would not turn.
     pub needs_speed: bool,
+    /// The machine counts P of dwells in milliseconds, where its control may count them either way.
+    pub milliseconds: bool,
     /// The time in seconds that the spindle takes to reach its speed.
     pub spin_up: f64,
     /// Where files are that the definition inserts.
@@ -52,6 +54,7 @@ impl Default for PostOptions<'_> {
             program_number: None,
             manual_spindle: false,
             needs_speed: false,
+            milliseconds: false,
             spin_up: 0.0,
             files: &NoFiles,
         }

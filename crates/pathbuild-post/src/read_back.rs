@@ -29,7 +29,16 @@ pub(super) fn check(
     let expected = moves(job).map_err(|error| vec![*error])?;
     let clearance =
         job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
-    ways::check(&read.moves(), &expected, clearance, tolerance).map_err(|problem| vec![as_post_s(*problem)])
+    let found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
+    ways::check(&found, &expected, clearance, tolerance).map_err(|problem| vec![as_post_s(*problem)])
+}
+
+/// Each control has its own word for probing, which complains where nothing is met or does not: the way is the same.
+fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
+    if let Pace::Probe { must_answer, .. } = &mut it.pace {
+        *must_answer = true;
+    }
+    (line, it)
 }
 
 /// A line of the output is no line of the definition.

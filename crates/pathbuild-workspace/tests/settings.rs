@@ -59,6 +59,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("limits.ignore-file-size", "[limits]\nignore-file-size = '1 KiB'", NONE),
     ("limits.text-length", "[limits]\ntext-length = 1", BOTH),
     ("limits.seconds-per-path", "[limits]\nseconds-per-path = 1", BOTH),
+    ("machine.dwell", "[machine]\ndwell = \"milliseconds\"", PROGRAMS),
     ("machine.spin-up", "[machine]\nspin-up = 1", PROGRAMS),
     ("machine.x", "[machine]\nx = [0, 1]", NONE),
     ("machine.y", "[machine]\ny = [0, 1]", NONE),

@@ -44,16 +44,20 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
 /// Runs what a command line of another program comes to.
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
     let translated = match compat::translate(&args.arguments) {
-        Ok(Translated::Arguments(translated)) => translated,
+        Ok(Translated::Commands(translated)) => translated,
         Ok(Translated::Help) => return print(|printer| usage::help(compat::HELP, printer)),
         Err(reason) => return print(|printer| usage::wrong(&reason, printer)),
     };
-    let line = format!("pathbuild {}", compat::shown(&translated));
+    let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shown(command));
     if args.print {
-        return print(|printer| usage::help(&format!("{line}\n"), printer));
+        let lines: String = translated.iter().map(line).collect();
+        return print(|printer| usage::help(&lines, printer));
     }
-    Printer::new(common.verbosity(), ColorChoice::Never).detail(line);
-    run(compat::spliced(arguments, args.arguments.len(), &translated))
+    let each = translated.iter().map(|command| {
+        Printer::new(common.verbosity(), ColorChoice::Never).detail(line(command).trim_end());
+        run(compat::spliced(arguments, args.arguments.len(), command))
+    });
+    each.max().unwrap_or(ExitStatus::Success)
 }
 
 /// Prints what needs no configuration.

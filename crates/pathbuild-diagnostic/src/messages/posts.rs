@@ -242,6 +242,11 @@ messages! {
         en: "the program or the tool table says which way the spindle turns, but the post has no {macro} and does not switch it",
         de: "das Programm oder die Werkzeugtabelle bestimmt die Drehrichtung der Spindel, aber der Postprozessor hat kein {macro} und schaltet sie nicht",
     }
+    /// A note: the spindle is not given its time.
+    SPIN_UP_NOT_WRITTEN: DoubtfulPost {
+        en: "[machine] spin-up is set, but the post has no {macro} and does not wait for the spindle",
+        de: "[machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro} und wartet nicht auf die Spindel",
+    }
     /// A key of a TOML definition that is not known, nor like one.
     POST_UNKNOWN_KEY: InvalidPost {
         en: "the key {key} is not known",
@@ -470,8 +475,8 @@ messages! {
     }
     /// Arcs of several turns, other probings than G38.2.
     JOB_MOVE: NothingToPost {
-        en: "a move of this kind (an arc of several turns, a probing other than G38.2) cannot be written through a post",
-        de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, ein anderes Antasten als G38.2) kann kein Postprozessor schreiben",
+        en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
+        de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
     }
     /// The command after writing failed.
     POST_BUILD_FAILED: PostBuildFailed {

@@ -58,6 +58,8 @@ pub enum DwellUnit {
     Milliseconds,
     /// Seconds with a decimal point, milliseconds without.
     ByPoint,
+    /// Seconds, or milliseconds where the machine is set so.
+    BySetting,
 }
 
 /// How a dialect reads arcs. (`reference/cad6_xpertmill_gcode.md`, section 5.4)
@@ -276,6 +278,7 @@ pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
     words: &codes::MACH3,
     arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
+    dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"" },
     program_numbers: true,
     lifts_to_start: true,
     ..BASE

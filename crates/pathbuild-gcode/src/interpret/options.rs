@@ -13,6 +13,8 @@ pub struct Options {
     pub absolute_arc_centres: bool,
     /// XpertMILL: F is passed over, so that the layers' feeds hold.
     pub ignore_feed: bool,
+    /// Mach3: the machine counts P of G4 in milliseconds.
+    pub milliseconds: bool,
 }
 
 /// Which height `Z1.023(==1.000+0.5*[#51-2.000])` stands for.

@@ -110,7 +110,8 @@ impl Interpreter<'_> {
     /// The time that P says, of a dwell or a cycle.
     pub(super) fn seconds(&self, block: &Block<'_>, p: Slot) -> f64 {
         match self.rules.dwell.p {
-            DwellUnit::Seconds => p.value,
+            DwellUnit::BySetting if self.options.milliseconds => p.value / 1000.0,
+            DwellUnit::Seconds | DwellUnit::BySetting => p.value,
             DwellUnit::ByPoint if block.slice(p.span).contains(&b'.') => p.value,
             DwellUnit::ByPoint | DwellUnit::Milliseconds => p.value / 1000.0,
         }

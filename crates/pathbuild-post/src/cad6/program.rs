@@ -74,6 +74,7 @@ impl Caller<'_, '_> {
         {
             self.set(name, value);
         }
+        self.set("SpinUpTime", options.spin_up);
         self.set("Units", if units == Units::Inches { 2.0 } else { 0.0 });
         self.set("Decimals", self.runner.definition.settings.decimals as f64);
         self.text("PrgName", &self.job.name);

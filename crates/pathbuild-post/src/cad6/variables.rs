@@ -61,6 +61,7 @@ pub(super) const KNOWN: &[&str] = &[
     "PeckDepth",
     "DwellTime",
     "CommentText",
+    "SpinUpTime",
 ];
 
 /// Those whose text is no number.

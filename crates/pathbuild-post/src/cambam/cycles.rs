@@ -59,7 +59,7 @@ impl<'a> Writer<'a> {
         values.set(Register::R, Some(self.scaled(hole.retract)));
         match hole.kind {
             HoleKind::Plain => {}
-            HoleKind::Dwell { seconds } => values.set(Register::P, Some(seconds)),
+            HoleKind::Dwell { seconds } => values.set(Register::P, Some(self.dwell(seconds))),
             HoleKind::Peck { depth } => values.set(Register::Q, Some(self.scaled(depth))),
         }
         values

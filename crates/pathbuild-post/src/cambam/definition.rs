@@ -59,6 +59,11 @@ impl Definition {
         self.templates().flat_map(Template::macros).any(|(what, _)| is_spindle(what))
     }
 
+    /// Whether it waits until the spindle turns.
+    pub(crate) fn waits_for_spindle(&self) -> bool {
+        self.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::SpindleUp)
+    }
+
     /// Whether axes are not the program's: wrapped round a cylinder, or with another sign.
     pub(crate) fn has_own_axes(&self) -> bool {
         let is_turned = |what: &Macro| matches!(what, Macro::Register(_, Form::Reversed));
@@ -226,9 +231,13 @@ fn user_macro(line: &str) -> Option<(&str, &str)> {
     (!name.is_empty() && !name.contains(['{', '}', '(', ')', '$'])).then_some((name, value.trim()))
 }
 
-/// Whether a macro of that name stands for something without anybody defining it.
+/// Whether a macro of that name stands for something that nobody else may define.
 pub(super) fn is_built_in(name: &str) -> bool {
-    !matches!(Macro::parse(name), Ok(Macro::User(_)))
+    match Macro::parse(name) {
+        Ok(Macro::User(_)) => false,
+        Ok(Macro::Value(value)) => !value.is_open(),
+        _ => true,
+    }
 }
 
 /// What is wrong in a template, as it is reported.

@@ -110,6 +110,22 @@ impl Value {
     }
 }
 
+impl Value {
+    /// Whether neither drawings nor programs say it, or only in part: the definition or the configuration may.
+    pub(super) fn is_open(self) -> bool {
+        matches!(
+            self,
+            Self::StockSize(_)
+                | Self::StockCorner(_)
+                | Self::StockCornerReversed(_)
+                | Self::ToolLength
+                | Self::ToolProfile
+                | Self::ToolComment
+                | Self::ToolVeeAngle
+        )
+    }
+}
+
 /// Values that are written bare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {

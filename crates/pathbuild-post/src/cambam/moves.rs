@@ -1,6 +1,7 @@
 //! The moves of an operation: entry, rapids, feeds, dwells, probes.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_gcode::dialect::DwellUnit;
 
 use super::cycles::can_be_canned;
 use super::macros::Argument;
@@ -42,7 +43,7 @@ impl Writer<'_> {
             Step::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
             Step::Dwell { seconds } => {
                 let mut values = MoveValues::default();
-                values.set(Register::P, Some(*seconds));
+                values.set(Register::P, Some(self.dwell(*seconds)));
                 self.go(Section::Dwell, [None; 3], values)
             }
             Step::Probe { to, feed } => {
@@ -52,6 +53,13 @@ impl Writer<'_> {
             Step::Stop => self.lines_of(Section::Stop),
             Step::Comment(text) => self.comment(text, " "),
         }
+    }
+
+    /// A time as the control counts it.
+    pub(super) fn dwell(&self, seconds: f64) -> f64 {
+        let has_choice =
+            self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::BySetting);
+        if self.plan.options.milliseconds && has_choice { 1000.0 * seconds } else { seconds }
     }
 
     /// Straight, cutting.

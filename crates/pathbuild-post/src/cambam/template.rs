@@ -46,6 +46,15 @@ pub(super) enum Fault {
 }
 
 impl Template {
+    /// Its text without macros.
+    pub(super) fn literal(&self) -> String {
+        let literal = |piece: &Piece| match piece {
+            Piece::Text(text) => text.to_string(),
+            Piece::Macro { .. } => String::new(),
+        };
+        self.pieces.iter().map(literal).collect()
+    }
+
     /// Reads a text that begins in `line` of its file. All that is wrong in it is reported.
     pub(super) fn parse(section: Section, text: &str, line: u32) -> Result<Self, Vec<TemplateError>> {
         let mut parser = Parser { pieces: Vec::new(), errors: Vec::new(), line };

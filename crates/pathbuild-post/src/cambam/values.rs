@@ -8,7 +8,7 @@ use super::plan::framed;
 use super::registers::Register;
 use super::section::Section;
 use super::writer::{Writer, Written};
-use crate::job::Stock;
+use crate::job::{Job, Stock};
 use crate::step::{Hole, HoleKind};
 
 impl Writer<'_> {
@@ -19,7 +19,9 @@ impl Writer<'_> {
         match value {
             Value::FileName => Some(self.plan.job.name.to_string()),
             Value::ProgramNumber => {
-                let number = self.plan.options.program_number.or_else(|| first_number(&self.plan.job.name));
+                let Job { name, operations, .. } = self.plan.job;
+                let of_name = || first_number(name).or_else(|| first_number(&operations.first()?.part));
+                let number = self.plan.options.program_number.or_else(of_name);
                 number.map(|number| format!("{number:04}"))
             }
             Value::Date => self.plan.options.date.as_deref().map(str::to_owned),
@@ -55,8 +57,17 @@ impl Writer<'_> {
             Value::ArcSweep => self.arc_value(|arc| arc.sweep),
             Value::StockSize(axis) => self.stock_value(|stock| stock.size[axis]),
             Value::StockCorner(axis) => self.stock_value(|stock| stock.corner[axis]),
-            Value::StockCornerReversed(axis) => self.stock_value(|stock| -stock.corner[axis]),
+            Value::StockCornerReversed(axis) => {
+                let own = || self.own_number(Value::StockCorner(axis));
+                self.stock_value(|stock| -stock.corner[axis]).or_else(own)
+            }
         }
+    }
+
+    /// What somebody else says of a value, if that is a number, with the other sign.
+    fn own_number(&self, value: Value) -> Option<String> {
+        let own = self.plan.user_macro(value.name())?;
+        own.literal().trim().parse().ok().map(|number: f64| self.number_format().format(-number))
     }
 
     fn register_value(&self, register: Register) -> Option<String> {

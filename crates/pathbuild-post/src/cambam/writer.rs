@@ -85,12 +85,7 @@ impl<'a> Writer<'a> {
     }
 
     fn marks_of(&self, section: Section) -> String {
-        let literal = |piece: &Piece| match piece {
-            Piece::Text(text) => text.to_string(),
-            Piece::Macro { .. } => String::new(),
-        };
-        let text: String = self.plan.definition.section(section).pieces.iter().map(literal).collect();
-        text.trim().to_owned()
+        self.plan.definition.section(section).literal().trim().to_owned()
     }
 
     /// The text of the whole file, its shadow, and what is doubtful in it.
@@ -144,6 +139,9 @@ impl<'a> Writer<'a> {
         self.burn(1)?;
         match what {
             Macro::Section(text) => self.named_section(*text),
+            Macro::Value(value) if value.is_open() && self.plan.user_macro(value.name()).is_some() => {
+                self.plan.user_macro(value.name()).map_or(Ok(()), |own| self.template(own))
+            }
             Macro::Value(value) => match self.value(*value) {
                 Some(text) if value.is_text() => self.foreign(&text, value.name(), section, line),
                 Some(text) => self.text(&text),
@@ -264,7 +262,8 @@ impl<'a> Writer<'a> {
         if text.is_empty() || is_idle {
             return;
         }
-        let found = words(&text, &self.marks);
+        let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));
+        let found = words(&text[..code], &self.marks);
         if found.has_more && !self.plan.definition.options.suppress_parser_errors {
             self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).with("line", text.as_str()));
         }

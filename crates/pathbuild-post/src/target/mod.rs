@@ -23,6 +23,8 @@ pub(super) struct Target {
     longest: Option<LineLength>,
     /// The tool's number stands bare behind M6.
     bare_tool_number: bool,
+    /// M codes behind which a text for the display stands.
+    message_codes: &'static [u16],
     /// Lines may begin with N.
     line_numbers: bool,
     /// The dialect that reads its moves.
@@ -70,6 +72,7 @@ impl Target {
             percent: spelling.percent != Percent::Refused,
             longest: spelling.line_length,
             bare_tool_number: spelling.bare_tool_number,
+            message_codes: spelling.message_codes,
             line_numbers: spelling.block_numbers.is_some(),
             reader: dialect,
         }
@@ -100,11 +103,24 @@ impl Target {
         Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
+    /// How much of the beginning of a line is code: behind M0 or M117 a text for the display stands.
+    pub(crate) fn code_length(&self, line: &str) -> usize {
+        let digits = line
+            .strip_prefix('M')
+            .map_or("", |rest| &rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len())]);
+        let shows = digits.parse().is_ok_and(|code: u16| self.message_codes.contains(&code));
+        if shows { 1 + digits.len() } else { line.len() }
+    }
+
     /// A line in pieces.
     fn pieces<'a>(&self, line: &'a str) -> Vec<Piece<'a>> {
         let mut pieces = Vec::new();
         let mut begins = 0;
         let mut at = 0;
+        let code = self.code_length(line);
+        if code < line.len() {
+            return vec![Piece::Code(&line[..code]), Piece::Comment(&line[code..])];
+        }
         while at < line.len() {
             match self.comment_length(&line[at..]) {
                 Some(length) => {

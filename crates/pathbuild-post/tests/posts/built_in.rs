@@ -1,7 +1,10 @@
 //! The posts that come with pathbuild.
 
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_post::{
-    Arc, BUILT_IN, Coolant, Entry, Hole, HoleKind, Job, Language, PostOptions, Spindle, Step, load,
+    Arc, BUILT_IN, Coolant, Entry, Hole, HoleKind, Job, Language, PostMacro, PostOptions, Spindle, Step,
+    load, native_remark,
 };
 
 use crate::support::{feed, operation, rapid, texts};
@@ -68,4 +71,84 @@ fn programs() {
     for post in BUILT_IN.iter().filter(|post| post.language != Language::Native) {
         insta::assert_snapshot!(post.name, written(post.name, &PostOptions::default()));
     }
+}
+
+/// A touch on the material's face, as the native probing run has it.
+fn probing_run() -> Job {
+    let text = "G17 G21 G90 G94\nT1\nG0 Z15\nG0 X0 Y0\nG0 X192 Y20\nG0 Z4\nG38.3 Z0 F40\nG4 P4\nG0 Z15\nG0 X68 Y-8\nG0 Z4\nG38.3 Z0 F40\nG0 Z15\nM30\n";
+    let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
+    Job::from_steps("8003.1P", &steps, &native_remark).unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
+}
+
+#[test]
+fn each_control_probes_in_its_own_words() {
+    for (name, word) in [
+        ("grbl", "G38.2 F40.0 X192.0 Y20.0 Z0.0"),
+        ("linuxcnc", "G38.2 F40.0 X192.0 Y20.0 Z0.0"),
+        ("mach3", "G31 F40.0 X192.0 Y20.0 Z0.0"),
+        ("fanuc", "G31 F40.0 X192.0 Y20.0 Z0.0"),
+        ("haas", "G31 F40.0 X192.0 Y20.0 Z0.0"),
+        ("marlin", "G38.2 F40.0 X192.0 Y20.0 Z0.0"),
+    ] {
+        let output = load(name).unwrap().write(&probing_run(), &PostOptions::default());
+        let output = output.unwrap_or_else(|errors| panic!("{name}: {:?}", texts(&errors)));
+        let text = String::from_utf8(output.text).unwrap().replace("\r\n", "\n");
+        let found: Vec<&str> =
+            text.lines().filter(|line| line.contains("G3") && line.contains('Z')).collect();
+        assert_eq!(found.len(), 2, "{name}: {text}");
+        assert_eq!(found[0], word, "{name}");
+    }
+    let errors = load("xpertmill").unwrap().write(&probing_run(), &PostOptions::default()).unwrap_err();
+    assert_eq!(texts(&errors), ["PB759 8003.1P needs the text probe, which the post does not have"]);
+}
+
+#[test]
+fn mach3_dwells_as_its_machine_is_set() {
+    let dwell = |milliseconds| {
+        let options = PostOptions { milliseconds, spin_up: 2.5, ..PostOptions::default() };
+        let text = written("mach3", &options);
+        text.lines().find(|line| line.starts_with("G4")).map(str::to_owned)
+    };
+    assert_eq!(dwell(false).as_deref(), Some("G4 P2.5"));
+    assert_eq!(dwell(true).as_deref(), Some("G4 P2500.0"));
+    let options = PostOptions { milliseconds: true, spin_up: 2.5, ..PostOptions::default() };
+    assert!(written("linuxcnc", &options).contains("\nG4 P2.5\n"), "seconds on every machine");
+}
+
+#[test]
+fn a_tool_is_changed_where_the_owner_says() {
+    let change = |name: &str, macros: Vec<PostMacro>| {
+        let text = written(name, &PostOptions { macros, ..PostOptions::default() });
+        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let stop = lines.iter().position(|line| line.starts_with("M0")).expect("a stop");
+        [lines[stop - 2].clone(), lines[stop - 1].clone(), lines[stop].clone()]
+    };
+    let park = |value: &str| vec![PostMacro { name: "park".into(), value: value.into() }];
+    assert_eq!(
+        change("grbl", Vec::new()),
+        ["M5", "M9", "M0 (Insert T2: 3.0 cutter, set Z zero)"],
+        "it stays where it is"
+    );
+    assert_eq!(
+        change("grbl", park("G53 G0 X-10 Y-10")),
+        ["M9", "G53 G0 X-10 Y-10", "M0 (Insert T2: 3.0 cutter, set Z zero)"]
+    );
+    assert_eq!(
+        change("marlin", park("G0 F1000 X0 Y200")),
+        ["G0 F1000 X0 Y200", ";Insert T2: 3.0 cutter", "M0 Insert T2, set Z zero"]
+    );
+}
+
+#[test]
+fn programs_of_several_paths_have_the_number_of_the_first() {
+    let head = |name: &str, number: Option<u32>| {
+        let job = Job { name: name.into(), ..sample() };
+        let options = PostOptions { program_number: number, ..PostOptions::default() };
+        let text = load("haas").unwrap().write(&job, &options).map(|output| output.text);
+        let text = String::from_utf8(text.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))).unwrap();
+        text.lines().nth(1).unwrap_or_default()[..5].to_owned()
+    };
+    assert_eq!(head("8001.1P", None), "O8001");
+    assert_eq!(head("BOTH", None), "O1234");
+    assert_eq!(head("BOTH", Some(77)), "O0077");
 }

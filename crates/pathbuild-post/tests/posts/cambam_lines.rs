@@ -1,7 +1,9 @@
 //! How CamBam templates become lines, and what the lines that were written mean for the next.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_post::{Coolant, Job, PostOptions, Spindle, Step, Stock, Texts, Units, VelocityMode};
+use pathbuild_post::{
+    Coolant, Job, PostMacro, PostOptions, Spindle, Step, Stock, Texts, Units, VelocityMode,
+};
 
 use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, texts};
 
@@ -274,4 +276,24 @@ fn inches_are_written_where_the_program_is_in_inches() {
     let job = Job { units: Units::Inches, ..job(vec![feed(25.4, 0.0, 5.0)]) };
     let text = bare("<MOP>{$units} {$tool.diameter}\n{$blocks}</MOP>").replace("<MOP>{$blocks}</MOP>", "");
     assert_eq!(lines(&text, &job), ["G20 0.1181", "G0 Z0.1969", "G0 X0.0 Y0.0", "G1 F3.937 X1.0"]);
+}
+
+#[test]
+fn stock_and_tool_values_come_from_whoever_knows_them() {
+    let header = |macros: &[(&str, &str)], own: &str| {
+        let definition = format!(
+            "<PostFile>{{$header}}\n{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><EndOfLine>\\n</EndOfLine><PostProcessorMacros>{own}</PostProcessorMacros><Header>( {{$stock_width}} {{$-stock_x}} {{$tool.length}} )</Header>"
+        );
+        let given = |(name, value): &(&str, &str)| PostMacro { name: (*name).into(), value: (*value).into() };
+        let options = PostOptions { macros: macros.iter().map(given).collect(), ..PostOptions::default() };
+        let job = crate::support::job(vec![crate::support::feed(1.0, 0.0, -1.0)]);
+        let written = crate::support::output(&crate::support::definition(&definition), &job, &options);
+        written.map(|it| String::from_utf8(it.text).unwrap().lines().next().unwrap_or("").to_owned())
+    };
+    let all = [("stock_width", "150"), ("stock_x", "-5"), ("tool.length", "42.5")];
+    assert_eq!(header(&all, ""), Ok("( 150 5.0 42.5 )".to_owned()));
+    assert_eq!(header(&all[1..], "$stock_width=90"), Ok("( 90 5.0 42.5 )".to_owned()));
+    assert_eq!(header(&all, "$stock_width=90"), Ok("( 150 5.0 42.5 )".to_owned()), "the configuration wins");
+    let missing = header(&all[..2], "").expect_err("nobody says the length");
+    assert_eq!(crate::support::texts(&missing)[0].split(' ').take(2).collect::<Vec<_>>(), ["4:", "PB754"]);
 }

@@ -244,6 +244,16 @@ choice! {
     }
 }
 
+choice! {
+    /// What a machine counts dwells in, where its control can be set either way.
+    DwellTime {
+        /// As the manuals have it.
+        Seconds = "seconds",
+        /// Mach3 by its Config > Logic dialogue.
+        Milliseconds = "milliseconds",
+    }
+}
+
 /// A text for post-processors, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Macro {

@@ -51,6 +51,7 @@ struct Manner {
     program_number: Option<u32>,
     manual_spindle: bool,
     spin_up: f64,
+    milliseconds: bool,
 }
 
 /// What the command line says about a post's output.
@@ -131,6 +132,7 @@ impl Poster {
                 program_number: general.post.value.program_number,
                 manual_spindle: general.spindle.value == types::SpindleControl::Manual,
                 spin_up: context.settings.machine.spin_up.value,
+                milliseconds: context.settings.machine.dwell.value == types::DwellTime::Milliseconds,
             },
         })
     }
@@ -194,6 +196,7 @@ impl Poster {
             manual_spindle: self.manner.manual_spindle,
             needs_speed: !self.manner.manual_spindle,
             spin_up: self.manner.spin_up,
+            milliseconds: self.manner.milliseconds,
             ..PostOptions::default()
         };
         if let Some(below) = &below {

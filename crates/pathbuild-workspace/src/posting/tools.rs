@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_post::{Coolant, Job, Spindle, Tool, ToolEntry, ToolTable};
+use pathbuild_post::{Coolant, Job, Operation, Spindle, Tool, ToolEntry, ToolTable};
 use regex::Regex;
 
 use crate::config::types;
@@ -34,9 +34,10 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 }
 
 /// Gives the operations of a program that was read what the table says of their tools' numbers, where the program itself says nothing.
-/// Numbers that are not in it are told.
+/// Numbers that are not in it are told. While it probes the spindle stands; a program that cuts nothing needs none.
 pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let mut unknown = Vec::new();
+    let has_cuts = job.operations.iter().any(Operation::cuts);
     for operation in &mut job.operations {
         let index = operation.tool.index;
         let Some(entry) = table.entries.iter().find(|entry| entry.index == Some(index)) else {
@@ -46,6 +47,11 @@ pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
             continue;
         };
         operation.tool = Tool::new(index, entry.diameter, &entry.name);
+        if !has_cuts || operation.only_probes() {
+            operation.spindle = operation.spindle.or(Some(Spindle::Off));
+            operation.coolant = operation.coolant.or(Some(Coolant::Off));
+            continue;
+        }
         operation.spindle = operation.spindle.or(entry.spindle);
         operation.speed = operation.speed.or(entry.speed);
         operation.coolant = operation.coolant.or(entry.coolant);

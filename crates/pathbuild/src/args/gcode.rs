@@ -81,6 +81,9 @@ pub struct PostArgs {
     /// File to write; else standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
+    /// Height of the material's upper face, where the post asks for it; of pathbuild's own programs it is known
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub surface: Option<String>,
     /// Dialect in which the post's output is checked and read back, where the post names none
     #[arg(long, value_name = "DIALECT")]
     pub target: Option<String>,

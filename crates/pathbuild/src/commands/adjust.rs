@@ -56,8 +56,8 @@ struct Job {
     milling: Utf8PathBuf,
 }
 
-const CLEAN: &str = "_Clean.gcode";
-const VALUES: &str = "_Z.txt";
+pub(super) const CLEAN: &str = "_Clean.gcode";
+pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
     /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them.
@@ -78,7 +78,7 @@ impl Job {
 }
 
 /// A name without its suffix, which may be in any case.
-fn without<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
+pub(super) fn without<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
     let (stem, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
     end.eq_ignore_ascii_case(suffix).then_some(stem)
 }

@@ -5,15 +5,20 @@
 //! | `/f` `/v` `/s` `/z` | `--feed`, `--rapid`, `--sweep-height`, `--probe-feed` |
 //! | `/d` `/n` `/p` `/e` `/l` | `--search`, `--path-pattern`, `--file-pattern`, `--restrict`, `--lang` |
 //! | `/c` | `check` in place of `emit` |
-//! | `/x REGEX` | `texts --match REGEX`; with `/m` `adjust --show REGEX` |
-//! | `/m` | `adjust --max-correction` |
+//! | `/x REGEX` | `texts --match REGEX`, then the programs; with `/m` `adjust --show REGEX` |
+//! | `/m`, or a file `..._Clean.gcode` or `..._Z.txt` | `adjust --max-correction` |
 //! | `/h` `/?` | this table |
 //!
-//! Programs are those of the original tool: `--compatible`. A value may be glued to its option or follow it. Elsewhere than on Windows, `\` in names of files is read as `/`.
+//! Programs are those of the original tool: `--compatible`. A value may be glued to its option or follow it, and `-` stands for `/` as well. Options
+//! with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
 
 use std::ffi::OsString;
 
 use camino::Utf8Path;
+use clap::CommandFactory;
+
+use super::adjust::{CLEAN, VALUES, without};
+use crate::args::Cli;
 
 /// Options whose value is passed on.
 const VALUES: &[(char, &str)] = &[
@@ -31,8 +36,8 @@ const VALUES: &[(char, &str)] = &[
 /// What a command line of theirs comes to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Translated {
-    /// A command line of ours, without the program's name.
-    Arguments(Vec<String>),
+    /// Command lines of ours, without the program's name, one after the other.
+    Commands(Vec<Vec<String>>),
     /// Their help was asked for.
     Help,
 }
@@ -44,8 +49,9 @@ pathbuild compat [/OPTION[VALUE]]... FILES
   /f /v /s /z        --feed, --rapid, --sweep-height, --probe-feed
   /d /n /p /e /l     --search, --path-pattern, --file-pattern, --restrict, --lang
   /c                 check in place of emit
-  /x REGEX           texts --match REGEX; with /m adjust --show REGEX
+  /x REGEX           texts --match REGEX, then emit or check; with /m adjust --show REGEX
   /m                 adjust --max-correction
+  --OPTION           an option of ours; `-` may stand for `/`
 
 `pathbuild compat --print ...` prints the command line that it comes to and does nothing.
 ";
@@ -59,6 +65,11 @@ pub(crate) fn translate(arguments: &[String]) -> Result<Translated, String> {
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match option(argument) {
+            None if argument.starts_with("--") => {
+                read.own.push(argument.clone());
+                let value = takes_value(argument).then(|| rest.next()).flatten();
+                read.own.extend(value.cloned());
+            }
             None => read.files.push(file_name(argument)),
             Some(('h' | '?', _)) => return Ok(Translated::Help),
             Some(('c', "")) => read.check = true,
@@ -73,7 +84,7 @@ pub(crate) fn translate(arguments: &[String]) -> Result<Translated, String> {
     if read.files.is_empty() {
         return Err("no file is named".to_owned());
     }
-    Ok(Translated::Arguments(read.arguments()))
+    Ok(Translated::Commands(read.commands()))
 }
 
 /// The words as one line for a shell.
@@ -99,6 +110,8 @@ struct Read {
     options: Vec<String>,
     shown: Option<String>,
     max_correction: Option<String>,
+    /// Options of ours.
+    own: Vec<String>,
     files: Vec<String>,
 }
 
@@ -111,33 +124,57 @@ impl Read {
             _ => {
                 let known = VALUES.iter().find(|(known, _)| *known == letter);
                 let (_, name) = known.ok_or_else(|| format!("unknown option {argument}"))?;
-                self.options.push(format!("{name}={value}"));
+                self.options.push(format!("{name}={}", if letter == 'l' { language(value) } else { value }));
             }
         }
         Ok(())
     }
 
-    fn arguments(self) -> Vec<String> {
-        let (command, shown) = match (&self.max_correction, &self.shown, self.check) {
-            (Some(_), ..) => ("adjust", "--show"),
-            (None, Some(_), _) => ("texts", "--match"),
-            (None, None, true) => ("check", ""),
-            (None, None, false) => ("emit", ""),
-        };
-        let mut arguments = vec![command.to_owned()];
-        arguments.extend(self.max_correction.map(|value| format!("--max-correction={value}")));
-        arguments.extend(self.shown.map(|value| format!("{shown}={value}")));
-        arguments.extend(self.options);
-        arguments.extend(["--compatible", "--"].map(str::to_owned));
-        arguments.extend(self.files);
-        arguments
+    fn commands(&self) -> Vec<Vec<String>> {
+        let is_adjusted =
+            |file: &String| [CLEAN, VALUES].iter().any(|suffix| without(file, suffix).is_some());
+        if self.max_correction.is_some() || self.files.iter().any(is_adjusted) {
+            let most = self.max_correction.iter().map(|value| format!("--max-correction={value}"));
+            let shown = self.shown.iter().map(|value| format!("--show={value}"));
+            return vec![self.command("adjust", most.chain(shown))];
+        }
+        let texts =
+            self.shown.iter().map(|value| self.command("texts", [format!("--match={value}")].into_iter()));
+        let write = self.command(if self.check { "check" } else { "emit" }, std::iter::empty());
+        texts.chain([write]).collect()
+    }
+
+    fn command(&self, name: &str, own: impl Iterator<Item = String>) -> Vec<String> {
+        let options = own.chain(self.options.iter().cloned()).chain(self.own.iter().cloned());
+        let end = ["--compatible", "--"].map(str::to_owned);
+        std::iter::once(name.to_owned()).chain(options).chain(end).chain(self.files.iter().cloned()).collect()
     }
 }
 
-/// The letter of an option and what is glued to it. A drawing whose name begins at the root is none.
+/// Whether the word behind an option of ours is its value.
+fn takes_value(option: &str) -> bool {
+    let name = option.trim_start_matches('-');
+    let has = |command: &clap::Command| {
+        let named = command.get_arguments().find(|argument| argument.get_long() == Some(name));
+        named.is_some_and(|argument| argument.get_action().takes_values())
+    };
+    let command = Cli::command();
+    has(&command) || command.get_subcommands().any(|command| command.get_name() == "emit" && has(command))
+}
+
+/// The language of a name such as `de-AT`.
+fn language(name: &str) -> &str {
+    name.split(['-', '_']).next().unwrap_or(name)
+}
+
+/// The letter of an option and what is glued to it. A drawing whose name begins at the root, or with a hyphen, is none.
 fn option(argument: &str) -> Option<(char, &str)> {
-    let option = argument.strip_prefix('/')?;
     let is_drawing = Utf8Path::new(argument).extension().is_some_and(|it| it.eq_ignore_ascii_case("dxf"));
+    let option = match argument.strip_prefix('-') {
+        Some(option) if is_drawing || option.starts_with('-') => return None,
+        Some(option) => option,
+        None => argument.strip_prefix('/')?,
+    };
     if is_drawing && option.contains('/') {
         return None;
     }

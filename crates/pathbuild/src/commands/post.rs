@@ -7,11 +7,13 @@ use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Step;
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_post::{BUILT_IN, Job, Output, Remark, native_remark};
 
 use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::posting::{Poster, Wishes, furnish, run_post_build};
 
@@ -85,10 +87,14 @@ fn written(
         return Err(Vec::new());
     }
     let steps = std::mem::take(&mut program.read.steps);
-    let output = output(&program, steps, poster, args.output.as_deref()).map_err(|mut problems| {
-        program.place_own(&mut problems);
-        problems
-    })?;
+    let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
+    let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
+    let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header).unwrap_or(0.0);
+    let output =
+        output(&program, steps, poster, surface, args.output.as_deref()).map_err(|mut problems| {
+            program.place_own(&mut problems);
+            problems
+        })?;
     diagnostics.extend(output.warnings.iter().cloned());
     say(context, &output.notes);
     let Some(to) = &args.output else {
@@ -107,11 +113,12 @@ fn written(
     }
 }
 
-/// What the post makes of a program that has no errors.
+/// What the post makes of a program that has no errors, of material up to a height in mm.
 fn output(
     program: &Program,
     steps: Vec<Step>,
     poster: &Poster,
+    surface: f64,
     to: Option<&Utf8Path>,
 ) -> Result<Output, Vec<Diagnostic>> {
     if let Some(line) = first_open_formula(&program.text).filter(|_| program.dialect == Dialect::Native) {
@@ -124,6 +131,7 @@ fn output(
     let name = program.file.file_stem().unwrap_or_default();
     let mut job = Job::from_steps(name, &steps, &remark)?;
     drop(steps);
+    job.set_surface(surface);
     let unknown = furnish(&mut job, poster.tools());
     let mut output = poster.write(&job, to)?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));

@@ -10,6 +10,7 @@ use pathbuild_gcode::read::quote;
 
 use crate::args::{ReadingArgs, UnitCodesArg};
 use crate::context::Context;
+use pathbuild_workspace::config::types::DwellTime;
 use pathbuild_workspace::files::unreadable;
 
 /// A program that was read.
@@ -56,7 +57,7 @@ impl Program {
             context.system.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
-        let options = options(args);
+        let options = options(context, args);
         let mut problems = interpret_each(&text, dialect, &options, &mut |_| {});
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
@@ -93,7 +94,7 @@ impl Program {
     }
 }
 
-fn options(args: &ReadingArgs) -> Options {
+fn options(context: &Context, args: &ReadingArgs) -> Options {
     Options {
         unit_codes: match args.unit_codes {
             Some(UnitCodesArg::Table) => UnitCodes::Table,
@@ -101,6 +102,7 @@ fn options(args: &ReadingArgs) -> Options {
         },
         absolute_arc_centres: args.absolute_arc_centres,
         ignore_feed: args.ignore_feed,
+        milliseconds: context.settings.machine.dwell.value == DwellTime::Milliseconds,
         ..Options::default()
     }
 }

@@ -5,14 +5,17 @@ use std::fmt::Debug;
 use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE};
+use crate::config::kinds::text::choice;
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
-use crate::config::types::Extent;
+use crate::config::types::{DwellTime, Extent};
 
 section! {
     /// s: how long the spindle takes to reach its speed; posts wait as long after M3
     spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0", Emit;
+    /// what P of G4 counts on a control that can be set either way (Mach3: Config > Logic): "seconds" or "milliseconds"
+    dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
     /// mm: from where to where the X axis goes, in the program's coordinates; without it any X is right
     x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Neither;
     /// mm: the same for the Y axis

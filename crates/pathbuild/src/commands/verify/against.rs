@@ -65,7 +65,7 @@ impl Against {
             moves: interpret::each_move_of(&self.drawn),
             clearance: self.drawn.start_height(),
             tool: self.tool(context),
-            spin_up: 0.0,
+            spin_up: context.settings.machine.spin_up.value,
         };
         let mut comparison = verify::Against::new(drawn, program.dialect);
         program.each(&mut |step| comparison.step(step));
