@@ -293,6 +293,24 @@ fn programs_of_drawings_are_in_the_output_directory() {
 }
 
 #[test]
+fn programs_with_more_in_their_names_are_found_by_their_drawing() {
+    let with_r = PLATE.replace("U30\"", "U30 R_112\"");
+    let place = Place::new()
+        .file("a.dxf", drawing(&format!("{with_r}{PROBES}")))
+        .file("ab.dxf", drawing(&format!("{}{PROBES}", with_r.replace("1234.1P", "1234.2P"))));
+    succeed(&emit(&place, "a.dxf"));
+    succeed(&emit(&place, "ab.dxf"));
+    let values = place.read("a_112_Z.txt").replace("=\n", "=5\n").replace("T=5\n", "T=");
+    write(&place, "a_112_Z.txt", &values);
+    let run = place.run("adjust a.dxf --max-correction 0.2");
+    succeed(&run);
+    assert!(place.path().join("a_112_Milling.gcode").exists(), "{run}");
+    assert!(!place.path().join("ab_112_Milling.gcode").exists(), "{run}");
+    let run = place.run("adjust ac.dxf --max-correction 0.2");
+    assert!(run.status == Some(1) && run.stderr.contains("ac_Clean.gcode"), "{run}");
+}
+
+#[test]
 fn a_program_with_errors_does_not_stop_the_others() {
     let place = Place::new()
         .file("a_Z.txt", "([0 0]/T=5) #51=5.1\n")

@@ -1,9 +1,11 @@
 //! `pathbuild adjust`: measured heights put into programs. (spec/70-z-probes.md, "Adjusting")
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Written;
+use pathbuild_db::system::{Kind, Written};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
+use pathbuild_gcode::native::{self, Charset};
+use pathbuild_gcode::provenance::Provenance;
 use regex::Regex;
 
 use crate::args::AdjustArgs;
@@ -20,8 +22,8 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
         Err(fault) => return context.refuse(vec![*fault]),
     };
     let mut jobs: Vec<Job> = Vec::new();
-    for job in args.files.iter().map(|file| Job::new(file, context.settings.general.out_dir.value.as_deref()))
-    {
+    let out_dir = context.settings.general.out_dir.value.as_deref();
+    for job in args.files.iter().flat_map(|file| Job::all(context, file, out_dir)) {
         if !jobs.contains(&job) {
             jobs.push(job);
         }
@@ -60,7 +62,24 @@ pub(super) const CLEAN: &str = "_Clean.gcode";
 pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
-    /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them.
+    /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them. Their names may have more in
+    /// them than the drawing's (R, or the path of a drawing of several): then their headers tell.
+    fn all(context: &Context, argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Vec<Self> {
+        let job = Self::new(argument, out_dir);
+        let drawing = argument.file_name().filter(|name| without(name, ".dxf").is_some());
+        let Some(drawing) = drawing.filter(|_| context.system.kind(&job.clean) == Kind::Missing) else {
+            return vec![job];
+        };
+        let directory = job.clean.parent().unwrap_or(Utf8Path::new("")).to_owned();
+        let Ok(listing) = context.system.list(&directory) else { return vec![job] };
+        let programs = listing.files.iter().filter(|name| without(name, CLEAN).is_some());
+        let mut named: Vec<&str> =
+            programs.filter(|name| is_of(context, &directory.join(name), drawing)).collect();
+        named.sort_unstable();
+        let found: Vec<Self> = named.iter().map(|name| Self::new(&directory.join(name), out_dir)).collect();
+        if found.is_empty() { vec![job] } else { found }
+    }
+
     fn new(argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Self {
         let name = argument.file_name().unwrap_or_default();
         let beside = argument.parent().unwrap_or(Utf8Path::new(""));
@@ -75,6 +94,15 @@ impl Job {
             milling: written.join(format!("{stem}_Milling.gcode")),
         }
     }
+}
+
+/// Whether the header of a program names this drawing.
+fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
+    let text = context.system.read(program, context.settings.limits.file_size.value).unwrap_or_default();
+    let title = Provenance::of_head(&text).map(|(_, title)| title);
+    let named = native::comment(drawing, Charset::Utf8);
+    let named = [&named, &native::comment(drawing, Charset::Ascii)].map(|it| it[1..it.len() - 1].to_owned());
+    title.as_deref().and_then(native::drawing_of_title).is_some_and(|it| named.iter().any(|name| name == it))
 }
 
 /// A name without its suffix, which may be in any case.

@@ -17,7 +17,7 @@ use std::ffi::OsString;
 use camino::Utf8Path;
 use clap::CommandFactory;
 
-use super::adjust::{CLEAN, VALUES, without};
+use super::adjust;
 use crate::args::Cli;
 
 /// Options whose value is passed on.
@@ -131,8 +131,9 @@ impl Read {
     }
 
     fn commands(&self) -> Vec<Vec<String>> {
-        let is_adjusted =
-            |file: &String| [CLEAN, VALUES].iter().any(|suffix| without(file, suffix).is_some());
+        let is_adjusted = |file: &String| {
+            [adjust::CLEAN, adjust::VALUES].iter().any(|suffix| adjust::without(file, suffix).is_some())
+        };
         if self.max_correction.is_some() || self.files.iter().any(is_adjusted) {
             let most = self.max_correction.iter().map(|value| format!("--max-correction={value}"));
             let shown = self.shown.iter().map(|value| format!("--show={value}"));
