@@ -40,5 +40,6 @@ mod strangers;
 mod support;
 mod untrusted;
 mod usage;
+mod view;
 mod watch;
 mod why;

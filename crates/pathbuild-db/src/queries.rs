@@ -29,6 +29,7 @@ mod rereading;
 mod summary;
 mod texts;
 mod traces;
+mod views;
 
 pub use closures::{Closure, MissingOption, Reached, closure};
 pub use combinations::combinations;
@@ -46,3 +47,4 @@ pub use report::{check_file, check_target, locate};
 pub use summary::PathSummary;
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
+pub use views::{DrawnPath, Part, Traced, drawn_path, other_layers, traced_program};

@@ -55,6 +55,8 @@ pub struct ChainSegment {
 /// A rapid move at sweep height. A drawn arc is swept straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweep {
+    /// Index into [`Path::segments`]: along which it goes.
+    pub segment: usize,
     /// From where the tool is.
     pub start: Xy,
     /// To where it comes.
@@ -112,8 +114,8 @@ impl<'a> Grouped<'a> {
         let Passage { start, end, .. } = *passage;
         Some(match &self.path.segments[segment].kind {
             SegmentKind::Cut(_) => return None,
-            SegmentKind::Sweep { height } => Item::Sweep(Sweep { start, end, height: *height }),
-            _ if is_return => Item::Sweep(Sweep { start, end, height: None }),
+            SegmentKind::Sweep { height } => Item::Sweep(Sweep { segment, start, end, height: *height }),
+            _ if is_return => Item::Sweep(Sweep { segment, start, end, height: None }),
             SegmentKind::Hole(hole) => Item::Hole { segment, hole: *hole },
             SegmentKind::Helix(helix) => Item::Helix { segment, helix: *helix },
             SegmentKind::Subpath(_) => Item::Subpath(PlacedSubpath { segment, start, end }),
@@ -144,10 +146,27 @@ impl<'a> Grouped<'a> {
     }
 }
 
+impl Item {
+    /// The segment along which it goes, where it is one: index into [`Path::segments`].
+    pub fn segment(&self) -> Option<usize> {
+        match self {
+            Self::Chain(_) => None,
+            Self::Hole { segment, .. } | Self::Helix { segment, .. } => Some(*segment),
+            Self::Sweep(sweep) => Some(sweep.segment),
+            Self::Subpath(subpath) => Some(subpath.segment),
+        }
+    }
+}
+
 impl ChainSegment {
     /// Where it is drawn.
     pub fn origin(&self, path: &Path) -> Origin {
         path.origin(&path.segments[self.segment as usize])
+    }
+
+    /// What it is: index into [`Drawn::elements`](crate::Drawn::elements).
+    pub fn element(&self, path: &Path) -> u32 {
+        path.segments[self.segment as usize].element
     }
 
     /// How it is milled.

@@ -4,6 +4,13 @@ use pathbuild_path::{Bars, Curve};
 
 use crate::mill::Section;
 
+/// The pieces of a curve along which bars are left standing, with a cutter of that diameter; all of it where there is no room for a gap.
+pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
+    let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
+    let tops = plan.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
+    tops.map(|piece| curve.section(piece.from, piece.to)).collect()
+}
+
 /// Where a segment with bars is milled how deep, as positions along it in mm.
 #[derive(Clone, Debug)]
 pub(crate) struct BarPlan {

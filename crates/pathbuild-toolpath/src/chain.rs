@@ -20,6 +20,8 @@ pub(crate) struct Strand<'a> {
     /// h + D and where the bars are, for segments with bars; no plan where nothing goes below D.
     bars: Option<(f64, Option<BarPlan>)>,
     feed: f64,
+    /// Index into [`Drawn::elements`](pathbuild_path::Drawn::elements).
+    element: u32,
 }
 
 /// An edge to run: a strand at one of its depths, from its start or from its end.
@@ -36,6 +38,7 @@ impl<P: Parts> Fold<'_, P> {
         let strands: Vec<Strand<'_>> =
             members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
+        self.along(strands[0].element);
         self.element(ElementKind::MillingChain, &members[0].origin(place.path), bottom, place, None);
         if chain.first_depth.is_some() {
             self.sweepless(place, &strands);
@@ -58,6 +61,7 @@ impl<P: Parts> Fold<'_, P> {
             bottom,
             bars,
             feed: self.feed(cut.feed),
+            element: member.element(place.path),
         }
     }
 
@@ -69,6 +73,7 @@ impl<P: Parts> Fold<'_, P> {
         while let Some(run) = open.take_nearest(tip) {
             self.checkpoint();
             let strand = &strands[run.strand];
+            self.along(strand.element);
             let z = strand.depths[run.edge];
             if last_pass != Some(run.edge) {
                 self.pass(u32::try_from(run.edge + 1).unwrap_or(u32::MAX), z);
@@ -109,6 +114,7 @@ impl<P: Parts> Fold<'_, P> {
 
     fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
         let strand = &strands[run.strand];
+        self.along(strand.element);
         let z = strand.depths[run.edge];
         self.plunge(strand.entry(z, self.compatible), place.surface, self.entry_feed(place, strand));
         self.edge(place, strand, z, run.is_backwards);

@@ -7,6 +7,7 @@ use crate::probes;
 use crate::program::{
     Class, Comment, Count, ElementKind, FIRST_FEED, Height, Move, Names, ProbePoint, Program, Step,
 };
+use crate::trace::{Drawn, Occurrence, Trace};
 
 /// The paths that are joined: the emitted one and all it embeds.
 pub trait Parts {
@@ -41,6 +42,28 @@ pub struct FoldOptions {
 
 /// Makes the program of a path, of about so many moves. Every path in it must be free of errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions, moves: u64) -> Program {
+    folded(parts, root, drawing, options, moves, None).0
+}
+
+/// The same, and where each step comes from.
+pub fn fold_traced<P: Parts>(
+    parts: &P,
+    root: P::Id,
+    drawing: &str,
+    options: FoldOptions,
+) -> (Program, Trace<P::Id>) {
+    let (program, trace) = folded(parts, root, drawing, options, 0, Some(Trace::default()));
+    (program, trace.unwrap_or_default())
+}
+
+fn folded<P: Parts>(
+    parts: &P,
+    root: P::Id,
+    drawing: &str,
+    options: FoldOptions,
+    moves: u64,
+    trace: Option<Trace<P::Id>>,
+) -> (Program, Option<Trace<P::Id>>) {
     let path = parts.path(root);
     let sweep_height = path.emitted_sweep_height(options.sweep_height).unwrap_or_default();
     let mut program = Program {
@@ -65,12 +88,14 @@ pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOption
         names: Names::default(),
         probes: Vec::new(),
         mergeable: None,
+        here: Drawn::default(),
+        trace,
     };
     fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
     program.names = fold.names;
     program.probes = probes::in_order(fold.probes);
-    program
+    (program, fold.trace)
 }
 
 /// For so many moves there is room from the beginning: beyond, growing costs little against making them.
@@ -83,7 +108,7 @@ pub(crate) struct Tip {
     pub(crate) z: f64,
 }
 
-pub(crate) struct Fold<'a, P> {
+pub(crate) struct Fold<'a, P: Parts> {
     parts: &'a P,
     feed: f64,
     probe_feed: Option<f64>,
@@ -98,6 +123,10 @@ pub(crate) struct Fold<'a, P> {
     probes: Vec<ProbePoint>,
     /// The last sweep, while nothing but comments follow it: another sweep replaces it.
     mergeable: Option<usize>,
+    /// The element that is gone along.
+    here: Drawn,
+    /// Where somebody wants to see where steps come from.
+    trace: Option<Trace<P::Id>>,
 }
 
 /// A path where it is placed: heights are absolute, lengths in mm.
@@ -118,6 +147,7 @@ pub(crate) struct Place<'a> {
 impl<'a, P: Parts> Fold<'a, P> {
     fn path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) {
         self.parts.checkpoint();
+        let outside = self.enter(id, placement, raised, sweep_height);
         let path = self.parts.path(id);
         let place = Place {
             path,
@@ -138,6 +168,9 @@ impl<'a, P: Parts> Fold<'a, P> {
         let origin = |segment: usize| path.origin(&path.segments[segment]);
         let walked = self.parts.walked(id);
         for item in &walked.items {
+            if let Some(segment) = item.segment() {
+                self.along(path.segments[segment].element);
+            }
             match item {
                 Item::Chain(chain) => self.chain(&place, chain, walked.members(chain)),
                 Item::Hole { segment, hole } => {
@@ -150,6 +183,24 @@ impl<'a, P: Parts> Fold<'a, P> {
                 Item::Subpath(subpath) => self.subpath(&place, id, subpath),
             }
         }
+        self.here = outside;
+    }
+
+    /// What follows belongs to that path; gives what it belonged to so far.
+    fn enter(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> Drawn {
+        let outside = self.here;
+        if let Some(trace) = &mut self.trace {
+            let parent = (!trace.occurrences.is_empty()).then_some(outside);
+            let occurrence = u32::try_from(trace.occurrences.len()).unwrap_or(u32::MAX);
+            trace.occurrences.push(Occurrence { id, parent, placement, raised, sweep_height });
+            self.here = Drawn { occurrence, element: None };
+        }
+        outside
+    }
+
+    /// What follows belongs to that element of the path.
+    pub(crate) fn along(&mut self, element: u32) {
+        self.here.element = Some(element);
     }
 
     /// The embedded path begins exactly at the segment's start; what follows it begins at the segment's end, though it may have ended
@@ -230,6 +281,9 @@ impl<'a, P: Parts> Fold<'a, P> {
     pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
         if let Some(index) = self.mergeable.take() {
             self.steps.remove(index);
+            if let Some(trace) = &mut self.trace {
+                trace.steps.remove(index);
+            }
         }
         let index = self.steps.len();
         let count = Count { class: Class::Sweep, length, feed: None };
@@ -244,12 +298,19 @@ impl<'a, P: Parts> Fold<'a, P> {
         if let Move::Line { feed, .. } | Move::Arc { feed, .. } = to {
             self.last_feed = feed;
         }
-        self.steps.push(Step::Move { to, count });
+        self.push(Step::Move { to, count });
         self.tip = tip;
     }
 
     fn comment(&mut self, comment: Comment) {
-        self.steps.push(Step::Comment(comment));
+        self.push(Step::Comment(comment));
+    }
+
+    fn push(&mut self, step: Step) {
+        self.steps.push(step);
+        if let Some(trace) = &mut self.trace {
+            trace.steps.push(self.here);
+        }
     }
 
     /// `(Q:...)`, where there is one.

@@ -15,14 +15,17 @@ mod pieces;
 mod probes;
 mod program;
 mod statistics;
+mod trace;
 mod z_model;
 
+pub use bars::support_bars;
 pub use correction::{Correction, Outside};
 pub use cost::own_moves;
-pub use fold::{FoldOptions, Parts, fold};
+pub use fold::{FoldOptions, Parts, fold, fold_traced};
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,
 };
 pub use statistics::{Statistics, Total};
+pub use trace::{Drawn, Occurrence, Trace};
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

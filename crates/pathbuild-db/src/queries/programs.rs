@@ -27,8 +27,8 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
 }
 
 /// The paths of a closure without errors.
-struct Embedded<'db> {
-    db: &'db dyn Db,
+pub(super) struct Embedded<'db> {
+    pub(super) db: &'db dyn Db,
 }
 
 impl<'db> Parts for Embedded<'db> {

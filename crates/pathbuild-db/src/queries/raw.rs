@@ -24,10 +24,10 @@ pub struct FileContents {
 
 /// A raw path, and beside it where its elements are in the file.
 #[derive(Clone, Debug)]
-struct PathEntry {
+pub(super) struct PathEntry {
     /// Shared with whoever asks for the path, so that each may be dropped for itself.
-    raw: Arc<RawPath>,
-    map: SourceMap,
+    pub(super) raw: Arc<RawPath>,
+    pub(super) map: SourceMap,
 }
 
 /// Where a path is drawn.
@@ -105,7 +105,7 @@ impl FileContents {
         self.paths.iter().map(|entry| &*entry.raw)
     }
 
-    fn entry(&self, name: &PathName) -> Option<&PathEntry> {
+    pub(super) fn entry(&self, name: &PathName) -> Option<&PathEntry> {
         let found = self.by_name.binary_search_by(|path| self.paths[*path].raw.name.cmp(name));
         found.ok().map(|place| &self.paths[self.by_name[place]])
     }

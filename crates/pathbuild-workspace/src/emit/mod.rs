@@ -28,6 +28,7 @@ pub(crate) use configured::Configured;
 use deliver::Means;
 pub use deliver::{Delivered, State, Task};
 use job::{Job, Maker, without_clashes};
+pub(crate) use options::write_options;
 use store::{Known, Run, Store};
 use write_queue::deliver_all;
 

@@ -29,21 +29,18 @@ pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]
 
 /// How files are written.
 pub(super) fn writing(context: &Workspace) -> Writing {
+    Writing { options: write_options(context), most_moves: context.settings.limits.embedding_moves.value }
+}
+
+/// How texts are written.
+pub(crate) fn write_options(context: &Workspace) -> WriteOptions {
     let general = &context.settings.general;
     let charset = match general.charset.value {
         types::Charset::Ascii => Charset::Ascii,
         types::Charset::Utf8 => Charset::Utf8,
     };
     let rapid = general.rapid.value.unwrap_or_default();
-    Writing {
-        options: WriteOptions {
-            lang: context.settings.general.lang.value,
-            charset,
-            rapid,
-            correction: correction(context),
-        },
-        most_moves: context.settings.limits.embedding_moves.value,
-    }
+    WriteOptions { lang: general.lang.value, charset, rapid, correction: correction(context) }
 }
 
 /// How heights are corrected between probes.

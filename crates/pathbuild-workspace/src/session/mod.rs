@@ -12,6 +12,7 @@ mod prefetch;
 mod provenance;
 mod q_projects;
 mod resolve;
+mod scene;
 mod settings;
 pub mod timings;
 mod watchdog;
@@ -41,6 +42,7 @@ pub use outputs::{OutputKind, Writing, stem_fault, without_values};
 pub use provenance::{HEAD, Provenance};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Found, Wanted, WantedPath};
+pub use scene::Seen;
 pub use work::{Asking, CheckedTarget, Emitted};
 
 /// A database with the run's settings.

@@ -2,7 +2,7 @@ use camino::Utf8PathBuf;
 use clap::{Args, Subcommand};
 use clap_complete::Shell;
 
-use super::InputArgs;
+use super::{InputArgs, ReadingArgs};
 
 /// `pathbuild texts`
 #[derive(Clone, Debug, Default, Args)]
@@ -15,15 +15,18 @@ pub struct TextsArgs {
     pub pattern: Option<String>,
 }
 
-/// `pathbuild preview`
-#[derive(Clone, Debug, Default, Args)]
-pub struct PreviewArgs {
-    /// Which path.
-    #[command(flatten)]
-    pub inputs: InputArgs,
-    /// File to write, .html or .svg; `-` is standard output
+/// `pathbuild view`
+#[derive(Clone, Debug, Args)]
+pub struct ViewArgs {
+    /// Name of a path, drawing (.dxf), or G-code program
+    #[arg(value_name = "PATH|DRAWING|FILE")]
+    pub what: String,
+    /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); else the browser shows it
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
+    /// How a program is read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
 }
 
 /// `pathbuild diff`

@@ -26,7 +26,7 @@ pub use graph::GraphArgs;
 pub use inputs::InputArgs;
 pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
-    PreviewArgs, QProjectArgs, TextsArgs,
+    QProjectArgs, TextsArgs, ViewArgs,
 };
 pub use watch::WatchArgs;
 
@@ -59,9 +59,8 @@ pub enum Command {
     Watch(Deferred<WatchArgs>),
     /// Show which element each parameter text belongs to
     Texts(Deferred<TextsArgs>),
-    /// Show a path as a self-contained HTML page or SVG
-    #[command(hide = true)]
-    Preview(Deferred<PreviewArgs>),
+    /// Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON
+    View(Deferred<ViewArgs>),
     /// Show what a change of drawings does to the moves
     #[command(hide = true)]
     Diff(Deferred<DiffArgs>),
@@ -107,7 +106,7 @@ impl Command {
             Self::Emit(args) => (*args.inputs).clone(),
             Self::Watch(args) => (*args.inputs).clone(),
             Self::Texts(args) => (*args.inputs).clone(),
-            Self::Preview(args) => (*args.inputs).clone(),
+            Self::View(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Diff(args) => (*args.inputs).clone(),
             Self::Graph(args)
             | Self::Deps(args)
@@ -140,7 +139,7 @@ impl Command {
             Self::Adjust(_) => "adjust",
             Self::Watch(_) => "watch",
             Self::Texts(_) => "texts",
-            Self::Preview(_) => "preview",
+            Self::View(_) => "view",
             Self::Diff(_) => "diff",
             Self::Import(_) => "import",
             Self::Verify(_) => "verify",

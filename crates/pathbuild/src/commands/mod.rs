@@ -18,6 +18,7 @@ mod program;
 pub mod q_project;
 pub mod texts;
 pub mod verify;
+pub mod view;
 pub mod watch;
 pub mod why;
 
@@ -51,6 +52,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Where(args) => locate::run(context, args),
         Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),
+        Command::View(args) => view::run(context, args),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),
         Command::Init => init::run(context),

@@ -1,0 +1,93 @@
+//! What somebody wants to see: programs with where their moves come from, what is drawn, and what else there is in a drawing.
+
+use std::sync::Arc;
+
+use pathbuild_dxf::Drawing;
+use pathbuild_path::{Path, PathName, RawPath, SourceMap};
+use pathbuild_toolpath::{Occurrence, Program, Trace, fold_traced};
+use rustc_hash::FxHashMap;
+
+use super::closures::closure;
+use super::instance::{Instance, path};
+use super::programs::Embedded;
+use super::raw::raw_file;
+use super::rereading::read_layers;
+use crate::db::Db;
+use crate::inputs::{Role, SourceFile, Target};
+use crate::settings::Settings;
+
+/// A program, and where each of its steps comes from.
+#[derive(Debug)]
+pub struct Traced {
+    /// The same as [`program`](super::program) gives for what is emitted. What is only checked sweeps as a check has it.
+    pub program: Program,
+    /// Its paths are indices into [`Traced::parts`].
+    pub trace: Trace<usize>,
+    /// The paths in the program with their values, each once.
+    pub parts: Vec<Part>,
+}
+
+/// A path with values for its variables.
+#[derive(Debug)]
+pub struct Part {
+    /// The drawing that defines it.
+    pub file: SourceFile,
+    /// The path, every parameter known.
+    pub path: Path,
+}
+
+/// A path as it is drawn, and where in the file.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnPath<'db> {
+    /// What is drawn.
+    pub raw: &'db RawPath,
+    /// Where that is in the file.
+    pub positions: &'db SourceMap,
+}
+
+/// The program of a target with its origins; `None` where there is no program. One is kept.
+#[salsa::tracked(no_eq, lru = 1)]
+pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
+    let closure = closure(db, target);
+    if closure.has_errors() || !closure.missing_options.is_empty() {
+        return None;
+    }
+    let drawing = target.file(db).path(db).file_name().unwrap_or_default();
+    let root = closure.root?;
+    let mut options = Settings::get(db).fold(db);
+    if *target.role(db) != Role::Emitted {
+        // As a check has it.
+        options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
+    }
+    let (program, trace) = fold_traced(&Embedded { db }, root, drawing, options);
+    let mut instances: Vec<Instance<'_>> = Vec::new();
+    let mut numbers: FxHashMap<Instance<'_>, usize> = FxHashMap::default();
+    let occurrences = trace.occurrences.into_iter().map(|occurrence| {
+        let id = *numbers.entry(occurrence.id).or_insert_with(|| {
+            instances.push(occurrence.id);
+            instances.len() - 1
+        });
+        let Occurrence { parent, placement, raised, sweep_height, .. } = occurrence;
+        Occurrence { id, parent, placement, raised, sweep_height }
+    });
+    let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps };
+    let part = |instance: Instance<'_>| {
+        let path = path(db, instance).path.clone()?;
+        Some(Part { file: instance.file(db), path })
+    };
+    let parts = instances.into_iter().map(part).collect::<Option<Vec<_>>>()?;
+    Some(Arc::new(Traced { program, trace, parts }))
+}
+
+/// A path as it is drawn; `None` where the drawing has none of that name.
+pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<DrawnPath<'db>> {
+    let entry = raw_file(db, file).entry(name)?;
+    Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
+}
+
+/// What is on the layers of a drawing that are no path layers. The drawing is read once more for that. One is kept.
+#[salsa::tracked(no_eq, lru = 1)]
+pub fn other_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
+    let language = Settings::get(db).language(db);
+    Arc::new(read_layers(db, file, &|layer| !language.path_pattern.is_layer(layer)))
+}

@@ -1,0 +1,13 @@
+//! Scenes from programs, drawings and G-code.
+
+mod drawn;
+mod finding;
+mod gcode;
+mod other;
+mod program;
+
+pub use drawn::{DrawnSource, drawn_path};
+pub use finding::findings;
+pub use gcode::{GcodeSource, gcode_path};
+pub use other::other_layers;
+pub use program::{ProgramSource, program_path};

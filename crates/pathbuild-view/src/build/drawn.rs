@@ -1,0 +1,188 @@
+//! What is drawn on a path's layers.
+
+use pathbuild_diagnostic::ElementId;
+use pathbuild_path::{
+    AssignedText, Curve, Marker, Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, Xy,
+};
+
+use crate::scene::{Arc, Element, ElementKind, Embedded, Label, Point, ScenePath, Shape};
+
+/// A path as it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnSource<'a> {
+    /// Its drawing, as it is shown.
+    pub file: &'a str,
+    /// What is drawn.
+    pub raw: &'a RawPath,
+    /// Where that is in the file.
+    pub positions: &'a SourceMap,
+    /// The texts of its drawing, also those of other paths.
+    pub texts: &'a [AssignedText],
+}
+
+/// A path without a program: what is drawn, where it is drawn.
+pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
+    let mut scene = ScenePath {
+        name: source.raw.name.as_str().to_owned(),
+        file: source.file.to_owned(),
+        ..ScenePath::default()
+    };
+    let placement = Placement::from_origin(Xy::origin());
+    let end = |marker: &Option<Marker>| marker.as_ref().map_or(Xy::origin(), |marker| marker.at);
+    let ends = [end(&source.raw.start), end(&source.raw.end)].map(pair);
+    scene.embedded.push(Embedded {
+        name: scene.name.clone(),
+        file: scene.file.clone(),
+        by: None,
+        ends,
+        raised: 0.0,
+        thickness: 0.0,
+        sweep_height: 0.0,
+    });
+    scene.tool = source.raw.tool();
+    scene.draw(source, &placement);
+    scene
+}
+
+impl ScenePath {
+    /// Adds what is drawn of the last path in [`ScenePath::embedded`]; gives the index of its first element.
+    pub(super) fn draw(&mut self, source: &DrawnSource<'_>, placement: &Placement) -> u32 {
+        let path = number(self.embedded.len()).saturating_sub(1);
+        let first = self.elements.len();
+        let drawn = Drawn { source, placement, path };
+        let shapes = drawn.add_elements(&mut self.elements);
+        let own = |text: &&AssignedText| text.path == source.raw.name;
+        let texts = source.texts.iter().filter(own);
+        self.texts.extend(texts.map(|text| drawn.label(text, &shapes, first)));
+        number(first)
+    }
+}
+
+/// An element as it is known to texts: where it is in the file, and its shape there.
+type Known = (Option<Position>, DrawnShape);
+
+struct Drawn<'a> {
+    source: &'a DrawnSource<'a>,
+    placement: &'a Placement,
+    path: u32,
+}
+
+impl Drawn<'_> {
+    fn add_elements(&self, elements: &mut Vec<Element>) -> Vec<Known> {
+        let raw = self.source.raw;
+        let mut known = Vec::new();
+        for element in &raw.drawn.elements {
+            let origin = raw.drawn.origin(element);
+            let kind = element_kind(element.role);
+            known.push(self.add(elements, kind, &origin, element.shape));
+        }
+        let circle = |marker: &Marker, radius| DrawnShape::Circle { centre: marker.at, radius };
+        let groups: [(&[Marker], ElementKind, f64); 4] = [
+            (raw.start.as_slice(), ElementKind::Start, 0.5),
+            (raw.end.as_slice(), ElementKind::End, 1.0),
+            (&raw.turns, ElementKind::Turn, 0.75),
+            (&raw.probes, ElementKind::Probe, 3.0),
+        ];
+        for (markers, kind, radius) in groups {
+            for marker in markers {
+                known.push(self.add(elements, kind, &marker.origin, circle(marker, radius)));
+            }
+        }
+        known
+    }
+
+    fn add(
+        &self,
+        elements: &mut Vec<Element>,
+        kind: ElementKind,
+        origin: &pathbuild_path::Origin,
+        shape: DrawnShape,
+    ) -> Known {
+        let position = self.position(origin.id);
+        elements.push(Element {
+            path: self.path,
+            kind,
+            entity: origin.entity.name(),
+            layer: origin.layer.to_string(),
+            handle: position.and_then(|position| position.handle).map(|handle| handle.to_string()),
+            line: position.map(|position| position.line),
+            shape: placed(&shape, self.placement),
+            order: None,
+        });
+        (position, shape)
+    }
+
+    fn position(&self, id: ElementId) -> Option<Position> {
+        self.source.positions.positions().get(id.0 as usize).copied()
+    }
+
+    /// A text with the elements among `shapes` that it belongs to.
+    fn label(&self, text: &AssignedText, shapes: &[Known], first: usize) -> Label {
+        let is_owner = |(position, shape): &Known| {
+            text.elements
+                .iter()
+                .any(|owner| *position == Some(owner.position) && self.is_same(&owner.shape, shape))
+        };
+        let owners = shapes.iter().enumerate().filter(|(_, known)| is_owner(known));
+        Label {
+            path: self.path,
+            text: text.text.trim_end().to_owned(),
+            at: pair(self.placement.place(text.circle.centre)),
+            radius: text.circle.radius,
+            elements: owners.map(|(index, _)| number(first + index)).collect(),
+        }
+    }
+
+    /// Whether two shapes of one entity are the same. Special circles are what their position says.
+    fn is_same(&self, a: &DrawnShape, b: &DrawnShape) -> bool {
+        match (a, b) {
+            (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,
+            (a, b) => a == b,
+        }
+    }
+}
+
+fn element_kind(role: Role) -> ElementKind {
+    use pathbuild_path::Cut;
+    match role {
+        Role::Cut(Cut::Mill) => ElementKind::Mill,
+        Role::Cut(Cut::Mark) => ElementKind::Mark,
+        Role::Cut(Cut::Support) => ElementKind::Support,
+        Role::Sweep | Role::SilentSweep => ElementKind::Sweep,
+        Role::SkippedSubpath => ElementKind::SkippedSubpath,
+        Role::Subpath => ElementKind::Subpath,
+    }
+}
+
+/// A shape where it comes to lie.
+fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
+    match shape {
+        DrawnShape::Curve(curve) => curve_shape(&placement.place_curve(curve)),
+        DrawnShape::Circle { centre, radius } => {
+            Shape::Circle { centre: pair(placement.place(*centre)), radius: *radius }
+        }
+    }
+}
+
+/// A curve as a shape.
+pub(super) fn curve_shape(curve: &Curve) -> Shape {
+    match curve {
+        Curve::Line(line) => Shape::Line { from: pair(line.start), to: pair(line.end) },
+        Curve::Arc(arc) => Shape::Arc(Arc {
+            from: pair(arc.start),
+            to: pair(arc.end),
+            centre: pair(arc.centre),
+            radius: arc.radius,
+            clockwise: arc.clockwise,
+            degrees: arc.degrees,
+        }),
+    }
+}
+
+pub(super) fn pair(point: Xy) -> Point {
+    [point.x, point.y]
+}
+
+pub(super) fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,28 @@
+//! Findings with their places.
+
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+
+use crate::scene::{Finding, Said};
+
+/// Numbers findings. `file` is the drawing that is shown: of what is wrong elsewhere the place is where the drawing embeds that.
+pub fn findings(diagnostics: &[Diagnostic], file: &str) -> Vec<Finding> {
+    (1..).zip(diagnostics).map(|(number, diagnostic)| finding(number, diagnostic, file)).collect()
+}
+
+fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
+    let is_here = diagnostic.file.as_ref().is_some_and(|found| found == file);
+    let outermost = diagnostic.trace.first().filter(|step| step.file == file).map(|step| step.point);
+    let own = diagnostic.place.point.filter(|_| is_here);
+    let help = |lang| diagnostic.help(lang).unwrap_or_default();
+    Finding {
+        number,
+        code: diagnostic.code().to_string(),
+        is_error: diagnostic.is_error(),
+        message: Said { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
+        help: Said { en: help(Lang::En), de: help(Lang::De) },
+        file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
+        path: diagnostic.path.as_deref().map(str::to_owned),
+        line: diagnostic.place.line,
+        at: own.or(outermost).map(|point| [point.x.0, point.y.0]),
+    }
+}

@@ -1,0 +1,39 @@
+//! A program that was read.
+
+use pathbuild_gcode::interpret::Step;
+use pathbuild_gcode::summary::Summary;
+
+use crate::scene::{Move, ScenePath, Totals};
+
+/// A program that was read.
+#[derive(Clone, Copy, Debug)]
+pub struct GcodeSource<'a> {
+    /// Its file, as it is shown.
+    pub file: &'a str,
+    /// What it makes the machine do.
+    pub steps: &'a [Step],
+    /// Its text; what is no UTF-8 in it is replaced.
+    pub text: &'a [u8],
+    /// Cutter diameter in mm, where it is known.
+    pub tool: Option<f64>,
+}
+
+/// A program without elements.
+pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
+    let moves = source.steps.iter().filter_map(Step::as_move);
+    let summary = Summary::of(source.steps, false).total;
+    ScenePath {
+        name: source.file.to_owned(),
+        file: source.file.to_owned(),
+        tool: source.tool,
+        moves: moves.map(|(line, way)| Move::new(way, Some(line))).collect(),
+        totals: Some(Totals {
+            milling: summary.milling.total.length,
+            drilling: summary.drilling.total.length,
+            sweeps: summary.rapid.total.length,
+            minutes: None,
+        }),
+        gcode: Some(String::from_utf8_lossy(source.text).into_owned()),
+        ..ScenePath::default()
+    }
+}

@@ -1,0 +1,177 @@
+//! A path with its program.
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Axes, Heights, Options, each_move_of, interpret_each};
+use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
+use pathbuild_toolpath::{Drawn, Occurrence, Program, Statistics, Step, Trace, support_bars};
+
+use super::drawn::{DrawnSource, curve_shape, pair};
+use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, ProbeMark, ScenePath, Totals};
+
+/// The parameter of the first probe.
+const FIRST_PARAMETER: usize = 51;
+
+/// A program and where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgramSource<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// Where its steps come from; paths are indices into `parts`.
+    pub trace: &'a Trace<usize>,
+    /// The paths in it: as drawn, and with every parameter known.
+    pub parts: &'a [(DrawnSource<'a>, &'a Path)],
+    /// Its native text, made without cutting moves.
+    pub text: &'a str,
+    /// --rapid in mm/min.
+    pub rapid: Option<f64>,
+}
+
+/// A path with its program.
+pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
+    let ProgramSource { program, trace, parts, text, rapid } = source;
+    let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
+    for occurrence in &trace.occurrences {
+        builder.occurrence(occurrence, &parts[occurrence.id]);
+    }
+    builder.moves(program, trace, text);
+    builder.number_elements();
+    let root = parts[trace.occurrences[0].id];
+    let totals = totals(program, *rapid);
+    let probe = |(index, probe): (usize, &pathbuild_toolpath::ProbePoint)| ProbeMark {
+        number: FIRST_PARAMETER + index,
+        at: pair(probe.at),
+        height: probe.height,
+        feed: probe.feed,
+        label: probe.label.as_deref().map(str::to_owned),
+    };
+    ScenePath {
+        name: program.path.to_string(),
+        file: root.0.file.to_owned(),
+        zero: pair(root.1.start),
+        tool: Some(program.tool),
+        thickness: Some(program.thickness),
+        sweep_height: Some(program.sweep_height),
+        material: root.1.material.as_ref().map(ToString::to_string),
+        probes: program.probes.iter().enumerate().map(probe).collect(),
+        totals: Some(totals),
+        gcode: Some((*text).to_owned()),
+        ..builder.scene
+    }
+}
+
+fn totals(program: &Program, rapid: Option<f64>) -> Totals {
+    let statistics = Statistics::of(program, rapid.unwrap_or(1.0));
+    Totals {
+        milling: statistics.milling.length,
+        drilling: statistics.drilling.length,
+        sweeps: statistics.sweeps.length,
+        minutes: rapid.map(|_| statistics.sum().minutes()),
+    }
+}
+
+struct Builder {
+    scene: ScenePath,
+    /// Of each occurrence the index of its first element.
+    first_elements: Vec<u32>,
+}
+
+impl Builder {
+    fn occurrence(&mut self, occurrence: &Occurrence<usize>, (drawn, path): &(DrawnSource<'_>, &Path)) {
+        let Occurrence { placement, raised, .. } = occurrence;
+        self.scene.embedded.push(Embedded {
+            name: path.name.as_str().to_owned(),
+            file: drawn.file.to_owned(),
+            by: occurrence.parent.and_then(|parent| self.element(parent)),
+            ends: [path.start, path.end].map(|end| pair(placement.place(end))),
+            raised: *raised,
+            thickness: raised + path.thickness,
+            sweep_height: raised + occurrence.sweep_height,
+        });
+        let first = self.scene.draw(drawn, placement);
+        self.first_elements.push(first);
+        self.bars(path, placement, *raised, first);
+    }
+
+    fn element(&self, drawn: Drawn) -> Option<u32> {
+        Some(self.first_elements.get(drawn.occurrence as usize)? + drawn.element?)
+    }
+
+    /// The bars along the segments and circles of a path.
+    fn bars(&mut self, path: &Path, placement: &Placement, raised: f64, first: u32) {
+        for segment in &path.segments {
+            let shape = path.drawn.elements[segment.element as usize].shape;
+            let found = match (&segment.kind, shape) {
+                (SegmentKind::Cut(cut), DrawnShape::Curve(curve)) => {
+                    let cut = &path.cuts[*cut as usize];
+                    cut.bars.map(|bars| (bars, cut.bottom, curve))
+                }
+                (SegmentKind::Helix(helix), _) => {
+                    let helix = &path.helices[*helix as usize];
+                    let radius = helix.radius - path.tool / 2.0;
+                    helix
+                        .bars
+                        .map(|(bottom, bars)| (bars, bottom, circle(placement.place(helix.centre), radius)))
+                }
+                _ => None,
+            };
+            let Some((bars, bottom, curve)) = found else { continue };
+            let is_placed = matches!(segment.kind, SegmentKind::Helix(_));
+            let bar = |curve: &Curve| Bar {
+                element: first + segment.element,
+                shape: curve_shape(&if is_placed { *curve } else { placement.place_curve(curve) }),
+                top: raised + bars.top,
+            };
+            self.scene.bars.extend(support_bars(&bars, bottom, path.tool, &curve).iter().map(bar));
+        }
+    }
+
+    fn moves(&mut self, program: &Program, trace: &Trace<usize>, text: &str) {
+        let mut lines = lines(text).into_iter();
+        for (step, way) in each_move_of(program) {
+            let mut it = Move::new(way, lines.next());
+            let step = step as usize - 1;
+            it.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
+            if let Some(Step::Move { count, .. }) = program.steps.get(step) {
+                it.length = count.length;
+            }
+            let kind = it.element.map(|element| self.scene.elements[element as usize].kind);
+            if it.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
+                it.kind = MoveKind::Mark;
+            }
+            self.scene.moves.push(it);
+        }
+    }
+
+    /// Numbers elements in the order in which the tool begins to cut them.
+    fn number_elements(&mut self) {
+        let mut next = 1;
+        for it in &self.scene.moves {
+            let Some(element) = it.element else { continue };
+            let element = &mut self.scene.elements[element as usize];
+            if it.kind.cuts() && element.order.is_none() {
+                element.order = Some(next);
+                next += 1;
+            }
+        }
+    }
+}
+
+/// The circle that a cutter's centre runs on, clockwise from its lowest point.
+fn circle(centre: Xy, radius: f64) -> Curve {
+    let low = Xy::new(centre.x, centre.y - radius);
+    Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })
+}
+
+/// The lines of a native text's moves, from where the program's own begin.
+fn lines(text: &str) -> Vec<u32> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let mut lines = Vec::new();
+    interpret_each(text.as_bytes(), Dialect::Native, &options, &mut |step| {
+        if let Some((line, it)) = step.as_move()
+            && (!lines.is_empty() || it.from.known == Axes::ALL)
+        {
+            lines.push(line);
+        }
+    });
+    lines
+}

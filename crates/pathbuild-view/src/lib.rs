@@ -1,0 +1,21 @@
+//! What there is to see of a path, a drawing or a program, and pictures of it.
+//!
+//! A [`Scene`] is plain data with one JSON form. It is made from a program and where its steps come from, from a drawing whose paths have
+//! errors, or from G-code. Renderers turn it into text or bytes. Nothing here does IO or prints. (docs: "Pictures")
+
+mod build;
+#[cfg(feature = "pictures")]
+mod raster;
+mod scene;
+mod svg;
+
+pub use build::{
+    DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, other_layers, program_path,
+};
+#[cfg(feature = "pictures")]
+pub use raster::{pdf, png};
+pub use scene::{
+    Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Point,
+    ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
+};
+pub use svg::{Shown, svg};

@@ -1,0 +1,58 @@
+//! Pictures as PNG and PDF. The one font comes with the program: fonts of the system are never read, so that a picture is the same
+//! everywhere.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use usvg::fontdb::Database;
+use usvg::{Options, Tree};
+
+use crate::scene::Scene;
+use crate::svg::{Shown, svg};
+
+/// DejaVu Sans, the letters that pictures need.
+const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
+
+/// The family's name in the font.
+const FAMILY: &str = "DejaVu Sans";
+
+/// Pixels of a PNG for a px of the page.
+const PIXELS: f32 = 2.0;
+
+/// The font is made ready once.
+static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
+    let mut fonts = Database::new();
+    fonts.load_font_data(FONT.to_vec());
+    fonts.set_sans_serif_family(FAMILY);
+    fonts.set_serif_family(FAMILY);
+    fonts.set_monospace_family(FAMILY);
+    Arc::new(fonts)
+});
+
+/// The scene as PNG.
+///
+/// # Errors
+/// The picture is too large for memory, or a bug.
+pub fn png(scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
+    let tree = tree(&svg(scene, shown))?;
+    let size = tree.size().to_int_size().scale_by(PIXELS).ok_or("the picture has no size")?;
+    let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
+    resvg::render(&tree, Transform::from_scale(PIXELS, PIXELS), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| error.to_string())
+}
+
+/// The scene as PDF.
+///
+/// # Errors
+/// A bug.
+pub fn pdf(scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
+    let tree = tree(&svg(scene, shown))?;
+    let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
+    pdf.map_err(|error| error.to_string())
+}
+
+fn tree(svg: &str) -> Result<Tree, String> {
+    let options =
+        Options { font_family: FAMILY.to_owned(), fontdb: Arc::clone(&FONTS), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(|error| error.to_string())
+}

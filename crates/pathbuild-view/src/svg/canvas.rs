@@ -1,0 +1,124 @@
+//! SVG text. Everything that comes from a drawing passes [`escaped`].
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::shown;
+
+use crate::scene::Point;
+
+/// The one font; whoever has not got it takes what is near.
+const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
+
+/// A picture that is drawn, in px.
+pub(super) struct Canvas {
+    text: String,
+}
+
+/// Where a text's point is in it.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+}
+
+impl Canvas {
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        let mut text = String::with_capacity(1 << 14);
+        let (width, height) = (n(width), n(height));
+        _ = writeln!(
+            text,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\">"
+        );
+        let mut canvas = Self { text };
+        canvas.raw(&format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>"));
+        canvas
+    }
+
+    pub(super) fn finish(mut self) -> String {
+        self.text.push_str("</svg>\n");
+        self.text
+    }
+
+    /// A line of SVG in which everything is ours.
+    pub(super) fn raw(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// Begins a group.
+    pub(super) fn open(&mut self, attributes: &str) {
+        self.raw(&format!("<g {attributes}>"));
+    }
+
+    /// Ends it.
+    pub(super) fn close(&mut self) {
+        self.raw("</g>");
+    }
+
+    /// What a browser shows for what it stands in.
+    pub(super) fn title(&mut self, text: &str) {
+        self.raw(&format!("<title>{}</title>", escaped(text)));
+    }
+
+    /// A rectangle to which something is clipped.
+    pub(super) fn clip(&mut self, id: &str, [[x, y], [right, bottom]]: [Point; 2]) {
+        self.raw(&format!(
+            "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
+            n(x),
+            n(y),
+            n(right - x),
+            n(bottom - y)
+        ));
+    }
+
+    pub(super) fn path(&mut self, data: &str, attributes: &str) {
+        self.raw(&format!("<path d=\"{data}\" {attributes}/>"));
+    }
+
+    pub(super) fn circle(&mut self, [x, y]: Point, radius: f64, attributes: &str) {
+        self.raw(&format!("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {attributes}/>", n(x), n(y), n(radius)));
+    }
+
+    pub(super) fn line(&mut self, from: Point, to: Point, attributes: &str) {
+        let [[x1, y1], [x2, y2]] = [from, to].map(|end| end.map(n));
+        self.raw(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
+    }
+
+    /// A text whose lines of writing stand on, or round, a point.
+    pub(super) fn text(&mut self, [x, y]: Point, size: f64, anchor: Anchor, attributes: &str, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+        };
+        self.raw(&format!(
+            "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{anchor} {attributes}>{}</text>",
+            n(x),
+            n(y),
+            n(size),
+            escaped(text)
+        ));
+    }
+}
+
+/// A text within SVG: on one line, what acts in it shown, what is XML's escaped.
+pub(super) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in shown::line(text).chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// A number with two decimals at most, never -0.
+pub(super) fn n(value: f64) -> String {
+    let text = format!("{:.2}", value + 0.0);
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,122 @@
+//! Where on the page the drawing lies: mm upwards become px downwards.
+
+use crate::scene::{Point, Scene, ScenePath, Shape};
+
+/// The room for the drawing in px, legend aside.
+const ROOM: Point = [1080.0, 720.0];
+
+/// Space round the drawing in px.
+const MARGIN: f64 = 40.0;
+
+/// The least that is shown, in mm: what has no extent, such as a single hole, has to have some.
+const LEAST: f64 = 10.0;
+
+/// From the drawing's coordinates to the page's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    low: Point,
+    high: Point,
+    scale: f64,
+}
+
+/// From a path's coordinates to the page's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    frame: Frame,
+    zero: Point,
+}
+
+impl Frame {
+    /// The frame round all that belongs to paths; round other layers where there are none.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut corners: Option<[Point; 2]> = None;
+        for path in &scene.paths {
+            corners_of(path).into_iter().for_each(|extent| widen(&mut corners, extent));
+        }
+        if corners.is_none() {
+            let shapes = scene.other_layers.iter().filter_map(|other| match other {
+                crate::scene::OtherShape::Shape { shape, .. } => Some(shape.extent()),
+                crate::scene::OtherShape::Text { .. } => None,
+            });
+            shapes.for_each(|extent| widen(&mut corners, extent));
+        }
+        for at in scene.findings.iter().filter_map(|finding| finding.at) {
+            widen(&mut corners, [at, at]);
+        }
+        let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [LEAST; 2]]);
+        for axis in [0, 1] {
+            let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
+            low[axis] -= missing;
+            high[axis] += missing;
+        }
+        let scale = (ROOM[0] / (high[0] - low[0])).min(ROOM[1] / (high[1] - low[1]));
+        Self { low, high, scale }
+    }
+
+    /// Px for a mm.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        ROOM[0] + 2.0 * MARGIN
+    }
+
+    /// Where the drawing ends.
+    pub(super) fn bottom(&self) -> f64 {
+        (self.high[1] - self.low[1]) * self.scale + 2.0 * MARGIN
+    }
+
+    /// Everything but a thin margin.
+    pub(super) fn area(&self) -> [Point; 2] {
+        [[0.0, 0.0], [self.width(), self.bottom() - MARGIN / 4.0]]
+    }
+
+    pub(super) fn of_path(&self, path: &ScenePath) -> Place {
+        Place { frame: *self, zero: path.zero }
+    }
+
+    /// The drawing itself.
+    pub(super) fn of_drawing(&self) -> Place {
+        Place { frame: *self, zero: [0.0; 2] }
+    }
+}
+
+impl Place {
+    /// Px for a mm.
+    pub(super) fn scale(&self) -> f64 {
+        self.frame.scale
+    }
+
+    /// A point on the page.
+    pub(super) fn at(&self, [x, y]: Point) -> Point {
+        let Frame { low, high, scale } = self.frame;
+        let spare = (ROOM[0] - (high[0] - low[0]) * scale) / 2.0;
+        [MARGIN + spare + (x + self.zero[0] - low[0]) * scale, MARGIN + (high[1] - y - self.zero[1]) * scale]
+    }
+}
+
+/// The corners of everything of a path, in the drawing.
+fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
+    let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
+    let shapes = path.elements.iter().map(|element| element.shape.extent());
+    let moves = path.moves.iter().filter(|it| it.kind.cuts()).filter_map(super::super::scene::Move::extent);
+    let rapids = path.elements.is_empty().then_some(&path.moves).into_iter().flatten();
+    let rapids = rapids.filter_map(super::super::scene::Move::extent);
+    let circle = |centre, radius| Shape::Circle { centre, radius }.extent();
+    let texts = path.texts.iter().map(|text| circle(text.at, text.radius));
+    shapes.chain(moves).chain(rapids).chain(texts).map(moved).collect()
+}
+
+fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
+    if ![low, high].iter().flatten().all(|value| value.is_finite()) {
+        return;
+    }
+    *corners = Some(match *corners {
+        None => [low, high],
+        Some([lowest, highest]) => [
+            [lowest[0].min(low[0]), lowest[1].min(low[1])],
+            [highest[0].max(high[0]), highest[1].max(high[1])],
+        ],
+    });
+}

@@ -1,0 +1,222 @@
+//! What stands under the drawing: its name, what lines mean, the scale of depths, findings.
+
+use super::Shown;
+use super::canvas::{Anchor, Canvas, n};
+use super::frame::Frame;
+use super::palette::{BAR, Depths, ERROR, INK, PROBE, TEXT, WARNING, color};
+use super::things::SWEEP;
+use crate::scene::{Finding, MoveKind, Scene};
+use pathbuild_diagnostic::Lang;
+
+/// From one line to the next, in px.
+const LINE: f64 = 17.0;
+
+/// Letters on a line of findings.
+const LETTERS: usize = 150;
+
+/// Steps of the scale of depths.
+const STEPS: u32 = 24;
+
+/// Everything under the drawing.
+pub(super) struct Legend<'a> {
+    scene: &'a Scene,
+    depths: &'a Depths,
+    shown: &'a Shown,
+    scale: f64,
+    top: f64,
+    findings: Vec<(Option<&'a Finding>, String)>,
+}
+
+impl<'a> Legend<'a> {
+    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: &'a Shown) -> Self {
+        let findings = scene.findings.iter().flat_map(|finding| lines(finding, shown)).collect();
+        Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings }
+    }
+
+    /// Where the page ends.
+    pub(super) fn bottom(&self) -> f64 {
+        self.top + 5.0 * LINE + self.findings.len() as f64 * LINE
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas) {
+        canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
+        canvas.text([40.0, self.top + LINE], 14.0, Anchor::Start, "font-weight=\"bold\"", &self.headline());
+        canvas.text(
+            [40.0, self.top + 2.0 * LINE],
+            10.5,
+            Anchor::Start,
+            &format!("fill=\"{TEXT}\""),
+            &self.facts(),
+        );
+        self.kinds(canvas, self.top + 3.0 * LINE);
+        self.scale_bar(canvas, self.top + 3.0 * LINE);
+        self.depths(canvas, self.top + 4.0 * LINE);
+        for (row, (finding, line)) in self.findings.iter().enumerate() {
+            let y = self.top + (5.0 + row as f64) * LINE;
+            let style = match finding {
+                Some(finding) => {
+                    let color = if finding.is_error { ERROR } else { WARNING };
+                    format!("fill=\"{color}\" font-weight=\"bold\"")
+                }
+                None => String::new(),
+            };
+            canvas.text([40.0, y], 11.0, Anchor::Start, &style, line);
+        }
+        canvas.close();
+    }
+
+    fn headline(&self) -> String {
+        self.scene.title.clone()
+    }
+
+    /// Cutter, material and lengths of a single path.
+    fn facts(&self) -> String {
+        let [path] = self.scene.paths.as_slice() else { return String::new() };
+        let mut facts = Vec::new();
+        if path.file != self.scene.title {
+            facts.push(path.file.clone());
+        }
+        if let Some(tool) = path.tool {
+            facts.push(format!("O {}", mm(tool)));
+        }
+        if let Some(thickness) = path.thickness {
+            facts.push(format!("T {}", mm(thickness)));
+        }
+        if let Some(material) = &path.material {
+            facts.push(format!("M {material}"));
+        }
+        if let Some(totals) = path.totals.filter(|_| !path.moves.is_empty()) {
+            let length = |value: f64| format!("{value:.0} mm");
+            facts.push(format!("{} {}", self.shown.either("milling", "Fräsen"), length(totals.milling)));
+            facts.push(format!("{} {}", self.shown.either("drilling", "Bohren"), length(totals.drilling)));
+            facts.push(format!("{} {}", self.shown.either("rapid", "Eilgang"), length(totals.sweeps)));
+            facts.extend(totals.minutes.map(|minutes| format!("{minutes:.0} min")));
+        }
+        facts.join(" · ")
+    }
+
+    /// The kinds of lines that there are.
+    fn kinds(&self, canvas: &mut Canvas, y: f64) {
+        let moves = || self.scene.paths.iter().flat_map(|path| &path.moves);
+        let has = |kind| moves().any(|it| it.kind == kind);
+        let cut = color(0.6);
+        let all = [
+            (
+                has(MoveKind::Mill),
+                self.shown.either("milling", "Fräsen"),
+                format!("stroke=\"{cut}\" stroke-width=\"2\""),
+            ),
+            (
+                has(MoveKind::Mark),
+                self.shown.either("marking", "Markieren"),
+                format!("stroke=\"{cut}\" stroke-width=\"2\" stroke-dasharray=\"2 3\""),
+            ),
+            (
+                has(MoveKind::Sweep) && self.shown.rapids,
+                self.shown.either("rapid", "Eilgang"),
+                format!("stroke=\"{SWEEP}\" stroke-dasharray=\"6 4\""),
+            ),
+            (
+                self.scene.paths.iter().any(|path| !path.bars.is_empty()),
+                self.shown.either("support bar", "Stützsteg"),
+                format!("stroke=\"{BAR}\" stroke-width=\"4\""),
+            ),
+            (
+                self.scene.paths.iter().any(|path| !path.probes.is_empty()),
+                self.shown.either("Z-probe", "Z-Probe"),
+                format!("stroke=\"{PROBE}\" stroke-width=\"2\""),
+            ),
+            (
+                !self.scene.keep_outs.is_empty(),
+                self.shown.either("clamp", "Spannmittel"),
+                format!("stroke=\"{ERROR}\" stroke-dasharray=\"8 2 2 2\""),
+            ),
+        ];
+        let mut x = 40.0;
+        for (_, name, style) in all.into_iter().filter(|(is_there, ..)| *is_there) {
+            canvas.line([x, y - 4.0], [x + 28.0, y - 4.0], &style);
+            canvas.text([x + 34.0, y], 10.5, Anchor::Start, "", name);
+            x += 56.0 + 7.0 * name.chars().count() as f64;
+        }
+    }
+
+    /// A line of a round length.
+    fn scale_bar(&self, canvas: &mut Canvas, y: f64) {
+        let steps = [
+            0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 10_000.0, 100_000.0,
+        ];
+        let Some(length) = steps.into_iter().rev().find(|length| length * self.scale <= 200.0) else {
+            return;
+        };
+        let (left, right) = (1100.0 - length * self.scale, 1100.0);
+        canvas.path(
+            &format!("M{l} {t}V{b}H{r}V{t}", l = n(left), r = n(right), t = n(y - 9.0), b = n(y - 4.0)),
+            &format!("fill=\"none\" stroke=\"{INK}\""),
+        );
+        canvas.text([right + 6.0, y], 10.5, Anchor::Start, "", &format!("{} mm", mm(length)));
+    }
+
+    /// The colours of depths.
+    fn depths(&self, canvas: &mut Canvas, y: f64) {
+        let Some((high, low)) = self.depths.range else { return };
+        let label = |z: f64| format!("Z {}", mm(z));
+        if high <= low {
+            canvas.circle([50.0, y - 4.0], 6.0, &format!("fill=\"{}\"", self.depths.color(Some(low))));
+            return canvas.text([62.0, y], 10.5, Anchor::Start, "", &label(low));
+        }
+        let high_label = label(high);
+        canvas.text([40.0, y], 10.5, Anchor::Start, "", &high_label);
+        let mut x = 48.0 + 7.0 * high_label.chars().count() as f64;
+        for step in 0..STEPS {
+            let color = color(f64::from(step) / f64::from(STEPS - 1));
+            canvas.raw(&format!(
+                "<rect x=\"{}\" y=\"{}\" width=\"8.5\" height=\"10\" fill=\"{color}\"/>",
+                n(x),
+                n(y - 9.0)
+            ));
+            x += 8.0;
+        }
+        canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
+    }
+}
+
+/// A length with three decimals at most.
+pub(super) fn mm(value: f64) -> String {
+    let text = format!("{:.3}", value + 0.0);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A finding in lines, the first with its number.
+fn lines<'a>(finding: &'a Finding, shown: &Shown) -> Vec<(Option<&'a Finding>, String)> {
+    let pick = |said: &'a crate::scene::Said| match shown.lang {
+        Lang::En => said.en.as_str(),
+        Lang::De => said.de.as_str(),
+    };
+    let mut lines = Vec::new();
+    let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));
+    for (row, line) in wrapped(&first).into_iter().enumerate() {
+        lines.push(((row == 0).then_some(finding), line));
+    }
+    let help = pick(&finding.help);
+    if !help.is_empty() {
+        lines.extend(wrapped(help).into_iter().map(|line| (None, format!("    {line}"))));
+    }
+    lines
+}
+
+/// A text broken at blanks.
+fn wrapped(text: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("there is a line always");
+        if !last.is_empty() && last.chars().count() + 1 + word.chars().count() > LETTERS {
+            lines.push(word.to_owned());
+        } else {
+            if !last.is_empty() {
+                last.push(' ');
+            }
+            last.push_str(word);
+        }
+    }
+    lines
+}

@@ -1,0 +1,67 @@
+//! Scenes as SVG: the same bytes for the same scene, light for print, in colours that the colour-blind tell apart.
+
+mod canvas;
+mod frame;
+mod legend;
+mod marks;
+mod moves;
+mod palette;
+mod things;
+
+use pathbuild_diagnostic::Lang;
+
+use crate::scene::Scene;
+use canvas::Canvas;
+use frame::Frame;
+use palette::Depths;
+
+/// What is shown of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a layer of its own")]
+pub struct Shown {
+    /// Language of legend and findings.
+    pub lang: Lang,
+    /// Rapid moves.
+    pub rapids: bool,
+    /// Numbers of order.
+    pub order: bool,
+    /// Arrows.
+    pub arrows: bool,
+    /// Parameter texts.
+    pub texts: bool,
+}
+
+impl Shown {
+    /// Everything.
+    pub fn all(lang: Lang) -> Self {
+        Self { lang, rapids: true, order: true, arrows: true, texts: true }
+    }
+
+    fn either(&self, en: &'static str, de: &'static str) -> &'static str {
+        match self.lang {
+            Lang::En => en,
+            Lang::De => de,
+        }
+    }
+}
+
+/// Draws a scene.
+pub fn svg(scene: &Scene, shown: &Shown) -> String {
+    let frame = Frame::of(scene);
+    let depths = Depths::of(scene);
+    let legend = legend::Legend::new(scene, &frame, &depths, shown);
+    let mut canvas = Canvas::new(frame.width(), legend.bottom());
+    canvas.title(&scene.title);
+    canvas.open(r##"id="drawing" clip-path="url(#frame)""##);
+    canvas.clip("frame", frame.area());
+    things::under(&mut canvas, scene, &frame);
+    for path in &scene.paths {
+        let place = frame.of_path(path);
+        moves::draw(&mut canvas, path, &place, &depths, shown);
+        things::over(&mut canvas, path, &place, shown);
+    }
+    marks::findings(&mut canvas, scene, &frame);
+    canvas.close();
+    legend.draw(&mut canvas);
+    canvas.finish()
+}

@@ -1,0 +1,181 @@
+//! What the tool does.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use pathbuild_gcode::interpret::Path;
+
+use super::Shown;
+use super::canvas::{Canvas, n};
+use super::frame::Place;
+use super::palette::{Depths, KERF, RAPID};
+use crate::scene::{Move, MoveKind, Point, ScenePath};
+
+/// Arrows stand on moves of so many px at least.
+const ROOM_FOR_ARROW: f64 = 26.0;
+
+/// Pieces into which an arc of another plane is flattened.
+const PIECES: u32 = 24;
+
+/// Draws the moves of a path. Of several moves along the same line only the deepest is seen.
+pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths: &Depths, shown: &Shown) {
+    let cuts = deepest(path);
+    canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+    if let Some(tool) = path.tool {
+        let width = n((tool * place.scale()).max(0.5));
+        for it in cuts.iter().filter(|it| it.kind != MoveKind::Plunge) {
+            canvas.path(&data(it, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
+        }
+    }
+    canvas.close();
+    if shown.rapids {
+        rapids(canvas, path, place, shown);
+    }
+    canvas.open("id=\"cuts\" fill=\"none\" stroke-width=\"1.8\" stroke-linecap=\"round\"");
+    for it in &cuts {
+        cut(canvas, it, path, place, depths);
+    }
+    canvas.close();
+    if shown.arrows {
+        canvas.open("id=\"arrows\"");
+        for it in &cuts {
+            let color = depths.color(it.depth());
+            arrow(canvas, it, place, &color);
+        }
+        canvas.close();
+    }
+}
+
+fn cut(canvas: &mut Canvas, it: &Move, path: &ScenePath, place: &Place, depths: &Depths) {
+    let color = depths.color(it.depth());
+    if it.kind == MoveKind::Plunge {
+        let radius = match path.tool {
+            Some(tool) if is_hole(it, path) => (tool / 2.0 * place.scale()).max(2.0),
+            _ => 1.8,
+        };
+        return canvas.circle(place.at(it.to()), radius, &format!("fill=\"{color}\" fill-opacity=\"0.8\""));
+    }
+    let dashes = if it.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
+    canvas.path(&data(it, place), &format!("stroke=\"{color}\"{dashes}"));
+}
+
+/// Whether a plunge is the whole of its element; without elements it looks like one.
+fn is_hole(it: &Move, path: &ScenePath) -> bool {
+    it.element.is_none_or(|element| {
+        matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
+    })
+}
+
+/// The cutting moves, of several along the same line the deepest, in the order of the first of them. It keeps the first one's direction.
+fn deepest(path: &ScenePath) -> Vec<&Move> {
+    let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
+    let mut cuts: Vec<&Move> = Vec::new();
+    for it in path.moves.iter().filter(|it| it.kind.cuts() && it.is_placed()) {
+        match places.entry(line_of(it)) {
+            std::collections::btree_map::Entry::Vacant(entry) => {
+                entry.insert(cuts.len());
+                cuts.push(it);
+            }
+            std::collections::btree_map::Entry::Occupied(entry) => {
+                let known = &mut cuts[*entry.get()];
+                if it.depth() < known.depth() && (it.from() == known.from() || it.kind == MoveKind::Plunge) {
+                    *known = it;
+                }
+            }
+        }
+    }
+    cuts
+}
+
+/// What moves along the same line have in common: ends in either order, and the centre.
+fn line_of(it: &Move) -> Vec<i64> {
+    let mut ends = [it.from(), it.to()].map(|end| end.map(micrometres));
+    ends.sort_unstable();
+    let mut line: Vec<i64> = ends.concat();
+    if let Path::Arc(arc) = it.way.path {
+        line.extend(arc.centre.map(micrometres));
+        let goes_up = it.from().map(micrometres) == ends[0];
+        line.push(i64::from(arc.clockwise == goes_up));
+    }
+    line
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "saturates")]
+fn micrometres(value: f64) -> i64 {
+    (value * 1000.0).round() as i64
+}
+
+fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: &Shown) {
+    let style = format!(
+        "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
+    );
+    canvas.open(&style);
+    let sweeps = || path.moves.iter().filter(|it| it.kind == MoveKind::Sweep && it.is_placed());
+    for it in sweeps() {
+        canvas.path(&data(it, place), "");
+    }
+    canvas.close();
+    if shown.arrows {
+        canvas.open("id=\"rapid-arrows\"");
+        for it in sweeps() {
+            arrow(canvas, it, place, RAPID);
+        }
+        canvas.close();
+    }
+}
+
+/// A small triangle in the middle of a move, in its direction.
+fn arrow(canvas: &mut Canvas, it: &Move, place: &Place, color: &str) {
+    let (before, at) = (place.at(along(it, 0.59)), place.at(along(it, 0.61)));
+    let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
+    let length = libm::hypot(dx, dy);
+    if length * 50.0 < ROOM_FOR_ARROW {
+        return;
+    }
+    let [dx, dy] = [dx / length, dy / length];
+    let tip = [at[0] + dx * 4.0, at[1] + dy * 4.0];
+    let foot = [at[0] - dx * 4.0, at[1] - dy * 4.0];
+    let (left, right) = ([foot[0] - dy * 3.4, foot[1] + dx * 3.4], [foot[0] + dy * 3.4, foot[1] - dx * 3.4]);
+    let [tip, left, right] = [tip, left, right].map(|[x, y]| format!("{} {}", n(x), n(y)));
+    canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
+}
+
+/// The point after that share (0 to 1) of a move.
+pub(super) fn along(it: &Move, share: f64) -> Point {
+    match it.way.path {
+        Path::Line => [0, 1].map(|axis| it.from()[axis] + (it.to()[axis] - it.from()[axis]) * share),
+        Path::Arc(arc) => {
+            let [x, y, _] = arc.point(&it.way.from, &it.way.to, share);
+            [x, y]
+        }
+    }
+}
+
+/// A move as path data: arcs of the plane stay arcs.
+fn data(it: &Move, place: &Place) -> String {
+    let point = |at: Point| {
+        let [x, y] = place.at(at);
+        format!("{} {}", n(x), n(y))
+    };
+    let mut data = format!("M{}", point(it.from()));
+    match it.way.path {
+        Path::Line => _ = write!(data, "L{}", point(it.to())),
+        Path::Arc(arc) if arc.plane.axes() == [0, 1] => {
+            // Two halves: a full circle has no end of its own, and its halves are never more than half a turn each.
+            let turns = arc.extra_turns + 1;
+            let radius = n(arc.radius(&it.way.from) * place.scale());
+            let sweep = i32::from(arc.clockwise);
+            let halves = if turns > 1 { 2 * turns } else { 2 };
+            for half in 1..=halves {
+                let to = point(along(it, f64::from(half) / f64::from(halves)));
+                _ = write!(data, "A{radius} {radius} 0 0 {sweep} {to}");
+            }
+        }
+        Path::Arc(_) => {
+            for piece in 1..=PIECES {
+                _ = write!(data, "L{}", point(along(it, f64::from(piece) / f64::from(PIECES))));
+            }
+        }
+    }
+    data
+}

@@ -1,0 +1,223 @@
+//! What is drawn, under and over the moves.
+
+use super::Shown;
+use super::canvas::{Anchor, Canvas, n};
+use super::frame::{Frame, Place};
+use super::marks;
+use super::palette::{BAR, ERROR, INK, OTHER, PROBE, RAPID, TEXT};
+use crate::scene::{Arc, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
+
+/// The path's own texts have so many px at least.
+const LEAST: f64 = 7.5;
+
+/// Texts of fewer px are not read.
+const READABLE: f64 = 4.5;
+
+/// Other layers and clamps.
+pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame) {
+    let place = frame.of_drawing();
+    canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
+    for other in &scene.other_layers {
+        match other {
+            OtherShape::Shape { shape: it, .. } => canvas.path(&shape(it, &place), ""),
+            OtherShape::Text { text, at, height, rotation, .. } => {
+                other_text(canvas, &place, text, *at, *height, *rotation);
+            }
+        }
+    }
+    canvas.close();
+    canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
+    for keep_out in &scene.keep_outs {
+        for it in &keep_out.outline {
+            canvas.path(&shape(it, &place), "stroke-dasharray=\"8 2 2 2\"");
+        }
+        if let Some(it) = keep_out.outline.first() {
+            let label = format!("Z{}", keep_out.height);
+            canvas.text(
+                place.at(it.start()),
+                10.0,
+                Anchor::Start,
+                &format!("stroke=\"none\" fill=\"{ERROR}\""),
+                &label,
+            );
+        }
+    }
+    canvas.close();
+}
+
+fn other_text(canvas: &mut Canvas, place: &Place, text: &str, at: Point, height: f64, rotation: f64) {
+    let size = height * place.scale();
+    if size < READABLE {
+        return;
+    }
+    let [x, y] = place.at(at);
+    let turn = if rotation == 0.0 {
+        String::new()
+    } else {
+        format!(" transform=\"rotate({} {} {})\"", n(-rotation), n(x), n(y))
+    };
+    let style = format!("stroke=\"none\" fill=\"{OTHER}\" dominant-baseline=\"central\"{turn}");
+    canvas.text([x, y], size, Anchor::Middle, &style, text);
+}
+
+/// Elements, texts, bars, probes, markers.
+pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: &Shown) {
+    elements(canvas, path, place);
+    canvas.open(&format!(
+        "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
+    ));
+    for bar in &path.bars {
+        canvas.path(&shape(&bar.shape, place), "");
+    }
+    canvas.close();
+    if shown.texts {
+        texts(canvas, path, place);
+    }
+    embedded(canvas, path, place);
+    probes(canvas, path, place);
+    if shown.order {
+        marks::order(canvas, path, place);
+    }
+    marks::ends(canvas, path, place, shown);
+}
+
+/// What is drawn and is no move: with a program what embeds and what is skipped, without one everything.
+fn elements(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+    canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
+    for element in &path.elements {
+        let style = match element.kind {
+            ElementKind::Subpath => "stroke=\"#7b8a97\" stroke-width=\"1\" stroke-dasharray=\"9 3 2 3\"",
+            ElementKind::SkippedSubpath => "stroke=\"#b8bfc6\" stroke-width=\"1\" stroke-dasharray=\"1 4\"",
+            ElementKind::Turn => "stroke=\"#14202b\" stroke-width=\"0.8\"",
+            ElementKind::Probe if path.probes.is_empty() => "stroke=\"#009e73\"",
+            ElementKind::Mill | ElementKind::Mark | ElementKind::Support | ElementKind::Sweep
+                if path.moves.is_empty() =>
+            {
+                style_without_program(element)
+            }
+            _ => continue,
+        };
+        canvas.path(&shape(&element.shape, place), style);
+    }
+    canvas.close();
+}
+
+fn style_without_program(element: &Element) -> &'static str {
+    match element.kind {
+        ElementKind::Mark => "stroke=\"#1868ac\" stroke-dasharray=\"2 3\"",
+        ElementKind::Support => "stroke=\"#1868ac\" stroke-dasharray=\"12 3 3 3\"",
+        ElementKind::Sweep => "stroke=\"#e69f00\" stroke-dasharray=\"6 4\"",
+        _ => "stroke=\"#1868ac\"",
+    }
+}
+
+fn texts(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+    canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
+    for label in &path.texts {
+        let lines: Vec<&str> = label.text.lines().collect();
+        let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
+        // The circle's radius is half the diagonal of the text.
+        let (rows, letters) = (lines.len().max(1) as f64, 0.6 * longest as f64);
+        let height = 2.0 * label.radius / libm::hypot(rows, letters);
+        let size = (height * place.scale()).min(14.0);
+        // The path's own texts are what somebody wrote for it; those of embedded paths are there as far as they can be read.
+        let size = if label.path == 0 { size.max(LEAST) } else { size };
+        if size < READABLE {
+            continue;
+        }
+        let at = place.at(label.at);
+        for element in &label.elements {
+            let to = place.at(nearest(&path.elements[*element as usize].shape, label.at));
+            canvas.line(at, to, &format!("stroke=\"{TEXT}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""));
+        }
+        for (row, line) in lines.iter().enumerate() {
+            let down = (row as f64 - (rows - 1.0) / 2.0 + 0.35) * size;
+            let halo = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
+            canvas.text([at[0], at[1] + down], size, Anchor::Middle, halo, line);
+        }
+    }
+    canvas.close();
+}
+
+/// The point of a shape next to another point.
+fn nearest(shape: &Shape, at: Point) -> Point {
+    let onto_circle = |centre: Point, radius: f64| {
+        let out = [at[0] - centre[0], at[1] - centre[1]];
+        let distance = libm::hypot(out[0], out[1]);
+        if distance == 0.0 { centre } else { [0, 1].map(|axis| centre[axis] + out[axis] / distance * radius) }
+    };
+    match shape {
+        Shape::Line { from, to } => {
+            let way = [to[0] - from[0], to[1] - from[1]];
+            let square = way[0] * way[0] + way[1] * way[1];
+            let foot = (at[0] - from[0]) * way[0] + (at[1] - from[1]) * way[1];
+            let share = if square == 0.0 { 0.0 } else { (foot / square).clamp(0.0, 1.0) };
+            [0, 1].map(|axis| from[axis] + way[axis] * share)
+        }
+        Shape::Circle { centre, radius } => onto_circle(*centre, *radius),
+        Shape::Arc(arc) => onto_circle(arc.centre, arc.radius),
+    }
+}
+
+/// The names of embedded paths where they start.
+fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+    canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
+    for inner in path.embedded.iter().skip(1) {
+        let [x, y] = place.at(inner.ends[0]);
+        canvas.text([x + 6.0, y - 6.0], 9.0, Anchor::Start, "", &inner.name);
+    }
+    canvas.close();
+}
+
+fn probes(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+    canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
+    for probe in &path.probes {
+        let at = place.at(probe.at);
+        let size = (3.0 * place.scale()).clamp(5.0, 16.0);
+        canvas.circle(at, size, "stroke-width=\"1.4\"");
+        canvas.line([at[0] - size, at[1]], [at[0] + size, at[1]], "stroke-width=\"0.8\"");
+        canvas.line([at[0], at[1] - size], [at[0], at[1] + size], "stroke-width=\"0.8\"");
+        let label = probe.label.as_deref().map(|label| format!(" {label}")).unwrap_or_default();
+        let style = format!("stroke=\"none\" fill=\"{PROBE}\"");
+        canvas.text(
+            [at[0] + size + 2.0, at[1] - 3.0],
+            9.0,
+            Anchor::Start,
+            &style,
+            &format!("#{}{label}", probe.number),
+        );
+    }
+    canvas.close();
+}
+
+/// A shape as path data.
+pub(super) fn shape(shape: &Shape, place: &Place) -> String {
+    let point = |at: Point| {
+        let [x, y] = place.at(at);
+        format!("{} {}", n(x), n(y))
+    };
+    let halves = |arc: &Arc| {
+        let radius = n(arc.radius * place.scale());
+        let sweep = i32::from(arc.clockwise);
+        let half = |share| format!("A{radius} {radius} 0 0 {sweep} {}", point(arc.point(share)));
+        format!("M{}{}{}", point(arc.from), half(0.5), half(1.0))
+    };
+    match shape {
+        Shape::Line { from, to } => format!("M{}L{}", point(*from), point(*to)),
+        Shape::Arc(arc) => halves(arc),
+        Shape::Circle { centre, radius } => {
+            let right = [centre[0] + radius, centre[1]];
+            halves(&Arc {
+                from: right,
+                to: right,
+                centre: *centre,
+                radius: *radius,
+                clockwise: false,
+                degrees: 360.0,
+            })
+        }
+    }
+}
+
+/// What sweeps are drawn in, for the legend.
+pub(super) const SWEEP: &str = RAPID;

@@ -1,0 +1,100 @@
+//! What there is to see of paths, made by the same queries as their programs.
+
+use std::slice;
+
+use pathbuild_db::{
+    Db, DrawnPath, Role, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index,
+    other_layers, traced_program,
+};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_path::PathName;
+use pathbuild_toolpath::Correction;
+use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
+
+use super::Session;
+use crate::emit::write_options;
+
+/// A scene, and what is wrong with what it shows.
+#[derive(Debug)]
+pub struct Seen {
+    /// What there is to see. Its findings are still to be filled in by who judges them.
+    pub scene: Scene,
+    /// What is wrong, located.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Session<'_> {
+    /// What there is to see of some paths of a drawing. Where options are missing, and of paths with variables, the program is that of a
+    /// check: with example values, and S as if it were embedded.
+    pub fn scene(&self, file: SourceFile, names: &[PathName]) -> Seen {
+        let name = file.path(&self.db).as_str();
+        let title = match names {
+            [path] => path.as_str(),
+            _ => file.path(&self.db).file_name().unwrap_or(name),
+        };
+        let mut scene = Scene::new(title);
+        let mut diagnostics = check_file(&self.db, file).to_vec();
+        for path in names {
+            let (seen, found) = self.scene_path(file, path);
+            scene.paths.extend(seen);
+            diagnostics.extend(found);
+        }
+        scene.other_layers = view::other_layers(&other_layers(&self.db, file));
+        Seen { scene, diagnostics }
+    }
+
+    fn scene_path(&self, file: SourceFile, name: &PathName) -> (Option<ScenePath>, Vec<Diagnostic>) {
+        let checked = self.checked_to_see(file, name);
+        let options = &write_options(self.context);
+        let work = |db: &pathbuild_db::Database, target: &Target| {
+            let traced = traced_program(db, *target);
+            traced.as_deref().and_then(|traced| program_scene(db, traced, options))
+        };
+        let mut diagnostics = checked.diagnostics;
+        let made = self.guarded(slice::from_ref(&checked.target), work).pop();
+        match made {
+            Some(Ok(Some(scene))) => return (Some(scene), diagnostics),
+            Some(Err(problem)) => {
+                diagnostics.push(problem.in_file(file.path(&self.db)).in_path(name.as_str()));
+            }
+            Some(Ok(None)) | None => {}
+        }
+        let drawn = drawn_path(&self.db, file, name);
+        (drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn))), diagnostics)
+    }
+
+    /// A path as it is emitted, or where that asks for more than is known, as it is checked.
+    fn checked_to_see(&self, file: SourceFile, name: &PathName) -> super::CheckedTarget {
+        let index = file_index(&self.db, file).path(name);
+        let has_variables = index.is_some_and(|path| !path.header.definitions.is_empty());
+        let target = |role| [self.target_in(file, name, role)];
+        if !has_variables {
+            let emitted = self.check(&target(Role::Emitted)).pop();
+            if let Some(emitted) = emitted.filter(|emitted| emitted.missing_options.is_empty()) {
+                return emitted;
+            }
+        }
+        self.check(&target(Role::Checked)).pop().expect("one for each target")
+    }
+}
+
+/// A program with where it comes from; `None` where a drawing changed meanwhile.
+fn program_scene(db: &dyn Db, traced: &Traced, options: &WriteOptions) -> Option<ScenePath> {
+    let Traced { program, trace, parts } = traced;
+    let sources = parts.iter().map(|part| {
+        let drawn = drawn_path(db, part.file, &part.path.name)?;
+        Some((drawn_source(db, part.file, drawn), &part.path))
+    });
+    let sources: Vec<_> = sources.collect::<Option<_>>()?;
+    // Each line is to be one move.
+    let correction = Correction { longest: 0.0, ..options.correction };
+    let text = native::program(program, &Header::default(), &WriteOptions { correction, ..*options });
+    let rapid = (options.rapid > 0.0).then_some(options.rapid);
+    Some(view::program_path(&ProgramSource { program, trace, parts: &sources, text: &text, rapid }))
+}
+
+fn drawn_source<'db>(db: &'db dyn Db, file: SourceFile, drawn: DrawnPath<'db>) -> DrawnSource<'db> {
+    let DrawnPath { raw, positions } = drawn;
+    DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file) }
+}

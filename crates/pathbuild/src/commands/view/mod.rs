@@ -1,0 +1,32 @@
+//! `pathbuild view`: a path, a drawing or a program to look at. (docs: "Pictures")
+
+mod output;
+mod target;
+
+use crate::args::ViewArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+use output::Output;
+use target::Failure;
+
+/// Runs the command. What has errors is shown with them.
+pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
+    let output = match Output::of(args.output.as_deref()) {
+        Ok(output) => output,
+        Err(reason) => return context.usage(&reason),
+    };
+    let seen = match target::seen(context, args) {
+        Ok(seen) => seen,
+        Err(Failure::Usage(reason)) => return context.usage(&reason),
+        Err(Failure::Found(problems)) => return context.fail(problems),
+    };
+    let target::Seen { mut scene, file, diagnostics } = seen;
+    let findings = context.findings(diagnostics);
+    scene.findings = pathbuild_view::findings(&findings.diagnostics, &file);
+    context.show(&findings);
+    if let Err(problem) = output.deliver(context, &scene) {
+        return context.fail(vec![*problem]);
+    }
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}

@@ -1,0 +1,277 @@
+//! `view`: scenes, and pictures of them. (docs: "Pictures")
+
+use std::fs;
+use std::path::Path;
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Heights, Options, interpret};
+use pathbuild_gcode::summary::Summary;
+use pathbuild_testkit::sheet;
+use rayon::prelude::*;
+use serde_json::Value;
+
+use crate::conformance::recorded::{self, Form, What};
+use crate::support::{self, Place, Run};
+
+/// What statistics say has three decimals at most in a program's text; here nothing is rounded.
+const EXACT: f64 = 1e-4;
+
+fn scene(run: &Run) -> Value {
+    assert!(run.stderr.contains(".json: written"), "{run}");
+    serde_json::from_str(&fs::read_to_string(run.arguments.rsplit(' ').next().unwrap()).unwrap()).unwrap()
+}
+
+#[test]
+fn scenes_add_up_to_the_statistics() {
+    let fixtures = support::project().join("fixtures/conformance");
+    let mut folders = ["cases", "turns"].map(|name| fixtures.join(name)).to_vec();
+    folders.extend(support::shared("conformance/foreign"));
+    let runs = recorded::runs(&folders);
+    let emits = |arguments: &[String]| arguments.first().is_some_and(|command| command == "emit");
+    let compiles = |run: &&recorded::Run| matches!(&run.what, What::Compile(arguments) if emits(arguments));
+    let mut seen = Vec::new();
+    let runs: Vec<&recorded::Run> = runs
+        .iter()
+        .filter(|run| run.form == Form::Recorded)
+        .filter(compiles)
+        .filter(|run| {
+            let What::Compile(arguments) = &run.what else { return false };
+            let key = (run.case.clone(), arguments.clone());
+            let is_new = !seen.contains(&key);
+            seen.push(key);
+            is_new
+        })
+        .collect();
+    let paths: usize = runs.par_iter().map(|run| adds_up(&run.case, &run.what)).sum();
+    assert!(paths > 150, "{paths} paths with programs only");
+}
+
+/// Views what a recorded run emits; gives how many programs there were to see.
+fn adds_up(case: &Path, what: &What) -> usize {
+    let What::Compile(arguments) = what else { return 0 };
+    let output = tempfile::tempdir().unwrap();
+    let is_input = |argument: &&String| !argument.starts_with('-');
+    let rest: Vec<&String> = arguments[1..].iter().collect();
+    let inputs: Vec<&&String> =
+        rest.iter().filter(|argument| is_input(argument) && has_drawing(case, argument)).collect();
+    let options: Vec<&String> =
+        rest.iter().copied().filter(|argument| !inputs.iter().any(|input| **input == *argument)).collect();
+    let mut programs = 0;
+    for (number, input) in inputs.iter().enumerate() {
+        let file = output.path().join(format!("{number}.json"));
+        let mut line =
+            vec!["view".to_owned(), (**input).clone(), "-o".to_owned(), file.to_str().unwrap().to_owned()];
+        line.extend(options.iter().filter(|option| !is_of_emit(option)).map(|option| (*option).clone()));
+        let ran = support::program().args(&line).current_dir(case).output().unwrap();
+        let Ok(text) = fs::read_to_string(&file) else {
+            // What cannot be shown has said why.
+            assert!(!ran.stderr.is_empty(), "{}: {line:?}", case.display());
+            continue;
+        };
+        let scene: Value = serde_json::from_str(&text).unwrap();
+        for path in scene["paths"].as_array().unwrap() {
+            programs += usize::from(agrees(path, &format!("{} {line:?}", case.display())));
+        }
+    }
+    programs
+}
+
+fn has_drawing(case: &Path, argument: &str) -> bool {
+    case.join(argument).exists() || case.join(format!("{argument}.dxf")).exists()
+}
+
+fn is_of_emit(option: &str) -> bool {
+    option.starts_with("--out-dir") || option == "--force"
+}
+
+/// Whether a path has a program; its moves must have the lengths of its statistics, and the box of its G-code.
+fn agrees(path: &Value, name: &str) -> bool {
+    let moves = path["moves"].as_array().unwrap();
+    if moves.is_empty() {
+        return false;
+    }
+    let sum = |kinds: &[&str], length: &dyn Fn(&Value) -> f64| -> f64 {
+        moves.iter().filter(|it| kinds.contains(&it["kind"].as_str().unwrap())).map(length).sum()
+    };
+    let totals = &path["totals"];
+    let total = |name: &str| totals[name].as_f64().unwrap();
+    // What is drawn is as long as what is counted: arcs along the plane, as the statistics have it.
+    let milled = sum(&["mill", "mark"], &|it| in_plane(it));
+    let drilled = sum(&["plunge"], &|it| (number(it, "from", 2) - number(it, "to", 2)).abs());
+    near(milled, total("milling"), name, "milling");
+    near(drilled, total("drilling"), name, "drilling");
+    near(sum(&["sweep", "lift"], &|it| it["length"].as_f64().unwrap()), total("sweeps"), name, "sweeps");
+    boxes_agree(path, moves, name);
+    true
+}
+
+fn near(found: f64, expected: f64, name: &str, what: &str) {
+    let slack = EXACT * (1.0 + expected.abs() / 100.0);
+    assert!((found - expected).abs() <= slack, "{name}: {what} {found}, not {expected}");
+}
+
+fn number(it: &Value, end: &str, axis: usize) -> f64 {
+    it[end][axis].as_f64().unwrap()
+}
+
+fn in_plane(it: &Value) -> f64 {
+    let away = |from: [f64; 2]| (number(it, "from", 0) - from[0]).hypot(number(it, "from", 1) - from[1]);
+    match it["arc"].as_object() {
+        None => away([number(it, "to", 0), number(it, "to", 1)]),
+        Some(arc) => {
+            let centre = [0, 1].map(|axis| arc["centre"][axis].as_f64().unwrap());
+            away(centre) * arc["degrees"].as_f64().unwrap().to_radians()
+        }
+    }
+}
+
+/// The box of a path's moves is that of its G-code, to the digits that it is written with.
+fn boxes_agree(path: &Value, moves: &[Value], name: &str) {
+    let text = path["gcode"].as_str().unwrap();
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let read = interpret(text.as_bytes(), Dialect::Native, &options);
+    let of_text = Summary::of(&read.steps, false).cut;
+    let is_cut = |it: &&Value| ["mill", "mark", "plunge"].contains(&it["kind"].as_str().unwrap());
+    for axis in 0..3 {
+        let ends = moves.iter().filter(is_cut).flat_map(|it| ["from", "to"].map(|end| number(it, end, axis)));
+        let (low, high) =
+            ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let Some((expected_low, expected_high)) = of_text[axis] else { continue };
+        // Of arcs the ends alone are looked at here: they stay within the box.
+        assert!(low >= expected_low - 0.001 && high <= expected_high + 0.001, "{name}: axis {axis}");
+    }
+    let lines = text.lines().count() as u64;
+    for it in moves {
+        let line = it["line"].as_u64().unwrap_or_else(|| panic!("{name}: a move without a line"));
+        let text = text.lines().nth(usize::try_from(line - 1).unwrap()).unwrap();
+        assert!(line <= lines && text.starts_with('G'), "{name}: line {line} is {text:?}");
+    }
+}
+
+fn library() -> Place {
+    let place = Place::new();
+    let library = support::project().join("fixtures/library");
+    for folder in ["components", "projects", "mistakes"] {
+        for entry in fs::read_dir(library.join(folder)).unwrap() {
+            let file = entry.unwrap().path();
+            if file.extension().is_some_and(|extension| extension == "dxf") {
+                let name = format!("{folder}/{}", file.file_name().unwrap().to_str().unwrap());
+                fs::create_dir_all(place.path().join(folder)).unwrap();
+                fs::copy(&file, place.path().join(name)).unwrap();
+            }
+        }
+    }
+    fs::copy(library.join("pathbuild.toml"), place.path().join("pathbuild.toml")).unwrap();
+    place
+}
+
+#[test]
+fn a_project_shows_what_it_embeds_and_where_moves_come_from() {
+    let place = library();
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let scene = scene(&place.run_with(&["view", "8001.1P", "-o", &file]));
+    assert_eq!((scene["schema"].as_str(), scene["version"].as_u64()), (Some("pathbuild-scene"), Some(1)));
+    let path = &scene["paths"][0];
+    let names: Vec<&str> =
+        path["embedded"].as_array().unwrap().iter().map(|it| it["name"].as_str().unwrap()).collect();
+    assert_eq!(names[..3], ["8001.1P", "2050.1P", "2050.2P"]);
+    let elements = path["elements"].as_array().unwrap();
+    for it in path["moves"].as_array().unwrap().iter().filter(|it| it["kind"] == "mill") {
+        let element = &elements[usize::try_from(it["element"].as_u64().unwrap()).unwrap()];
+        assert!(["mill", "support", "mark"].contains(&element["kind"].as_str().unwrap()), "{it}: {element}");
+        assert_ne!(element["path"], 0, "everything is milled by embedded paths");
+    }
+    let bars = path["bars"].as_array().unwrap();
+    assert!(
+        bars.iter()
+            .all(|bar| elements[usize::try_from(bar["element"].as_u64().unwrap()).unwrap()]["kind"]
+                == "support")
+    );
+    assert!(!bars.is_empty() && !scene["other_layers"].as_array().unwrap().is_empty());
+    let owners = |text: &Value| text["elements"].as_array().unwrap().len();
+    assert!(path["texts"].as_array().unwrap().iter().all(|text| owners(text) > 0));
+}
+
+#[test]
+fn findings_have_their_places() {
+    let place = library();
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let run = place.run_with(&["view", "mistakes/3001.1P.dxf", "-o", &file]);
+    assert_eq!(run.status, Some(1), "{run}");
+    let scene = scene(&run);
+    let finding = &scene["findings"][0];
+    assert_eq!((finding["number"].as_u64(), finding["code"].as_str()), (Some(1), Some("PB401")));
+    assert_eq!(finding["at"], serde_json::json!([20.0, 0.0]));
+    assert!(scene["paths"][0]["moves"].as_array().unwrap().is_empty());
+    assert_eq!(scene["paths"][0]["elements"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn a_program_is_seen_without_elements() {
+    let place =
+        Place::new().file("a.nc", "G21 G90 G17\nG0 Z5\nG0 X0 Y0\nG1 F100 Z-1\nG2 F200 X10 Y0 I5 J0\nM30\n");
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let scene = scene(&place.run_with(&["view", "a.nc", "-o", &file]));
+    let path = &scene["paths"][0];
+    assert!(path["elements"].as_array().unwrap().is_empty());
+    let arc = path["moves"].as_array().unwrap().iter().find(|it| it["arc"].is_object()).unwrap();
+    assert_eq!((arc["arc"]["degrees"].as_f64(), arc["line"].as_u64()), (Some(180.0), Some(5)));
+    assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
+}
+
+#[test]
+fn pictures_are_the_same_bytes_on_every_run() {
+    let place = library();
+    for file in ["a.svg", "b.svg"] {
+        let run = place.run(&format!("view 8001.1P -o {file}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    let picture = place.read("a.svg");
+    assert_eq!(picture, place.read("b.svg"));
+    assert!(place.run("view 8001.1P -o a.svg").stderr.contains("unchanged"));
+    for part in ["id=\"kerf\"", "id=\"rapids\"", "id=\"bars\"", "2052.1P", "start X0 Y0", "20 mm"] {
+        assert!(picture.contains(part), "{part}");
+    }
+    assert!(place.run("view 8001.1P -o a.svg --lang de").stderr.contains("geschrieben"));
+    assert!(place.read("a.svg").contains("Stützsteg"));
+}
+
+/// A name from a drawing is never markup.
+#[test]
+fn hostile_names_are_escaped() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0 \"Q<script>&\"\nend 40,0";
+    let place = Place::new().file("a.dxf", sheet(drawn).unwrap().to_dxf());
+    let run = place.run("view a.dxf -o a.svg");
+    let picture = place.read("a.svg");
+    let document = roxmltree::Document::parse(&picture).unwrap_or_else(|error| panic!("{error}: {run}"));
+    assert!(!document.descendants().any(|node| node.has_tag_name("script")), "{picture}");
+    assert!(picture.contains("&lt;script&gt;"), "{picture}");
+}
+
+#[cfg(feature = "pictures")]
+#[test]
+fn png_and_pdf_have_their_sizes() {
+    let place = library();
+    for file in ["a.png", "a.pdf"] {
+        let run = place.run(&format!("view 2050.1P -o {file}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    let png = fs::read(place.path().join("a.png")).unwrap();
+    assert_eq!(&png[1..4], b"PNG");
+    let size = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+    assert_eq!(size(16), 2320);
+    assert!(fs::read(place.path().join("a.pdf")).unwrap().starts_with(b"%PDF"));
+}
+
+#[test]
+fn what_cannot_be_shown_says_so() {
+    let place = Place::new().file("a.dxf", "");
+    for (line, said) in [
+        ("view a.dxf -o a.bmp", "the name must end in"),
+        ("view . -o a.svg", "is a directory"),
+        ("view 1.1P -o a.svg", "PB"),
+    ] {
+        let run = place.run(line);
+        assert!(run.status != Some(0) && run.stderr.contains(said), "{run}");
+    }
+}
