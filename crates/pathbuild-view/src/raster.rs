@@ -10,7 +10,7 @@ use usvg::{Options, Tree};
 use crate::scene::Scene;
 use crate::svg::{Shown, svg};
 
-/// DejaVu Sans, the letters that pictures need.
+/// The letters that pictures need, of the font `DejaVu Sans`.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 
 /// The family's name in the font.
@@ -33,7 +33,7 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 ///
 /// # Errors
 /// The picture is too large for memory, or a bug.
-pub fn png(scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
+pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let size = tree.size().to_int_size().scale_by(PIXELS).ok_or("the picture has no size")?;
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
@@ -45,7 +45,7 @@ pub fn png(scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
 ///
 /// # Errors
 /// A bug.
-pub fn pdf(scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
+pub fn pdf(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
     pdf.map_err(|error| error.to_string())

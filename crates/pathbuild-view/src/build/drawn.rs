@@ -121,7 +121,7 @@ impl Drawn<'_> {
         let is_owner = |(position, shape): &Known| {
             text.elements
                 .iter()
-                .any(|owner| *position == Some(owner.position) && self.is_same(&owner.shape, shape))
+                .any(|owner| *position == Some(owner.position) && is_same(&owner.shape, shape))
         };
         let owners = shapes.iter().enumerate().filter(|(_, known)| is_owner(known));
         Label {
@@ -132,13 +132,13 @@ impl Drawn<'_> {
             elements: owners.map(|(index, _)| number(first + index)).collect(),
         }
     }
+}
 
-    /// Whether two shapes of one entity are the same. Special circles are what their position says.
-    fn is_same(&self, a: &DrawnShape, b: &DrawnShape) -> bool {
-        match (a, b) {
-            (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,
-            (a, b) => a == b,
-        }
+/// Whether two shapes of one entity are the same. Special circles are what their position says.
+fn is_same(a: &DrawnShape, b: &DrawnShape) -> bool {
+    match (a, b) {
+        (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,
+        (a, b) => a == b,
     }
 }
 

@@ -63,7 +63,7 @@ impl Move {
     /// Its lowest Z in mm; `None` where no end's is known.
     pub fn depth(&self) -> Option<f64> {
         let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
-        ends.map(|end| end.z()).reduce(f64::min)
+        ends.map(interpret::Position::z).reduce(f64::min)
     }
 
     /// Its lowest and its highest corner in the plane; `None` where they are not known.

@@ -31,14 +31,18 @@ impl Frame {
     pub(super) fn of(scene: &Scene) -> Self {
         let mut corners: Option<[Point; 2]> = None;
         for path in &scene.paths {
-            corners_of(path).into_iter().for_each(|extent| widen(&mut corners, extent));
+            for extent in corners_of(path) {
+                widen(&mut corners, extent);
+            }
         }
         if corners.is_none() {
             let shapes = scene.other_layers.iter().filter_map(|other| match other {
                 crate::scene::OtherShape::Shape { shape, .. } => Some(shape.extent()),
                 crate::scene::OtherShape::Text { .. } => None,
             });
-            shapes.for_each(|extent| widen(&mut corners, extent));
+            for extent in shapes {
+                widen(&mut corners, extent);
+            }
         }
         for at in scene.findings.iter().filter_map(|finding| finding.at) {
             widen(&mut corners, [at, at]);
@@ -58,9 +62,8 @@ impl Frame {
         self.scale
     }
 
-    pub(super) fn width(&self) -> f64 {
-        ROOM[0] + 2.0 * MARGIN
-    }
+    /// The page's width in px.
+    pub(super) const WIDTH: f64 = ROOM[0] + 2.0 * MARGIN;
 
     /// Where the drawing ends.
     pub(super) fn bottom(&self) -> f64 {
@@ -69,7 +72,7 @@ impl Frame {
 
     /// Everything but a thin margin.
     pub(super) fn area(&self) -> [Point; 2] {
-        [[0.0, 0.0], [self.width(), self.bottom() - MARGIN / 4.0]]
+        [[0.0, 0.0], [Self::WIDTH, self.bottom() - MARGIN / 4.0]]
     }
 
     pub(super) fn of_path(&self, path: &ScenePath) -> Place {

@@ -21,14 +21,14 @@ const STEPS: u32 = 24;
 pub(super) struct Legend<'a> {
     scene: &'a Scene,
     depths: &'a Depths,
-    shown: &'a Shown,
+    shown: Shown,
     scale: f64,
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
 }
 
 impl<'a> Legend<'a> {
-    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: &'a Shown) -> Self {
+    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: Shown) -> Self {
         let findings = scene.findings.iter().flat_map(|finding| lines(finding, shown)).collect();
         Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings }
     }
@@ -187,7 +187,7 @@ pub(super) fn mm(value: f64) -> String {
 }
 
 /// A finding in lines, the first with its number.
-fn lines<'a>(finding: &'a Finding, shown: &Shown) -> Vec<(Option<&'a Finding>, String)> {
+fn lines<'a>(finding: &'a Finding, shown: Shown) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |said: &'a crate::scene::Said| match shown.lang {
         Lang::En => said.en.as_str(),
         Lang::De => said.de.as_str(),

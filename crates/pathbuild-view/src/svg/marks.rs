@@ -60,10 +60,9 @@ fn middle(shape: &Shape) -> Point {
 }
 
 /// Where the program's zero lies, where it starts and where it ends.
-pub(super) fn ends(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: &Shown) {
+pub(super) fn ends(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
     let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
-    let [start, end] =
-        [crate::scene::ElementKind::Start, crate::scene::ElementKind::End].map(|kind| marker(kind));
+    let [start, end] = [crate::scene::ElementKind::Start, crate::scene::ElementKind::End].map(marker);
     canvas.open("id=\"ends\"");
     if let Some(start) = start {
         let at = place.at(start.shape.start());

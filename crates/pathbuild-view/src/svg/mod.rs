@@ -37,7 +37,7 @@ impl Shown {
         Self { lang, rapids: true, order: true, arrows: true, texts: true }
     }
 
-    fn either(&self, en: &'static str, de: &'static str) -> &'static str {
+    fn either(self, en: &'static str, de: &'static str) -> &'static str {
         match self.lang {
             Lang::En => en,
             Lang::De => de,
@@ -46,13 +46,13 @@ impl Shown {
 }
 
 /// Draws a scene.
-pub fn svg(scene: &Scene, shown: &Shown) -> String {
+pub fn svg(scene: &Scene, shown: Shown) -> String {
     let frame = Frame::of(scene);
     let depths = Depths::of(scene);
     let legend = legend::Legend::new(scene, &frame, &depths, shown);
-    let mut canvas = Canvas::new(frame.width(), legend.bottom());
+    let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
     canvas.title(&scene.title);
-    canvas.open(r##"id="drawing" clip-path="url(#frame)""##);
+    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
     things::under(&mut canvas, scene, &frame);
     for path in &scene.paths {

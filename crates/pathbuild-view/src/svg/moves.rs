@@ -18,7 +18,7 @@ const ROOM_FOR_ARROW: f64 = 26.0;
 const PIECES: u32 = 24;
 
 /// Draws the moves of a path. Of several moves along the same line only the deepest is seen.
-pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths: &Depths, shown: &Shown) {
+pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths: &Depths, shown: Shown) {
     let cuts = deepest(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
@@ -38,7 +38,10 @@ pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths:
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"arrows\"");
-        for it in &cuts {
+        let bottoms = bottoms(path);
+        let is_bottom =
+            |it: &&&Move| it.element.is_none_or(|element| it.depth() <= bottoms[element as usize]);
+        for it in cuts.iter().filter(is_bottom) {
             let color = depths.color(it.depth());
             arrow(canvas, it, place, &color);
         }
@@ -66,7 +69,18 @@ fn is_hole(it: &Move, path: &ScenePath) -> bool {
     })
 }
 
-/// The cutting moves, of several along the same line the deepest, in the order of the first of them. It keeps the first one's direction.
+/// How deep each element is cut at last.
+fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
+    let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
+    for it in path.moves.iter().filter(|it| it.kind.cuts() && it.kind != MoveKind::Plunge) {
+        let (Some(element), Some(z)) = (it.element, it.depth()) else { continue };
+        let bottom = &mut bottoms[element as usize];
+        *bottom = Some(bottom.map_or(z, |known| known.min(z)));
+    }
+    bottoms
+}
+
+/// The cutting moves from shallow to deep, of several along the same line the deepest. It keeps the first one's direction.
 fn deepest(path: &ScenePath) -> Vec<&Move> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
     let mut cuts: Vec<&Move> = Vec::new();
@@ -84,6 +98,7 @@ fn deepest(path: &ScenePath) -> Vec<&Move> {
             }
         }
     }
+    cuts.sort_by(|a, b| b.depth().unwrap_or_default().total_cmp(&a.depth().unwrap_or_default()));
     cuts
 }
 
@@ -105,7 +120,7 @@ fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: &Shown) {
+fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
     let style = format!(
         "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
     );

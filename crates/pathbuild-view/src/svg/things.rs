@@ -61,7 +61,7 @@ fn other_text(canvas: &mut Canvas, place: &Place, text: &str, at: Point, height:
 }
 
 /// Elements, texts, bars, probes, markers.
-pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: &Shown) {
+pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
     elements(canvas, path, place);
     canvas.open(&format!(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
@@ -125,7 +125,9 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
         if size < READABLE {
             continue;
         }
-        let at = place.at(label.at);
+        let mut at = place.at(label.at);
+        let half = 0.31 * size * longest as f64 + 4.0;
+        at[0] = at[0].min(Frame::WIDTH - half).max(half);
         for element in &label.elements {
             let to = place.at(nearest(&path.elements[*element as usize].shape, label.at));
             canvas.line(at, to, &format!("stroke=\"{TEXT}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""));

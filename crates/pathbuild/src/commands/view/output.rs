@@ -54,7 +54,7 @@ impl Format {
     const NAMES: &str =
         "the name must end in .svg or .json: this pathbuild was built without the feature `pictures`";
 
-    fn bytes(self, scene: &Scene, shown: &Shown) -> Result<Vec<u8>, String> {
+    fn bytes(self, scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
         match self {
             Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
             Self::Json => Ok((scene.to_json() + "\n").into_bytes()),
@@ -86,7 +86,7 @@ impl Output {
     pub(super) fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
         let refused = |reason: &str| Box::new(cannot_write(&self.file, reason));
         let bytes =
-            self.format.bytes(scene, &Shown::all(context.lang())).map_err(|reason| refused(&reason))?;
+            self.format.bytes(scene, Shown::all(context.lang())).map_err(|reason| refused(&reason))?;
         let state = match context.system.write(&self.file, &bytes).map_err(|reason| refused(&reason))? {
             Written::Changed => context.choose("written", "geschrieben"),
             Written::Unchanged => context.choose("unchanged", "unverändert"),

@@ -2,8 +2,8 @@
 
 use camino::Utf8Path;
 use pathbuild_db::{SourceFile, path_names};
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
+use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_path::PathName;
 use pathbuild_view::{GcodeSource, Scene, gcode_path};
 use pathbuild_workspace::Inputs;
@@ -55,13 +55,13 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
     }
     let db = session.db();
     let (file, names): (SourceFile, Vec<PathName>) =
-        match (wanted.paths.as_slice(), wanted.drawings.as_slice()) {
-            ([path], []) => (path.file, vec![path.name.clone()]),
-            ([], [drawing]) => (drawing.file, path_names(db, drawing.file).to_vec()),
+        match (wanted.directories.as_slice(), wanted.paths.as_slice(), wanted.drawings.as_slice()) {
+            ([], [path], []) => (path.file, vec![path.name.clone()]),
+            ([], [], [drawing]) => (drawing.file, path_names(db, drawing.file).to_vec()),
             _ => {
-                return Err(Failure::Usage(format!(
-                    "view shows one path, drawing or program: `{what}` is a directory"
-                )));
+                let what = shown::line(what);
+                let reason = format!("view shows one path, drawing or program: `{what}` is a directory");
+                return Err(Failure::Usage(reason));
             }
         };
     let session::Seen { scene, mut diagnostics } = session.scene(file, &names);
