@@ -78,6 +78,28 @@ fn held(place: &Place) -> String {
         .to_owned()
 }
 
+/// A fault that several drawings meet is shown with one and the same way to it, in every format, whoever met it first.
+#[test]
+fn the_way_to_a_finding_is_the_same_with_what_was_kept() {
+    for library in ["[\"projects\", \"parts\"]", "[\"parts\", \"projects\"]"] {
+        let configuration = format!("library = {library}\nsearch = [\"parts\"]\n");
+        let broken =
+            sheet("layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MPlate\"\nmill 0,0 30,0\nend 40,0").unwrap();
+        let place = Place::new()
+            .file("pathbuild.toml", configuration)
+            .file("parts/1001.dxf", broken.to_dxf())
+            .file("projects/8001.dxf", dxf(&[path("8001.1P", 5, &["1001.1P"])]))
+            .file("projects/8002.dxf", dxf(&[path("8002.1P", 5, &["8001.1P"])]));
+        for format in ["json", "full", "concise", "github", "gitlab", "sarif", "junit"] {
+            let [without, cold, warm] = ["--no-cache", "", ""]
+                .map(|option| said(&place.run(&format!("check --format {format} {option}"))));
+            assert!(without.1.contains("PB") || without.2.contains("PB"), "{without:?}");
+            assert_eq!(without, cold, "{library}, {format}");
+            assert_eq!(without, warm, "{library}, {format}");
+        }
+    }
+}
+
 /// Numbers that look like chance and are the same in every run.
 struct Chance(u64);
 

@@ -21,6 +21,7 @@ mod gcode;
 mod help;
 mod hostile;
 mod hostile_projects;
+mod kills;
 mod library;
 mod licences;
 mod machines;

@@ -108,8 +108,13 @@ fn clean(directory: &Utf8Path) -> io::Result<()> {
     if let Some(reason) = private::refusal(directory) {
         return Err(io::Error::other(reason));
     }
-    let tag = private::read(&directory.join(TAG))?.unwrap_or_default();
-    if !tag.starts_with(SIGNATURE.as_bytes()) {
+    let tag = private::read(&directory.join(TAG))?;
+    // Another run may be about to write it, or just have removed it: then there is nothing else but what pathbuild makes.
+    let is_cache = tag.map_or_else(
+        || names(directory).all(|name| is_ours(&name)),
+        |tag| tag.starts_with(SIGNATURE.as_bytes()),
+    );
+    if !is_cache {
         return Err(io::Error::other("it has no CACHEDIR.TAG, so it is no cache"));
     }
     // What says that it is a cache goes last.
@@ -117,7 +122,9 @@ fn clean(directory: &Utf8Path) -> io::Result<()> {
         remove(&directory.join(name))?;
     }
     match fs::remove_dir(directory) {
-        Err(error) if error.kind() != io::ErrorKind::DirectoryNotEmpty => Err(error),
+        Err(error) if !matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => {
+            Err(error)
+        }
         _ => Ok(()),
     }
 }

@@ -57,6 +57,11 @@ impl Place {
         self.directory.path()
     }
 
+    /// The user's cache directory.
+    pub fn caches(&self) -> &Path {
+        self.caches.path()
+    }
+
     /// Where results of this tree are kept.
     pub fn cache(&self) -> PathBuf {
         let mut trees = fs::read_dir(self.caches.path().join("pathbuild")).into_iter().flatten();

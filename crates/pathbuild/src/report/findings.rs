@@ -12,8 +12,11 @@ pub struct Findings {
 
 impl Findings {
     /// Sorts diagnostics and drops those that say the same of the same place: many bindings or projects may have met a fault, and
-    /// the one that is kept has the first embedding in order.
+    /// the one that is kept has the shortest way, of those the first in order, whichever was met first.
     pub fn new(mut diagnostics: Vec<Diagnostic>) -> Self {
+        if diagnostics.iter().any(|diagnostic| !diagnostic.trace.is_empty()) {
+            diagnostics.sort_by_cached_key(|it| (it.trace.len(), format!("{:?}", it.trace)));
+        }
         diagnostics
             .sort_by(|a, b| a.sort_key().cmp(&b.sort_key()).then_with(|| a.message.key.cmp(b.message.key)));
         diagnostics.dedup_by(|later, earlier| is_same(earlier, later));
