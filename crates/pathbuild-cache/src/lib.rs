@@ -31,4 +31,4 @@ pub use place::{Home, Place};
 pub use reasons::{Reason, reasons};
 pub use stamp::{Clock, Stamp};
 pub use upkeep::Entry;
-pub use verify::{Covers, FileState, Looking, Verdict, verify};
+pub use verify::{Covers, FileState, Looking, Stamped, Verdict, verify};

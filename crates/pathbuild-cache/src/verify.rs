@@ -12,6 +12,9 @@ use crate::stamp::Stamp;
 /// Whether a file of this name may hold the path of that name.
 pub type Covers<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 
+/// Bytes, and the stamp that they were read under.
+pub type Stamped = (Vec<u8>, Stamp);
+
 /// What became of what was kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
@@ -35,7 +38,7 @@ pub struct Looking<'a> {
     /// Which records are looked at, by what they are of.
     pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
     /// The bytes of a file, and the stamp that it had before and after they were read: unknown if that was not the same.
-    pub read: &'a (dyn Fn(&Utf8Path) -> Option<(Vec<u8>, Stamp)> + Sync),
+    pub read: &'a (dyn Fn(&Utf8Path) -> Option<Stamped> + Sync),
     /// What the content of an output is hashed to: some is written by people.
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
