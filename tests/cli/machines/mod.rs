@@ -1,9 +1,8 @@
-//! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, LinuxCNC's own
-//! interpreter takes what is written for it and moves alike, and no rule of `verify` finds an error. (spec/85-post-processors.md)
+//! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, readers that
+//! are not ours (`independent`) see the same, and no rule of `verify` finds an error. (spec/85-post-processors.md)
 
 mod changes;
-#[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
-mod oracle;
+mod independent;
 mod programs;
 
 use std::io::Write;
@@ -34,21 +33,6 @@ fn every_post_moves_as_the_native_program_does() {
         );
     }
     say(&format!("{} programs through {} posts", programs.len(), BUILT_IN.len() - 1));
-}
-
-#[test]
-fn linuxcnc_moves_as_the_program_says() {
-    let Some(rs274) = oracle::rs274() else { return };
-    let programs = programs();
-    let definition = load("linuxcnc").unwrap();
-    let fault = |it: &Named| {
-        let text = written(&definition, &it.program).map_err(|errors| texts(&errors)).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        oracle::difference(&rs274, &text).map(|difference| format!("{}: {difference}", it.name))
-    };
-    let faults: Vec<String> = programs.par_iter().filter_map(fault).collect();
-    assert!(faults.is_empty(), "{} of {}\n{}", faults.len(), programs.len(), shown(&faults));
-    say(&format!("{} programs through rs274", programs.len()));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use pathbuild_gcode::dialect::Dialect::LinuxCnc;
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Action, Options, Pace, interpret};
 
 /// Both print, or compute, in doubles; rs274 shows four decimals.
@@ -104,9 +104,9 @@ fn calls_of(output: &str) -> Vec<Call> {
     without_standing(calls)
 }
 
-/// Our steps as calls.
-pub(crate) fn our_calls(text: &str) -> Vec<Call> {
-    let result = interpret(text.as_bytes(), LinuxCnc, &Options::default());
+/// Our steps as calls, by the rules of a dialect.
+pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
+    let result = interpret(text.as_bytes(), dialect, &Options::default());
     let calls = result.steps.iter().filter_map(|step| match &step.action {
         Action::Move(it) => Some(match (it.pace, it.path) {
             (Pace::Rapid, _) => Call::Rapid(it.to.at),
@@ -159,12 +159,12 @@ fn agree(theirs: &Call, ours: &Call) -> bool {
 }
 
 /// Where the two part on a program; `None` if they agree, and it moves at all.
-pub(crate) fn difference(program: &Path, text: &str) -> Option<String> {
+pub(crate) fn difference(program: &Path, text: &str, dialect: Dialect) -> Option<String> {
     let oracle = ask(program, text);
     if let Some(refusal) = oracle.refusal {
         return Some(format!("rs274 refuses it: {refusal}"));
     }
-    let ours = our_calls(text);
+    let ours = our_calls(text, dialect);
     for (index, (theirs, ours)) in oracle.calls.iter().zip(&ours).enumerate() {
         if !agree(theirs, ours) {
             return Some(format!("move {index}: rs274 {theirs:?}, ours {ours:?}"));

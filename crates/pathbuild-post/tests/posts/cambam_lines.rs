@@ -281,13 +281,13 @@ fn inches_are_written_where_the_program_is_in_inches() {
 #[test]
 fn stock_and_tool_values_come_from_whoever_knows_them() {
     let header = |macros: &[(&str, &str)], own: &str| {
-        let definition = format!(
+        let text = format!(
             "<PostFile>{{$header}}\n{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><EndOfLine>\\n</EndOfLine><PostProcessorMacros>{own}</PostProcessorMacros><Header>( {{$stock_width}} {{$-stock_x}} {{$tool.length}} )</Header>"
         );
         let given = |(name, value): &(&str, &str)| PostMacro { name: (*name).into(), value: (*value).into() };
         let options = PostOptions { macros: macros.iter().map(given).collect(), ..PostOptions::default() };
-        let job = crate::support::job(vec![crate::support::feed(1.0, 0.0, -1.0)]);
-        let written = crate::support::output(&crate::support::definition(&definition), &job, &options);
+        let job = job(vec![feed(1.0, 0.0, -1.0)]);
+        let written = output(&definition(&text), &job, &options);
         written.map(|it| String::from_utf8(it.text).unwrap().lines().next().unwrap_or("").to_owned())
     };
     let all = [("stock_width", "150"), ("stock_x", "-5"), ("tool.length", "42.5")];
@@ -295,5 +295,5 @@ fn stock_and_tool_values_come_from_whoever_knows_them() {
     assert_eq!(header(&all[1..], "$stock_width=90"), Ok("( 90 5.0 42.5 )".to_owned()));
     assert_eq!(header(&all, "$stock_width=90"), Ok("( 150 5.0 42.5 )".to_owned()), "the configuration wins");
     let missing = header(&all[..2], "").expect_err("nobody says the length");
-    assert_eq!(crate::support::texts(&missing)[0].split(' ').take(2).collect::<Vec<_>>(), ["4:", "PB754"]);
+    assert_eq!(texts(&missing)[0].split(' ').take(2).collect::<Vec<_>>(), ["4:", "PB754"]);
 }

@@ -1,0 +1,129 @@
+//! Readers that are not ours: LinuxCNC's interpreter and gcode-toolpath. No reader of XpertMILL's words is known.
+
+#[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
+mod oracle;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{self, Axes, Move, Options, Pace, interpret};
+use pathbuild_post::load;
+use rayon::prelude::*;
+
+use super::programs::{Named, programs};
+use super::{say, shown, texts, written};
+
+/// What rs274 can read. The program's number and the way home are words of their own: they are left out.
+const OF_RS274: [(&str, Dialect); 5] = [
+    ("linuxcnc", Dialect::LinuxCnc),
+    ("grbl", Dialect::Grbl),
+    ("mach3", Dialect::Mach3),
+    ("fanuc", Dialect::Fanuc),
+    ("haas", Dialect::Haas),
+];
+
+#[test]
+fn linuxcnc_reads_the_posts_as_we_do() {
+    let Some(rs274) = oracle::rs274() else { return };
+    let programs = programs();
+    for (post, dialect) in OF_RS274 {
+        let fault = |it: &Named| {
+            let text = common_words(&text_of(post, it));
+            oracle::difference(&rs274, &text, dialect).map(|difference| format!("{}: {difference}", it.name))
+        };
+        let faults: Vec<String> = programs.par_iter().filter_map(fault).collect();
+        assert!(faults.is_empty(), "{post}: {} of {}\n{}", faults.len(), programs.len(), shown(&faults));
+    }
+    say(&format!("{} programs of {} posts through rs274", programs.len(), OF_RS274.len()));
+}
+
+#[test]
+fn gcode_toolpath_reads_the_posts_as_we_do() {
+    let Some(modules) = toolpath() else { return };
+    let programs = programs();
+    for (post, dialect) in [("grbl", Dialect::Grbl), ("marlin", Dialect::Marlin)] {
+        let directory = tempfile::tempdir().unwrap();
+        let files: Vec<PathBuf> =
+            (0..programs.len()).map(|index| directory.path().join(index.to_string())).collect();
+        for (file, it) in files.iter().zip(programs) {
+            std::fs::write(file, text_of(post, it)).unwrap();
+        }
+        let read = ask(&modules, &files);
+        assert_eq!(read.len(), programs.len(), "{post}");
+        let fault = |(it, theirs): (&Named, &Vec<Vec<f64>>)| {
+            let ours = our_moves(&text_of(post, it), dialect);
+            differ(theirs, &ours).map(|difference| format!("{}: {difference}", it.name))
+        };
+        let faults: Vec<String> = programs.par_iter().zip(&read).filter_map(fault).collect();
+        assert!(faults.is_empty(), "{post}: {} of {}\n{}", faults.len(), programs.len(), shown(&faults));
+    }
+    say(&format!("{} programs of 2 posts through gcode-toolpath", programs.len()));
+}
+
+fn text_of(post: &str, it: &Named) -> String {
+    let definition = load(post).unwrap();
+    let text = written(&definition, &it.program).unwrap_or_else(|errors| panic!("{}", texts(&errors)));
+    String::from_utf8(text).unwrap()
+}
+
+fn common_words(text: &str) -> String {
+    let is_own = |line: &&str| {
+        line.starts_with('O') || line.starts_with("G53 G0 Z0") || line.starts_with("G91 G28 Z0")
+    };
+    text.lines().filter(|line| !is_own(line)).flat_map(|line| [line, "\n"]).collect()
+}
+
+/// Where gcode-toolpath is installed.
+#[expect(clippy::disallowed_methods, reason = "tests ask the environment where their oracles are")]
+fn toolpath() -> Option<PathBuf> {
+    let Ok(directory) = std::env::var("PATHBUILD_TOOLPATH") else {
+        pathbuild_testkit::skip("toolpath", "PATHBUILD_TOOLPATH is not set (npm install gcode-toolpath)");
+        return None;
+    };
+    let modules = Path::new(&directory).join("node_modules");
+    assert!(modules.is_dir(), "{} is missing", modules.display());
+    Some(modules)
+}
+
+/// The moves of each program: 0, 1 or 2, where to, and of arcs the centre.
+fn ask(modules: &Path, files: &[PathBuf]) -> Vec<Vec<Vec<f64>>> {
+    let script = crate::support::project().join("tests/tools/toolpath.js");
+    let output =
+        Command::new("node").arg(script).args(files).env("NODE_PATH", modules).output().expect("node runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let numbers = |line: &str| line.split(' ').map(|number| number.parse().unwrap()).collect();
+    text.trim_end().split("\n\n").map(|program| program.lines().map(numbers).collect()).collect()
+}
+
+fn our_moves(text: &str, dialect: Dialect) -> Vec<Vec<f64>> {
+    let read = interpret(text.as_bytes(), dialect, &Options::default());
+    let numbers = |it: &Move| {
+        let code = match (it.pace, it.path) {
+            (Pace::Rapid, _) => 0.0,
+            (_, interpret::Path::Line) => 1.0,
+            (_, interpret::Path::Arc(arc)) => return arc_of(it, arc),
+        };
+        [vec![code], it.to.at.to_vec()].concat()
+    };
+    read.moves().iter().map(|(_, it)| numbers(it)).collect()
+}
+
+fn arc_of(it: &Move, arc: interpret::Arc) -> Vec<f64> {
+    assert_eq!(it.from.known, Axes::ALL);
+    let code = if arc.clockwise { 2.0 } else { 3.0 };
+    [vec![code], it.to.at.to_vec(), arc.centre.to_vec()].concat()
+}
+
+/// The first move in which two programs differ by more than what their numbers are added up from.
+fn differ(theirs: &[Vec<f64>], ours: &[Vec<f64>]) -> Option<String> {
+    let is_same =
+        |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+    let parted = theirs.iter().zip(ours).find(|(theirs, ours)| !is_same(theirs, ours));
+    match parted {
+        Some((theirs, ours)) => Some(format!("gcode-toolpath {theirs:?}, ours {ours:?}")),
+        None if theirs.len() != ours.len() => Some(format!("{} moves, ours {}", theirs.len(), ours.len())),
+        None => ours.is_empty().then(|| "it has no moves".to_owned()),
+    }
+}
