@@ -256,7 +256,7 @@ fn hostile_names_are_escaped() {
 #[test]
 fn png_and_pdf_have_their_sizes() {
     let place = library();
-    for file in ["a.png", "a.pdf"] {
+    for file in ["a.png", "a.pdf", "a.html"] {
         let run = place.run(&format!("view 2050.1P -o {file}"));
         assert_eq!(run.status, Some(0), "{run}");
     }
@@ -264,6 +264,7 @@ fn png_and_pdf_have_their_sizes() {
     assert_eq!(&png[1..4], b"PNG");
     let size = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     assert_eq!(size(16), 2320);
+    assert!(place.read("a.html").starts_with("<!doctype html>"));
     assert!(fs::read(place.path().join("a.pdf")).unwrap().starts_with(b"%PDF"));
 }
 

@@ -5,6 +5,8 @@
 
 mod build;
 #[cfg(feature = "pictures")]
+mod page;
+#[cfg(feature = "pictures")]
 mod raster;
 mod scene;
 mod svg;
@@ -12,6 +14,8 @@ mod svg;
 pub use build::{
     DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, other_layers, program_path,
 };
+#[cfg(feature = "pictures")]
+pub use page::page;
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png};
 pub use scene::{

@@ -1,9 +1,10 @@
-//! PNG and PDF have letters: an empty font database gives pictures without any, silently.
+//! PNG and PDF have letters: an empty font database gives pictures without any, silently. Pages ask for nothing and take nothing for
+//! markup.
 #![cfg(feature = "pictures")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_view::{Scene, Shown, pdf, png};
+use pathbuild_view::{Scene, Shown, page, pdf, png};
 
 fn picture(title: &str) -> Vec<u8> {
     png(&Scene::new(title), Shown::all(Lang::En)).unwrap()
@@ -23,4 +24,16 @@ fn a_pdf_brings_its_font() {
     let made = pdf(&Scene::new("Ø ß →"), Shown::all(Lang::En)).unwrap();
     let has = |part: &[u8]| made.windows(part.len()).any(|window| window == part);
     assert!(has(b"DejaVuSans") && has(b"/ToUnicode"));
+}
+
+#[test]
+fn a_page_is_whole_and_takes_no_name_for_markup() {
+    let title = "{{script}}</script><script>alert(1)</script>\u{2028}<!--";
+    let made = page(&Scene::new(title), Lang::De);
+    assert!(made.starts_with("<!doctype html>\n<html lang=\"de\">"));
+    assert!(!made.contains("alert(1)</script>"));
+    // One for the scene, one of ours.
+    assert_eq!((made.matches("<script").count(), made.matches("</script").count()), (2, 2));
+    assert!(made.contains("default-src 'none'") && made.contains("data-word=\"rapids\""));
+    assert_eq!(made, page(&Scene::new(title), Lang::De));
 }

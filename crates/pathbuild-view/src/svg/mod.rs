@@ -12,6 +12,8 @@ use pathbuild_diagnostic::Lang;
 
 use crate::scene::Scene;
 use canvas::Canvas;
+#[cfg(feature = "pictures")]
+pub(crate) use canvas::escaped;
 use frame::Frame;
 use palette::Depths;
 

@@ -11,7 +11,8 @@ use crate::context::Context;
 /// Where a scene goes, and as what.
 pub(super) struct Output {
     format: Format,
-    file: Utf8PathBuf,
+    /// `None`: a file of its own, which the browser is given.
+    file: Option<Utf8PathBuf>,
 }
 
 /// As what.
@@ -23,6 +24,8 @@ enum Format {
     Png,
     #[cfg(feature = "pictures")]
     Pdf,
+    #[cfg(feature = "pictures")]
+    Html,
 }
 
 impl Format {
@@ -34,6 +37,7 @@ impl Format {
             "json" => Self::Json,
             "png" => Self::Png,
             "pdf" => Self::Pdf,
+            "html" => Self::Html,
             _ => return None,
         })
     }
@@ -48,7 +52,7 @@ impl Format {
     }
 
     #[cfg(feature = "pictures")]
-    const NAMES: &str = "the name must end in .svg, .png, .pdf or .json";
+    const NAMES: &str = "the name must end in .svg, .png, .pdf, .html or .json";
 
     #[cfg(not(feature = "pictures"))]
     const NAMES: &str =
@@ -62,6 +66,8 @@ impl Format {
             Self::Png => pathbuild_view::png(scene, shown),
             #[cfg(feature = "pictures")]
             Self::Pdf => pathbuild_view::pdf(scene, shown),
+            #[cfg(feature = "pictures")]
+            Self::Html => Ok(pathbuild_view::page(scene, shown.lang).into_bytes()),
         }
     }
 }
@@ -72,11 +78,22 @@ impl Output {
     /// # Errors
     /// What is wrong with it.
     pub(super) fn of(file: Option<&Utf8Path>) -> Result<Self, String> {
-        let Some(file) = file else { return Err(format!("view needs -o FILE: {}", Format::NAMES)) };
+        let Some(file) = file else { return Self::browser() };
         let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
         let format = Format::of(&extension);
         let format = format.ok_or_else(|| format!("-o {}: {}", shown::line(file.as_str()), Format::NAMES))?;
-        Ok(Self { format, file: file.to_owned() })
+        Ok(Self { format, file: Some(file.to_owned()) })
+    }
+
+    #[cfg(feature = "pictures")]
+    #[expect(clippy::unnecessary_wraps, reason = "without pictures there is no page")]
+    fn browser() -> Result<Self, String> {
+        Ok(Self { format: Format::Html, file: None })
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn browser() -> Result<Self, String> {
+        Err(format!("view needs -o FILE: {}", Format::NAMES))
     }
 
     /// Writes the scene.
@@ -84,14 +101,37 @@ impl Output {
     /// # Errors
     /// It cannot be written.
     pub(super) fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
-        let refused = |reason: &str| Box::new(cannot_write(&self.file, reason));
+        let name = self.file.as_deref().unwrap_or(Utf8Path::new(BROWSER));
+        let refused = |reason: &str| Box::new(cannot_write(name, reason));
         let bytes =
             self.format.bytes(scene, Shown::all(context.lang())).map_err(|reason| refused(&reason))?;
-        let state = match context.system.write(&self.file, &bytes).map_err(|reason| refused(&reason))? {
+        let Some(file) = &self.file else { return show(context, &bytes).map_err(|reason| refused(&reason)) };
+        let state = match context.system.write(file, &bytes).map_err(|reason| refused(&reason))? {
             Written::Changed => context.choose("written", "geschrieben"),
             Written::Unchanged => context.choose("unchanged", "unverändert"),
         };
-        context.printer.status(format_args!("{}: {state}", shown::line(self.file.as_str())));
+        context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
         Ok(())
     }
+}
+
+/// What is at fault where the browser cannot be shown something.
+const BROWSER: &str = "(browser)";
+
+/// Gives a page to the browser, which may read it at any time later: the file stays, among the system's temporary files.
+#[cfg(feature = "pictures")]
+fn show(context: &Context, page: &[u8]) -> Result<(), String> {
+    use std::io::Write;
+
+    let told = |error: std::io::Error| error.to_string();
+    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile().map_err(told)?;
+    file.as_file().write_all(page).map_err(told)?;
+    let (_, path) = file.keep().map_err(|error| error.to_string())?;
+    context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
+    open::that_detached(&path).map_err(told)
+}
+
+#[cfg(not(feature = "pictures"))]
+fn show(_: &Context, _: &[u8]) -> Result<(), String> {
+    Err(Format::NAMES.to_owned())
 }

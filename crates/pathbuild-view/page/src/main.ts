@@ -1,0 +1,350 @@
+// The page: a scene, its G-code, and what goes between them.
+
+import { Model, model } from "./model.js";
+import { Scene } from "./scene.js";
+import { Stage, Spot } from "./stage.js";
+import { Lang, Word, mm, say, sayKind } from "./words.js";
+
+const scene: Scene = JSON.parse(document.getElementById("scene")!.textContent!);
+const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const slider = $<HTMLInputElement>("slider");
+const picture = $("picture");
+const code = $("code");
+const rows = $("rows");
+const details = $("details");
+
+/** A row of G-code in px. */
+const ROW = 18;
+/** Numbers and texts beyond so many would cover the picture. */
+const MOST_SPOTS = 600;
+
+let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
+let dark = matchMedia("(prefers-color-scheme: dark)").matches;
+let made: Model = model(scene, dark);
+let stage: Stage | null = null;
+let space = false;
+let count = made.steps.length;
+let chosen: number | null = null;
+let timer = 0;
+let measured: [number, number][] | null = null;
+const shown = { rapids: true, arrows: true, order: true, texts: true, other: true };
+let lines: string[] = [];
+let linesOf: number | null = null;
+/** The path of each step, and its steps by line of G-code. */
+const byLine = scene.paths.map(() => new Map<number, number>());
+const pathOf: number[] = [];
+let step = 0;
+scene.paths.forEach((path, index) => {
+  for (const move of path.moves) {
+    pathOf.push(index);
+    if (move.line !== undefined && !byLine[index].has(move.line)) byLine[index].set(move.line, step);
+    step++;
+  }
+});
+
+function text(tag: string, content: string, className = ""): HTMLElement {
+  const node = document.createElement(tag);
+  node.textContent = content;
+  node.className = className;
+  return node;
+}
+
+/** Starts or starts again: colours are part of the buffers. */
+function start(): void {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  picture.querySelector("canvas")?.remove();
+  made = model(scene, dark);
+  try {
+    stage = new Stage(picture, $("labels"), made, scene, dark);
+  } catch {
+    stage = null;
+    $("still").hidden = false;
+    $("nowebgl").hidden = false;
+  }
+  for (const what of ["rapids", "arrows", "other"] as const) stage?.toggle(what, shown[what]);
+  stage?.fit(space);
+  spots();
+  go(count);
+}
+
+/** Numbers, texts and findings that stand in the picture. */
+function spots(): void {
+  const all: Spot[] = [];
+  const add = (at: [number, number], z: number, node: HTMLElement) => all.push({ at: [at[0], at[1], z], node });
+  for (const path of scene.paths) {
+    const place = ([x, y]: [number, number]): [number, number] => [x + path.zero[0], y + path.zero[1]];
+    if (shown.order) {
+      for (const { order, shape } of path.elements) {
+        if (order === null) continue;
+        const at: [number, number] =
+          shape.type === "line"
+            ? [(shape.from[0] + shape.to[0]) / 2, (shape.from[1] + shape.to[1]) / 2]
+            : shape.type === "circle"
+              ? shape.centre
+              : middle(shape);
+        add(place(at), 0, text("span", String(order), "order"));
+      }
+    }
+    if (shown.texts) {
+      for (const label of path.texts) if (label.path === 0) add(place(label.at), 0, text("span", label.text, "text"));
+      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), 0, text("span", inner.name, "name"));
+    }
+    for (const probe of path.probes) {
+      add(place(probe.at), probe.height, text("span", `#${probe.number} ${probe.label ?? ""}`, "probe"));
+    }
+    const zero = path.elements.find((element) => element.path === 0 && element.kind === "start");
+    if (zero || path.moves.length > 0) add(place([0, 0]), 0, text("span", "X0 Y0", "zero"));
+  }
+  for (const finding of scene.findings) {
+    if (!finding.at) continue;
+    const node = text("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
+    node.title = `${finding.code}: ${finding.message[lang]}`;
+    add(finding.at, 0, node);
+  }
+  for (const at of measured ?? []) add(at, 0, text("span", "+", "cross"));
+  stage?.setSpots(all.slice(-MOST_SPOTS));
+}
+
+function middle(shape: { from: [number, number]; centre: [number, number]; clockwise: boolean; degrees: number }): [number, number] {
+  const [x, y] = [shape.from[0] - shape.centre[0], shape.from[1] - shape.centre[1]];
+  const angle = ((shape.clockwise ? -1 : 1) * shape.degrees * Math.PI) / 360;
+  return [
+    shape.centre[0] + x * Math.cos(angle) - y * Math.sin(angle),
+    shape.centre[1] + x * Math.sin(angle) + y * Math.cos(angle),
+  ];
+}
+
+/** Runs the tool to behind so many moves. */
+function go(to: number): void {
+  count = Math.min(Math.max(to, 0), made.steps.length);
+  slider.value = String(count);
+  $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
+  stage?.show(count);
+  listing(true);
+}
+
+/** The line of G-code that is being run. */
+function current(): number | null {
+  return count === 0 ? null : (made.steps[count - 1].move.line ?? null);
+}
+
+/** Shows the G-code round the present line; only the rows that can be seen are made. */
+function listing(follow: boolean): void {
+  const path = pathOf[Math.max(count - 1, 0)] ?? 0;
+  if (linesOf !== path) {
+    linesOf = path;
+    lines = (scene.paths[path]?.gcode ?? "").split("\n");
+    code.hidden = !scene.paths.some((it) => it.gcode);
+    rows.style.height = `${lines.length * ROW}px`;
+  }
+  const line = current();
+  if (follow && line !== null) {
+    const top = (line - 1) * ROW;
+    if (top < code.scrollTop || top > code.scrollTop + code.clientHeight - 2 * ROW) {
+      code.scrollTop = top - code.clientHeight / 2;
+    }
+  }
+  const first = Math.max(0, Math.floor(code.scrollTop / ROW) - 5);
+  const last = Math.min(lines.length, first + Math.ceil(code.clientHeight / ROW) + 10);
+  const visible: HTMLElement[] = [];
+  for (let index = first; index < last; index++) {
+    const row = text("div", "", "row");
+    row.append(text("i", String(index + 1)), text("span", lines[index]));
+    row.style.top = `${index * ROW}px`;
+    row.dataset.line = String(index + 1);
+    if (index + 1 === line) row.classList.add("now");
+    visible.push(row);
+  }
+  rows.replaceChildren(...visible);
+}
+
+/** What there is to say of a move and its element. */
+function describe(at: number | null): void {
+  stage?.point(at);
+  if (at === null) return summary();
+  const { path, move } = made.steps[at];
+  const list: [string, string][] = [[say("step", lang), `${at + 1}: ${sayKind(move.kind, lang)}`]];
+  const place = (values: (number | null)[]) =>
+    ["X", "Y", "Z"].map((axis, index) => (values[index] === null ? "" : `${axis}${mm(values[index]!)}`)).join(" ");
+  list.push(["→", place(move.to)]);
+  if (move.feed) list.push([say("feed", lang), `${mm(move.feed)} mm/min`]);
+  if (move.line !== undefined) list.push(["G-code", `${move.line}: ${(path.gcode ?? "").split("\n", move.line)[move.line - 1] ?? ""}`]);
+  const element = move.element === undefined ? undefined : path.elements[move.element];
+  if (element) {
+    const inside = path.embedded[element.path];
+    const own = path.texts.filter((label) => label.elements.includes(move.element!));
+    const starts = path.elements.flatMap((it, index) => (it.path === element.path && it.kind === "start" ? [index] : []));
+    const ofPath = path.texts.filter((label) => label.elements.some((index) => starts.includes(index)));
+    const joined = (labels: { text: string }[]) => labels.map((label) => label.text).join(" | ") || say("none", lang);
+    list.push([say("element", lang), `${element.entity} ${element.handle ?? ""} · ${sayKind(element.kind, lang)}`]);
+    list.push([say("layer", lang), element.layer]);
+    if (element.line !== null) list.push([say("line", lang), `${inside?.file ?? path.file}:${element.line}`]);
+    list.push([say("text", lang), joined(own)]);
+    list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
+  }
+  fill(list);
+}
+
+/** What there is to say of the whole. */
+function summary(): void {
+  const list: [string, string][] = [];
+  for (const path of scene.paths) {
+    list.push(["", `${path.name} · ${path.file}`]);
+    if (path.tool !== null) list.push([say("tool", lang), mm(path.tool)]);
+    if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
+    if (path.material) list.push([say("material", lang), path.material]);
+    const { totals } = path;
+    if (totals && path.moves.length > 0) {
+      for (const kind of ["milling", "drilling", "sweeps"] as const) list.push([say(kind, lang), `${totals[kind].toFixed(0)} mm`]);
+      if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
+    }
+  }
+  fill(list);
+}
+
+function fill(list: [string, string][]): void {
+  details.replaceChildren(...list.flatMap(([name, value]) => [text("dt", name), text("dd", value)]));
+}
+
+function findings(): void {
+  const list = scene.findings.map((it) => {
+    const item = text("li", `${it.number} · ${it.code}: ${it.message[lang]}`, it.is_error ? "error" : "");
+    if (it.help[lang]) item.append(text("small", it.help[lang]));
+    return item;
+  });
+  $("findings").replaceChildren(...list);
+  $("found").hidden = list.length === 0;
+}
+
+function speak(): void {
+  document.documentElement.lang = lang;
+  document.querySelectorAll<HTMLElement>("[data-word]").forEach((node) => {
+    node.textContent = say(node.dataset.word as Word, lang);
+  });
+  $("keys").title = say("keys", lang);
+  slider.setAttribute("aria-label", say("step", lang));
+  findings();
+  describe(chosen);
+  spots();
+  go(count);
+}
+
+function measure(at: [number, number]): void {
+  measured = measured && measured.length < 2 ? [...measured, at] : [at];
+  const [a, b] = measured;
+  $("measured").textContent = b
+    ? `${mm(Math.hypot(b[0] - a[0], b[1] - a[1]))} mm · ΔX ${mm(b[0] - a[0])} · ΔY ${mm(b[1] - a[1])}`
+    : `X${mm(a[0])} Y${mm(a[1])}`;
+  spots();
+}
+
+function play(): void {
+  if (timer) {
+    clearInterval(timer);
+    timer = 0;
+    return;
+  }
+  if (count >= made.steps.length) go(0);
+  timer = window.setInterval(() => {
+    if (count >= made.steps.length) return play();
+    go(count + Math.max(1, Math.round(made.steps.length / 600)));
+  }, 40);
+}
+
+const acts: Record<string, () => void> = {
+  view2: () => stage?.fit((space = false)),
+  view3: () => stage?.fit((space = true)),
+  fit: () => stage?.fit(space),
+  measure: () => {
+    measured = measured ? null : [];
+    $("measured").textContent = measured ? say("pick", lang) : "";
+    spots();
+  },
+  theme: () => {
+    dark = !dark;
+    start();
+  },
+  lang: () => {
+    lang = lang === "en" ? "de" : "en";
+    speak();
+  },
+  play,
+};
+for (const what of ["rapids", "arrows", "order", "texts", "other"] as const) {
+  acts[what] = () => {
+    shown[what] = !shown[what];
+    $(what).setAttribute("aria-pressed", String(shown[what]));
+    if (what === "order" || what === "texts") spots();
+    else stage?.toggle(what, shown[what]);
+  };
+}
+for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
+
+const keys: Record<string, () => void> = {
+  ArrowRight: () => go(count + 1),
+  ArrowLeft: () => go(count - 1),
+  PageDown: () => go(count + 10),
+  PageUp: () => go(count - 10),
+  Home: () => go(0),
+  End: () => go(made.steps.length),
+  " ": play,
+  "2": acts.view2,
+  "3": acts.view3,
+  f: acts.fit,
+  r: acts.rapids,
+  a: acts.arrows,
+  n: acts.order,
+  t: acts.texts,
+  o: acts.other,
+  m: acts.measure,
+  l: acts.lang,
+  d: acts.theme,
+};
+addEventListener("keydown", (event) => {
+  const act = event.ctrlKey || event.altKey || event.metaKey ? undefined : keys[event.key];
+  const isButton = event.target instanceof HTMLButtonElement && event.key === " ";
+  if (!act || isButton) return;
+  event.preventDefault();
+  act();
+  if (event.key.startsWith("Arrow")) describe((chosen = count > 0 ? count - 1 : null));
+});
+
+slider.max = String(made.steps.length);
+slider.addEventListener("input", () => go(Number(slider.value)));
+code.addEventListener("scroll", () => listing(false));
+rows.addEventListener("click", (event) => {
+  const line = (event.target as HTMLElement).closest<HTMLElement>(".row")?.dataset.line;
+  const found = line === undefined ? undefined : byLine[linesOf ?? 0].get(Number(line));
+  if (found === undefined) return;
+  go(found + 1);
+  describe((chosen = found));
+});
+let down: [number, number] = [0, 0];
+picture.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+picture.addEventListener("click", (event) => {
+  if (!stage || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+  const box = picture.getBoundingClientRect();
+  const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+  if (measured) return measure(stage.plane(x, y, count));
+  chosen = stage.pick(x, y, count);
+  if (chosen !== null) go(chosen + 1);
+  describe(chosen);
+});
+let hovering = false;
+picture.addEventListener("pointermove", (event) => {
+  if (!stage || hovering || event.buttons > 0) return;
+  hovering = true;
+  requestAnimationFrame(() => {
+    hovering = false;
+    const box = picture.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    const at = stage!.plane(x, y, 0);
+    $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}`;
+    const found = stage!.pick(x, y, count);
+    if (found !== null || chosen === null) describe(found);
+  });
+});
+
+start();
+speak();
+document.documentElement.dataset.ready = "true";

@@ -1,0 +1,133 @@
+// The moves of all paths behind each other, flattened once.
+
+import { Move, Path, Scene, isCut, pointsOfMove } from "./scene.js";
+
+export interface Step {
+  path: Path;
+  move: Move;
+}
+
+/** Pieces of moves that are drawn alike: 6 numbers each, and how many there are up to each step. */
+export interface Pieces {
+  points: number[];
+  colors: number[];
+  until: number[];
+  step: number[];
+}
+
+export interface Model {
+  steps: Step[];
+  cuts: Pieces;
+  rapids: Pieces;
+  arrows: Pieces;
+  rapidArrows: Pieces;
+  low: [number, number, number];
+  high: [number, number, number];
+  deepest: number;
+  shallowest: number;
+}
+
+const DEPTHS = [
+  [115, 192, 232],
+  [52, 148, 209],
+  [24, 104, 172],
+  [30, 61, 130],
+  [42, 20, 84],
+];
+const DARK = [
+  [30, 90, 130],
+  [40, 130, 190],
+  [70, 170, 230],
+  [150, 210, 250],
+  [235, 248, 255],
+];
+const RAPID = [0.9, 0.62, 0];
+
+export function depthColor(share: number, dark: boolean): [number, number, number] {
+  const stops = dark ? DARK : DEPTHS;
+  const place = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
+  const stop = Math.min(Math.floor(place), stops.length - 2);
+  return [0, 1, 2].map(
+    (part) => (stops[stop][part] + (stops[stop + 1][part] - stops[stop][part]) * (place - stop)) / 255,
+  ) as [number, number, number];
+}
+
+export function model(scene: Scene, dark: boolean): Model {
+  const steps = scene.paths.flatMap((path) => path.moves.map((move) => ({ path, move })));
+  const depths = steps.filter((it) => isCut(it.move.kind)).map((it) => it.move.to[2] ?? 0);
+  const shallowest = depths.reduce((a, b) => Math.max(a, b), -Infinity);
+  const deepest = depths.reduce((a, b) => Math.min(a, b), Infinity);
+  const empty = (): Pieces => ({ points: [], colors: [], until: [], step: [] });
+  const made: Model = {
+    steps,
+    cuts: empty(),
+    rapids: empty(),
+    arrows: empty(),
+    rapidArrows: empty(),
+    low: [Infinity, Infinity, Infinity],
+    high: [-Infinity, -Infinity, -Infinity],
+    deepest,
+    shallowest,
+  };
+  const grow = (at: number[]) => {
+    for (let axis = 0; axis < 3; axis++) {
+      made.low[axis] = Math.min(made.low[axis], at[axis]);
+      made.high[axis] = Math.max(made.high[axis], at[axis]);
+    }
+  };
+  for (const path of scene.paths) {
+    for (const element of path.elements) {
+      const { shape } = element;
+      const ends = shape.type === "line" ? [shape.from, shape.to] : [shape.centre];
+      for (const [x, y] of ends) grow([x + path.zero[0], y + path.zero[1], 0]);
+    }
+  }
+  for (const [x, y] of scene.findings.flatMap((it) => (it.at ? [it.at] : []))) grow([x, y, 0]);
+  const flat = steps.map(({ path, move }) =>
+    pointsOfMove(move).map(([x, y, z]): [number, number, number] => [x + path.zero[0], y + path.zero[1], z]),
+  );
+  const hasElements = scene.paths.some((path) => path.elements.length > 0);
+  flat.forEach((points, index) => {
+    if (isCut(steps[index].move.kind) || !hasElements) points.forEach(grow);
+  });
+  if (!Number.isFinite(made.low[0])) {
+    made.low = [0, 0, 0];
+    made.high = [10, 10, 0];
+  }
+  const extent = Math.max(made.high[0] - made.low[0], made.high[1] - made.low[1], 1);
+  steps.forEach(({ move }, index) => {
+    const cuts = isCut(move.kind);
+    const share = shallowest > deepest ? (shallowest - (move.to[2] ?? 0)) / (shallowest - deepest) : 0.5;
+    const color = cuts ? depthColor(share, dark) : RAPID;
+    const into = cuts ? made.cuts : made.rapids;
+    const points = flat[index];
+    for (let piece = 1; piece < points.length; piece++) push(into, points[piece - 1], points[piece], color, index);
+    arrow(cuts ? made.arrows : made.rapidArrows, points, color, index, extent);
+    for (const pieces of [made.cuts, made.rapids, made.arrows, made.rapidArrows]) pieces.until.push(pieces.step.length);
+  });
+  return made;
+}
+
+function push(into: Pieces, from: number[], to: number[], color: number[], step: number): void {
+  into.points.push(...from, ...to);
+  into.colors.push(...color, ...color);
+  into.step.push(step);
+}
+
+/** Two strokes at three fifths of a move. */
+function arrow(into: Pieces, points: number[][], color: number[], step: number, extent: number): void {
+  if (points.length < 2) return;
+  const piece = points.length === 2 ? 1 : Math.floor(points.length * 0.6);
+  const [from, to] = [points[piece - 1], points[piece]];
+  const way = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(way[0], way[1]);
+  const whole = points.length === 2 ? length : length * points.length;
+  const size = Math.min(extent * 0.012, whole * 0.3);
+  if (length === 0 || whole < extent * 0.02) return;
+  const share = points.length === 2 ? 0.6 : 1;
+  const tip = [0, 1, 2].map((axis) => from[axis] + (to[axis] - from[axis]) * share);
+  const [dx, dy] = way.map((part) => (part / length) * size);
+  for (const side of [1, -1]) {
+    push(into, tip, [tip[0] - dx + side * dy * 0.5, tip[1] - dy - side * dx * 0.5, tip[2]], color, step);
+  }
+}

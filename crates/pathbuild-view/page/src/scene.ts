@@ -1,0 +1,145 @@
+// The scene as data: the form is that of pathbuild-view's src/scene.rs, version 1.
+
+export type Point = [number, number];
+export type Place = [number | null, number | null, number | null];
+
+export interface Arc {
+  axes: [number, number];
+  centre: Point;
+  clockwise: boolean;
+  degrees: number;
+}
+
+export type MoveKind = "sweep" | "lift" | "plunge" | "mill" | "mark" | "probe";
+
+export interface Move {
+  kind: MoveKind;
+  from: Place;
+  to: Place;
+  arc?: Arc;
+  feed?: number;
+  length: number;
+  element?: number;
+  line?: number;
+}
+
+export type Shape =
+  | { type: "line"; from: Point; to: Point }
+  | { type: "arc"; from: Point; to: Point; centre: Point; radius: number; clockwise: boolean; degrees: number }
+  | { type: "circle"; centre: Point; radius: number };
+
+export interface Element {
+  path: number;
+  kind: string;
+  entity: string;
+  layer: string;
+  handle: string | null;
+  line: number | null;
+  shape: Shape;
+  order: number | null;
+}
+
+export interface Label {
+  path: number;
+  text: string;
+  at: Point;
+  radius: number;
+  elements: number[];
+}
+
+export interface Embedded {
+  name: string;
+  file: string;
+  ends: [Point, Point];
+  thickness: number;
+  sweep_height: number;
+}
+
+export interface Path {
+  name: string;
+  file: string;
+  zero: Point;
+  tool: number | null;
+  thickness: number | null;
+  material: string | null;
+  embedded: Embedded[];
+  elements: Element[];
+  texts: Label[];
+  bars: { element: number; shape: Shape; top: number }[];
+  probes: { number: number; at: Point; height: number; label: string | null }[];
+  moves: Move[];
+  totals: { milling: number; drilling: number; sweeps: number; minutes: number | null } | null;
+  gcode: string | null;
+}
+
+export interface Finding {
+  number: number;
+  code: string;
+  is_error: boolean;
+  message: { en: string; de: string };
+  help: { en: string; de: string };
+  file: string | null;
+  path: string | null;
+  at: Point | null;
+}
+
+export interface Scene {
+  schema: string;
+  version: number;
+  title: string;
+  paths: Path[];
+  other_layers: ({ type: "shape"; layer: string; shape: Shape } | { type: "text"; text: string; at: Point })[];
+  keep_outs: { layer: string; outline: Shape[]; height: number }[];
+  findings: Finding[];
+}
+
+/** Degrees of an arc that one straight piece stands for. */
+const STEP = 6;
+
+/** The points of a move, from its beginning to its end; empty where it is not known where it leads. */
+export function pointsOfMove(move: Move): [number, number, number][] {
+  const { from, to, arc } = move;
+  const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);
+  if (from[0] === null || from[1] === null || to[0] === null || to[1] === null) return [];
+  const begin: [number, number, number] = [from[0], from[1], z(from)];
+  const end: [number, number, number] = [to[0], to[1], z(to)];
+  if (!arc) return [begin, end];
+  const [a, b] = arc.axes;
+  const third = 3 - a - b;
+  const spoke = (at: number[]) => [at[a] - arc.centre[0], at[b] - arc.centre[1]];
+  const [x, y] = spoke(begin);
+  const [radius, last] = [Math.hypot(x, y), Math.hypot(...(spoke(end) as Point))];
+  const start = Math.atan2(y, x);
+  const pieces = Math.max(2, Math.ceil(arc.degrees / STEP));
+  const way = ((arc.clockwise ? -1 : 1) * arc.degrees * Math.PI) / 180;
+  const points = [begin];
+  for (let piece = 1; piece < pieces; piece++) {
+    const share = piece / pieces;
+    const r = radius + (last - radius) * share;
+    const at: [number, number, number] = [0, 0, 0];
+    at[a] = arc.centre[0] + r * Math.cos(start + way * share);
+    at[b] = arc.centre[1] + r * Math.sin(start + way * share);
+    at[third] = begin[third] + (end[third] - begin[third]) * share;
+    points.push(at);
+  }
+  points.push(end);
+  return points;
+}
+
+/** The points of a shape. */
+export function pointsOfShape(shape: Shape): Point[] {
+  if (shape.type === "line") return [shape.from, shape.to];
+  const { centre, radius } = shape;
+  const degrees = shape.type === "circle" ? 360 : shape.degrees;
+  const start = shape.type === "circle" ? 0 : Math.atan2(shape.from[1] - centre[1], shape.from[0] - centre[0]);
+  const way = ((shape.type === "arc" && shape.clockwise ? -1 : 1) * degrees * Math.PI) / 180;
+  const pieces = Math.max(2, Math.ceil(degrees / STEP));
+  return Array.from({ length: pieces + 1 }, (_, piece): Point => {
+    const angle = start + (way * piece) / pieces;
+    return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];
+  });
+}
+
+export function isCut(kind: MoveKind): boolean {
+  return kind === "mill" || kind === "mark" || kind === "plunge";
+}

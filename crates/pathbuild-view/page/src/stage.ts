@@ -1,0 +1,275 @@
+// The picture: one WebGL2 renderer, of which the view from above is the orthographic camera's. Buffers are uploaded once; a step changes
+// only how many of their pieces are drawn.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+
+import { Model, Pieces } from "./model.js";
+import { Point, Scene, Shape, pointsOfShape } from "./scene.js";
+
+export interface Spot {
+  at: [number, number, number];
+  node: HTMLElement;
+}
+
+/** Clicks and hovers reach so many px. */
+const REACH = 9;
+
+export class Stage {
+  private renderer: THREE.WebGLRenderer;
+  private scene = new THREE.Scene();
+  private camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
+  private controls: OrbitControls;
+  private materials: LineMaterial[] = [];
+  private cuts: LineSegments2;
+  private rapids: LineSegments2;
+  private arrows: LineSegments2;
+  private rapidArrows: LineSegments2;
+  private other: THREE.LineSegments;
+  private tool: THREE.Mesh;
+  private mark: LineSegments2;
+  private spots: Spot[] = [];
+  private isDue = false;
+  private unit: number;
+
+  constructor(
+    private host: HTMLElement,
+    private labels: HTMLElement,
+    private model: Model,
+    scene: Scene,
+    dark: boolean,
+  ) {
+    const canvas = document.createElement("canvas");
+    const context = canvas.getContext("webgl2", { antialias: true });
+    if (!context) throw new Error("no WebGL2");
+    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: true });
+    host.append(canvas);
+    THREE.ColorManagement.enabled = false;
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.paper(dark);
+    const { low, high } = model;
+    this.unit = Math.max(high[0] - low[0], high[1] - low[1], 1);
+    this.other = this.thin(otherShapes(scene), dark ? 0x4a5560 : 0xb8bfc6);
+    this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
+    this.scene.add(this.thin(keepOuts(scene), 0xd55e00));
+    this.scene.add(this.fat(bars(scene), 6));
+    this.rapids = this.fat(model.rapids, 1.1);
+    this.rapidArrows = this.fat(model.rapidArrows, 1.2);
+    this.cuts = this.fat(model.cuts, 2.2);
+    this.arrows = this.fat(model.arrows, 1.4);
+    this.mark = this.fat({ points: [0, 0, 0, 0, 0, 0], colors: [1, 0.2, 0.1, 1, 0.2, 0.1], until: [], step: [0] }, 5);
+    this.mark.visible = false;
+    const diameter = scene.paths.find((path) => path.tool)?.tool ?? this.unit / 60;
+    const height = Math.max(diameter * 3, this.unit / 20);
+    const body = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 24).rotateX(Math.PI / 2).translate(0, 0, height / 2);
+    this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
+    this.scene.add(this.other, this.cuts, this.rapids, this.arrows, this.rapidArrows, this.mark, this.tool);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.draw());
+    this.controls.zoomToCursor = true;
+    new ResizeObserver(() => this.resize()).observe(host);
+    this.resize();
+    this.fit(false);
+  }
+
+  paper(dark: boolean): void {
+    this.renderer.setClearColor(dark ? 0x11181f : 0xffffff);
+    this.draw();
+  }
+
+  /** The whole drawing, from above or from the front left. */
+  fit(space: boolean): void {
+    const { low, high } = this.model;
+    const middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0);
+    this.controls.target.copy(middle);
+    const away = space ? new THREE.Vector3(-0.5, -1, 0.9) : new THREE.Vector3(0, 0, 1);
+    this.camera.up.set(0, space ? 0 : 1, space ? 1 : 0);
+    this.camera.position.copy(middle).addScaledVector(away.normalize(), this.unit * 2);
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const least = this.unit / 20;
+    const [wide, tall] = [Math.max(high[0] - low[0], least), Math.max(high[1] - low[1], least)];
+    this.camera.zoom = 0.86 * Math.min(width / wide, height / tall) * (space ? 0.8 : 1);
+    this.camera.updateProjectionMatrix();
+    this.controls.enableRotate = space;
+    this.controls.mouseButtons.LEFT = space ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
+    this.controls.touches.ONE = space ? THREE.TOUCH.ROTATE : THREE.TOUCH.PAN;
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Draws the first so many moves, with the tool where they lead. */
+  show(count: number): void {
+    const of = (pieces: Pieces) => (count === 0 ? 0 : pieces.until[count - 1]);
+    const all = [
+      [this.cuts, this.model.cuts],
+      [this.rapids, this.model.rapids],
+      [this.arrows, this.model.arrows],
+      [this.rapidArrows, this.model.rapidArrows],
+    ] as const;
+    for (const [lines, pieces] of all) {
+      lines.geometry.instanceCount = of(pieces);
+    }
+    const step = this.model.steps[Math.max(count - 1, 0)];
+    const at = step && (count === 0 ? step.move.from : step.move.to);
+    this.tool.visible = !!at && at[0] !== null && at[1] !== null;
+    if (this.tool.visible && at) this.tool.position.set(at[0]! + step.path.zero[0], at[1]! + step.path.zero[1], at[2] ?? 0);
+    this.draw();
+  }
+
+  toggle(what: "rapids" | "arrows" | "other", on: boolean): void {
+    this[what].visible = on;
+    this.rapidArrows.visible = this.rapids.visible && this.arrows.visible;
+    this.draw();
+  }
+
+  /** Makes a move stand out; none: nothing does. */
+  point(step: number | null): void {
+    const points: number[] = [];
+    if (step !== null) {
+      for (const pieces of [this.model.cuts, this.model.rapids]) {
+        const from = step === 0 ? 0 : pieces.until[step - 1];
+        points.push(...pieces.points.slice(from * 6, pieces.until[step] * 6));
+      }
+    }
+    this.mark.visible = points.length > 0;
+    if (points.length > 0) {
+      this.mark.geometry.dispose();
+      const geometry = new LineSegmentsGeometry().setPositions(points);
+      geometry.setColors(points.map((_, index) => [1, 0.25, 0.1][index % 3]));
+      this.mark.geometry = geometry;
+    }
+    this.draw();
+  }
+
+  setSpots(spots: Spot[]): void {
+    this.spots = spots;
+    this.labels.replaceChildren(...spots.map((spot) => spot.node));
+    this.draw();
+  }
+
+  /** The move next to a place of the picture, of those that are shown. */
+  pick(x: number, y: number, count: number): number | null {
+    let [best, found] = [REACH, null as number | null];
+    const a = new THREE.Vector3();
+    const matrix = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const place = (points: number[], index: number): Point => {
+      a.set(points[index], points[index + 1], points[index + 2]).applyMatrix4(matrix);
+      return [((a.x + 1) / 2) * width, ((1 - a.y) / 2) * height];
+    };
+    const all = this.rapids.visible ? [this.model.cuts, this.model.rapids] : [this.model.cuts];
+    for (const pieces of all) {
+      const until = count === 0 ? 0 : pieces.until[count - 1];
+      for (let piece = until - 1; piece >= 0; piece--) {
+        const away = distance([x, y], place(pieces.points, piece * 6), place(pieces.points, piece * 6 + 3));
+        if (away < best) [best, found] = [away, pieces.step[piece]];
+      }
+    }
+    return found;
+  }
+
+  /** The point of the plane Z = 0 under a place of the picture, drawn to the end of a move nearby. */
+  plane(x: number, y: number, count: number): Point {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const step = this.pick(x, y, count);
+    if (step !== null) {
+      const { path, move } = this.model.steps[step];
+      for (const end of [move.from, move.to]) {
+        if (end[0] === null || end[1] === null) continue;
+        const at: Point = [end[0] + path.zero[0], end[1] + path.zero[1]];
+        const seen = this.project([at[0], at[1], end[2] ?? 0]);
+        if (Math.hypot(seen[0] - x, seen[1] - y) < REACH) return at;
+      }
+    }
+    const near = new THREE.Vector3((x / width) * 2 - 1, 1 - (y / height) * 2, -1).unproject(this.camera);
+    const way = this.camera.getWorldDirection(new THREE.Vector3());
+    const share = way.z === 0 ? 0 : -near.z / way.z;
+    return [near.x + way.x * share, near.y + way.y * share];
+  }
+
+  project(at: [number, number, number]): Point {
+    const seen = new THREE.Vector3(...at).project(this.camera);
+    return [((seen.x + 1) / 2) * this.host.clientWidth, ((1 - seen.y) / 2) * this.host.clientHeight];
+  }
+
+  draw(): void {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.renderer.render(this.scene, this.camera);
+      for (const { at, node } of this.spots) {
+        const [x, y] = this.project(at);
+        node.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      }
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    this.renderer.setSize(width, height, false);
+    Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
+    this.camera.updateProjectionMatrix();
+    this.materials.forEach((material) => material.resolution.set(width, height));
+    this.draw();
+  }
+
+  private fat(pieces: Pieces, width: number): LineSegments2 {
+    const material = new LineMaterial({ linewidth: width, vertexColors: true, depthTest: false, depthWrite: false });
+    this.materials.push(material);
+    const points = pieces.points.length > 0 ? pieces.points : [0, 0, 0, 0, 0, 0];
+    const geometry = new LineSegmentsGeometry().setPositions(points);
+    geometry.setColors(pieces.colors.length > 0 ? pieces.colors : [0, 0, 0, 0, 0, 0]);
+    geometry.instanceCount = pieces.points.length / 6;
+    const lines = new LineSegments2(geometry, material);
+    lines.frustumCulled = false;
+    // What is drawn later lies on top: deeper passes come later than those above them.
+    lines.renderOrder = this.materials.length;
+    return lines;
+  }
+
+  private thin(points: number[], color: number): THREE.LineSegments {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+    return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color }));
+  }
+}
+
+function distance([x, y]: Point, [ax, ay]: Point, [bx, by]: Point): number {
+  const [dx, dy] = [bx - ax, by - ay];
+  const square = dx * dx + dy * dy;
+  const share = square === 0 ? 0 : Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / square));
+  return Math.hypot(x - ax - dx * share, y - ay - dy * share);
+}
+
+function strokes(shape: Shape, [x, y]: Point, z: number): number[] {
+  const points = pointsOfShape(shape);
+  return points.slice(1).flatMap((to, index) => [points[index][0] + x, points[index][1] + y, z, to[0] + x, to[1] + y, z]);
+}
+
+function otherShapes(scene: Scene): number[] {
+  return scene.other_layers.flatMap((it) => (it.type === "shape" ? strokes(it.shape, [0, 0], 0) : []));
+}
+
+function keepOuts(scene: Scene): number[] {
+  return scene.keep_outs.flatMap((it) => it.outline.flatMap((shape) => strokes(shape, [0, 0], it.height)));
+}
+
+/** What is drawn and is no move: all of a path without a program, else what embeds. */
+function elementShapes(scene: Scene): number[] {
+  const always = ["subpath", "skipped-subpath", "turn", "probe", "start", "end"];
+  return scene.paths.flatMap((path) =>
+    path.elements
+      .filter((element) => path.moves.length === 0 || always.includes(element.kind))
+      .flatMap((element) => strokes(element.shape, path.zero, 0)),
+  );
+}
+
+function bars(scene: Scene): Pieces {
+  const points = scene.paths.flatMap((path) => path.bars.flatMap((bar) => strokes(bar.shape, path.zero, bar.top)));
+  return { points, colors: points.map((_, index) => [0.8, 0.47, 0.65][index % 3]), until: [], step: [] };
+}

@@ -1,0 +1,126 @@
+// The page in a browser: node test.mjs PATHBUILD LIBRARY [PICTURES]. Needs Debian's chromium.
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import assert from "node:assert/strict";
+import { chromium } from "playwright-core";
+
+const [pathbuild, library, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
+const directory = mkdtempSync(join(tmpdir(), "pathbuild-page-"));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...(process.env.NO_WEBGL ? ["--disable-3d-apis"] : [])],
+});
+
+/** Writes a page and opens it; errors and requests to elsewhere fail the test. */
+async function open(what, options = {}) {
+  const file = join(directory, `${what.replaceAll("/", "_")}.html`);
+  const run = spawnSync(pathbuild, ["view", what, "-o", file], { cwd: library, encoding: "utf8" });
+  assert.ok(run.stderr.includes(".html"), run.stderr);
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  page.on("request", (request) => request.url().startsWith("file:") || faults.push(request.url()));
+  await page.goto(`file://${file}`);
+  await page.waitForSelector("html[data-ready]");
+  return { page, faults };
+}
+
+async function shot(page, name) {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+const text = (page, selector) => page.locator(selector).innerText();
+
+{
+  const { page, faults } = await open("8001.1P");
+  const total = Number(await page.locator("#slider").getAttribute("max"));
+  assert.ok(total > 300, `${total} moves`);
+  await shot(page, "project");
+  // Single steps by keys: the G-code line follows.
+  await page.keyboard.press("Home");
+  assert.match(await text(page, "#where"), /^Move 0 of/);
+  for (let step = 0; step < 5; step++) await page.keyboard.press("ArrowRight");
+  assert.match(await text(page, "#where"), /^Move 5 of/);
+  const line = await page.locator(".row.now i").innerText();
+  assert.match(await text(page, ".row.now"), /G0[0-3]/);
+  assert.match(await text(page, "#details"), /2050\.1P/);
+  // A click on a line runs to its move.
+  await page.locator(".row", { hasText: "G02" }).first().click();
+  assert.notEqual(await page.locator(".row.now i").innerText(), line);
+  assert.match(await text(page, ".row.now"), /G02/);
+  // The slider.
+  await page.locator("#slider").fill(String(Math.floor(total / 2)));
+  assert.match(await text(page, "#where"), new RegExp(`^Move ${Math.floor(total / 2)} of`));
+  await page.keyboard.press("End");
+  // A click on a move shows its line: look along the picture until there is one.
+  await page.keyboard.press("Home");
+  await page.keyboard.press("End");
+  const box = await page.locator("#picture").boundingBox();
+  let found = "";
+  for (let x = box.x + 20; x < box.x + box.width - 20 && !/G-code/.test(found); x += 6) {
+    await page.mouse.click(x, box.y + box.height * 0.45);
+    found = await text(page, "#details");
+  }
+  assert.match(found, /G-code/);
+  assert.match(await text(page, ".row.now"), /G0/);
+  // Hovering tells of the element.
+  assert.match(found, /(LINE|CIRCLE|ARC) /);
+  await shot(page, "picked");
+  // Order numbers, rapids and arrows can be hidden.
+  await page.keyboard.press("End");
+  const numbers = await page.locator("#labels .order").count();
+  assert.ok(numbers > 20, `${numbers} numbers`);
+  await page.keyboard.press("n");
+  assert.equal(await page.locator("#labels .order").count(), 0);
+  await page.keyboard.press("n");
+  await page.keyboard.press("r");
+  assert.equal(await page.locator("#rapids").getAttribute("aria-pressed"), "false");
+  // Measuring.
+  await page.keyboard.press("m");
+  await page.mouse.click(box.x + 100, box.y + 100);
+  await page.mouse.click(box.x + 200, box.y + 100);
+  assert.match(await text(page, "#measured"), /mm · ΔX/);
+  await page.keyboard.press("m");
+  // German, dark, in space.
+  await page.keyboard.press("l");
+  assert.match(await text(page, "#where"), /^Bewegung/);
+  assert.equal(await text(page, "#rapids"), "Eilgänge");
+  await page.keyboard.press("d");
+  await page.keyboard.press("3");
+  await page.waitForTimeout(200);
+  await shot(page, "dark-space");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+
+{
+  const { page, faults } = await open("mistakes/3001.1P.dxf", { viewport: { width: 390, height: 800 }, colorScheme: "dark" });
+  assert.match(await text(page, "#findings"), /PB401/);
+  assert.equal(await page.locator("#labels .finding").count(), 1);
+  await page.waitForTimeout(200);
+  await shot(page, "mistake-390");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+await browser.close();
+
+{
+  // Without WebGL the picture stands still, and the rest works.
+  const still = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--disable-webgl", "--disable-webgl2"],
+  });
+  const page = await still.newPage({ viewport: { width: 1280, height: 800 } });
+  await page.goto(`file://${join(directory, "8001.1P.html")}`);
+  await page.waitForSelector("html[data-ready]");
+  assert.ok(await page.locator("#still svg").isVisible());
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowRight");
+  assert.match(await text(page, "#where"), /^Move 1 of/);
+  await shot(page, "still");
+  await still.close();
+}
+console.log("page: all passed");
