@@ -129,6 +129,25 @@ fn in_plane(it: &Value) -> f64 {
     }
 }
 
+/// What three decimals, and arcs in pieces of half a degree, leave of a place.
+const DIGITS: f64 = 0.005;
+
+/// Points of a move, many of an arc.
+fn points(it: &Value) -> Vec<[f64; 3]> {
+    let place = |end: &str| [0, 1, 2].map(|axis| number(it, end, axis));
+    let (from, to) = (place("from"), place("to"));
+    let Some(arc) = it["arc"].as_object() else { return vec![from, to] };
+    assert_eq!(arc["axes"], serde_json::json!([0, 1]));
+    let centre = [0, 1].map(|axis| arc["centre"][axis].as_f64().unwrap());
+    let (x, y, degrees) = (from[0] - centre[0], from[1] - centre[1], arc["degrees"].as_f64().unwrap());
+    let way = if arc["clockwise"].as_bool().unwrap() { -degrees } else { degrees };
+    let inner = (0..=720).map(|piece| {
+        let (sin, cos) = (way * f64::from(piece) / 720.0).to_radians().sin_cos();
+        [centre[0] + x * cos - y * sin, centre[1] + x * sin + y * cos, from[2]]
+    });
+    inner.chain([from, to]).collect()
+}
+
 /// The box of a path's moves is that of its G-code, to the digits that it is written with.
 fn boxes_agree(path: &Value, moves: &[Value], name: &str) {
     let text = path["gcode"].as_str().unwrap();
@@ -136,13 +155,16 @@ fn boxes_agree(path: &Value, moves: &[Value], name: &str) {
     let read = interpret(text.as_bytes(), Dialect::Native, &options);
     let of_text = Summary::of(&read.steps, false).cut;
     let is_cut = |it: &&Value| ["mill", "mark", "plunge"].contains(&it["kind"].as_str().unwrap());
-    for axis in 0..3 {
-        let ends = moves.iter().filter(is_cut).flat_map(|it| ["from", "to"].map(|end| number(it, end, axis)));
-        let (low, high) =
-            ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-        let Some((expected_low, expected_high)) = of_text[axis] else { continue };
-        // Of arcs the ends alone are looked at here: they stay within the box.
-        assert!(low >= expected_low - 0.001 && high <= expected_high + 0.001, "{name}: axis {axis}");
+    let points: Vec<[f64; 3]> = moves.iter().filter(is_cut).flat_map(points).collect();
+    for (axis, expected) in of_text.iter().enumerate() {
+        let Some((expected_low, expected_high)) = *expected else { continue };
+        let along = || points.iter().map(|at| at[axis]);
+        let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
+        let is_same = |a: f64, b: f64| (a - b).abs() <= DIGITS;
+        assert!(
+            is_same(low, expected_low) && is_same(high, expected_high),
+            "{name}: axis {axis}: {low} to {high}"
+        );
     }
     let lines = text.lines().count() as u64;
     for it in moves {

@@ -40,7 +40,7 @@ impl Session<'_> {
             scene.paths.extend(seen);
             diagnostics.extend(found);
         }
-        scene.other_layers = view::other_layers(&other_layers(&self.db, file));
+        scene.other_layers = view::other_layers(other_layers(&self.db, file));
         Seen { scene, diagnostics }
     }
 
