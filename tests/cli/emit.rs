@@ -101,7 +101,7 @@ fn files_are_written_once() {
 
 /// A sheet at the machine says out of what it was made: the same, wherever it was made.
 #[test]
-fn provenance_is_that_of_drawings_and_options() {
+fn provenance_is_that_of_moves_and_options() {
     const PROGRAM: &str = "projects/8001 a b_Milling.gcode";
     let of = |place: &Place, options: &str| {
         let run = place.run(&format!("emit 8001.1P {options}"));
@@ -111,16 +111,46 @@ fn provenance_is_that_of_drawings_and_options() {
     let place = Place::of(LIBRARY);
     let first = of(&place, "");
     assert!(first.starts_with(concat!("(pathbuild ", env!("CARGO_PKG_VERSION"), " ")), "{first}");
+    assert!(first.ends_with(" native O2 T5)"), "{first}");
     let moved = Place::of(&LIBRARY.replace("components", "parts").replace("projects/", "x/../projects/"));
     assert_eq!(of(&moved, "-j 1"), first);
-    // What it does not embed does not change it.
+    // Neither what it does not embed, nor what changes no move, nor an option that changes none changes it.
     assert_eq!(of(&library("probe 20,20", "probe 20,30"), ""), first);
+    assert_eq!(of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), ""), first);
+    assert_eq!(of(&place, "--probe-feed 7"), first);
     let [program, options] = [0, 1].map(|part| first.split('-').nth(part).unwrap().to_owned());
-    // What it embeds does, even where the moves stay the same; so does an option that matters.
-    let changed = of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), "");
+    let changed = of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F151\""), "");
     assert!(!changed.starts_with(&program) && changed.ends_with(&options), "{first} {changed}");
-    let faster = of(&place, "--feed 200");
+    let moved = of(&library("B4 MPlate\"\nmill 0,0", "B3.999 MPlate\"\nmill 0,0"), "");
+    assert!(!moved.starts_with(&program) && moved.ends_with(&options), "{first} {moved}");
+    let faster = of(&place, "--rapid 1200");
     assert!(faster.starts_with(&program) && !faster.ends_with(&options), "{first} {faster}");
+}
+
+/// A CAD that saves a drawing again may write it otherwise; and a newer pathbuild writes what the older one has written.
+#[test]
+fn a_program_stays_current_when_only_its_drawing_s_bytes_or_the_version_change() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let saved = place.read("components/1234.dxf").replace("  0\nSECTION", "999\nsaved again\n  0\nSECTION");
+    let place = place.file("components/1234.dxf", saved);
+    let run = place.run("emit 1234.1P --check");
+    assert!(run.status == Some(0) && run.stdout.contains("1234_Milling.gcode: current"), "{run}");
+    let version = concat!("pathbuild ", env!("CARGO_PKG_VERSION"), " ");
+    let older = place.read("components/1234_Milling.gcode").replace(version, "pathbuild 0.0.9-beta ");
+    let place = place.file("components/1234_Milling.gcode", older.clone());
+    for command in ["emit 1234.1P --check", "emit 1234.1P --check", "emit . --check"] {
+        let run = place.run(command);
+        assert!(run.stdout.contains("1234_Milling.gcode: current"), "{run}");
+    }
+    let run = place.run("emit 1234.1P");
+    assert!(run.stderr.contains("1234_Milling.gcode: unchanged"), "{run}");
+    assert_eq!(place.read("components/1234_Milling.gcode"), older);
+    // An unchanged header does not make a changed body current.
+    let place = place.file("components/1234_Milling.gcode", older.replace("X40.000", "X40.001"));
+    assert_eq!(place.run("emit 1234.1P --check").status, Some(1));
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    assert!(place.read("components/1234_Milling.gcode").contains(version));
 }
 
 #[test]

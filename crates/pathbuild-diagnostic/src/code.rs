@@ -113,6 +113,7 @@ codes! {
     605 ProbeValuesPresent "probe-values-present" Error "PB605: _Z.txt with values would be overwritten";
     606 OutsideProbes "outside-probes" Warning "PB606: milling outside the hull of the probes";
     607 OddProbe "odd-probe" Warning "PB607: a probe that does not fit its neighbours";
+    608 OldProgram "old-program" Error "PB608: a program to be adjusted that is not what its drawing gives now";
     701 NotGCode "not-g-code" Error "PB701: a file that holds no G-code at all";
     702 UnknownCharacter "unknown-character" Error "PB702: a character that begins no word";
     703 InvalidWord "invalid-word" Error "PB703: a letter without a number, or a number that is none";

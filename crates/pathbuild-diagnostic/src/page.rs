@@ -116,6 +116,7 @@ pages! {
     ProbeValuesPresent "PB605" example;
     OutsideProbes "PB606" example;
     OddProbe "PB607" example;
+    OldProgram "PB608" example;
     NotGCode "PB701" example;
     UnknownCharacter "PB702" example;
     InvalidWord "PB703" example;

@@ -47,6 +47,15 @@ pub struct ProbePoint {
 }
 
 impl Program {
+    /// The upper face of the material in mm, if all of it has the same.
+    pub fn surface(&self) -> Option<f64> {
+        let mut surfaces = self.steps.iter().filter_map(|step| match step {
+            Step::Comment(Comment::Element { surface, .. }) => Some(*surface),
+            _ => None,
+        });
+        surfaces.all(|surface| surface == self.thickness).then_some(self.thickness)
+    }
+
     /// S0, a little more than S, so that the first sweep always writes its Z.
     pub fn start_height(&self) -> f64 {
         self.sweep_height * (1.0 + 0.000_002)

@@ -1,5 +1,6 @@
 //! Z-probes from the drawing to the adjusted program. (spec/70-z-probes.md)
 
+mod current;
 mod machine;
 
 use crate::support::{Place, Run};

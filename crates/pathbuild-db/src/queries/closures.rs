@@ -44,6 +44,16 @@ pub enum MissingOption {
     SweepHeight,
 }
 
+impl MissingOption {
+    /// Its name on the command line, without hyphens, and in the configuration.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Feed => "feed",
+            Self::SweepHeight => "sweep-height",
+        }
+    }
+}
+
 /// A path that a target reaches.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
 pub struct Reached<'db> {

@@ -78,6 +78,13 @@ messages! {
         help_en: "do not mill from {name} before the path's errors are mended and it is written anew",
         help_de: "nicht nach {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
+    /// What `adjust` wrote, of another program than the path's now.
+    STALE_ADJUSTED: StaleOutput {
+        en: "{name} was made from another program than {clean} is now",
+        de: "{name} wurde aus einem anderen Programm gemacht, als {clean} jetzt ist",
+        help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
+        help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
+    }
     /// A path without an embedding.
     LACKS_PATH: QProjectLacksPath {
         en: "the Q-project does not embed path {name} of {drawing}",

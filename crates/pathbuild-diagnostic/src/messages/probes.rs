@@ -1,4 +1,4 @@
-//! Z-probes. (PB601 to PB607)
+//! Z-probes. (PB601 to PB608)
 
 messages! {
     /// A line of a file of values that is none.
@@ -171,6 +171,13 @@ messages! {
         de: "#{probe} ist {off} mm {direction}, als nach den Nachbarn zu erwarten wäre",
         help_en: "measure this probe again; if the value is right, nothing is to be done",
         help_de: "diese Probe noch einmal messen; wenn der Wert stimmt, ist nichts zu tun",
+    }
+    /// The drawing has changed since.
+    OLD_PROGRAM: OldProgram {
+        en: "{name} is out of date: {drawing} gives other moves now",
+        de: "{name} ist veraltet: {drawing} ergibt jetzt andere Bewegungen",
+        help_en: "run emit again, then adjust with the same options (--feed, --sweep-height)",
+        help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--feed, --sweep-height)",
     }
 }
 

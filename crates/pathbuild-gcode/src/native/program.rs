@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
-use super::comment::{Charset, Remarks};
+use super::comment::{Charset, Remarks, comment};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, push_f3};
 use super::statistics;
@@ -46,7 +46,7 @@ impl WriteOptions {
 /// The comment that says which path of which drawing a file was made from. A word of ours stands first, as in every comment: LinuxCNC
 /// acts on comments that begin with certain words.
 pub fn title(drawing: &str, path: &str) -> String {
-    format!("Path {path}{OF_DRAWING}{drawing}")
+    format!("{PATH}{path}{OF_DRAWING}{drawing}")
 }
 
 /// The drawing of a [`title`].
@@ -54,6 +54,18 @@ pub fn drawing_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING).map(|(_, drawing)| drawing)
 }
 
+/// The path of a [`title`].
+pub fn path_of_title(title: &str) -> Option<&str> {
+    title.split_once(OF_DRAWING)?.0.strip_prefix(PATH)
+}
+
+/// Whether a title that stands in a program is that of a path of a drawing, in whatever characters and case a post has written it.
+pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
+    let plain = |title: &str| comment(title, Charset::Ascii).to_lowercase();
+    plain(found) == plain(&title(drawing, path))
+}
+
+const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 
 /// The lines that set the machine up. LinuxCNC refuses F before G94.

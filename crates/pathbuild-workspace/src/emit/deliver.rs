@@ -7,14 +7,17 @@ use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point};
+use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::verify::rapids_into_material;
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
-use super::compare;
 use super::job::Job;
+use super::provenance::Provenances;
+use super::{compare, options};
 use crate::posting::Poster;
 use crate::session::{OutputKind, Writing, hash_output, without_values};
+use crate::workspace::Workspace;
 
 /// What is done with the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +49,8 @@ pub struct Delivered {
     pub minutes: f64,
     /// What went wrong, or where moves differ.
     pub problems: Vec<Diagnostic>,
+    /// Out of what the program was made; `None` where none was.
+    pub(super) provenance: Option<Provenance>,
     /// What a post notes.
     pub notes: Vec<Note>,
     /// The command that a post wants to be run, and the file that it is for.
@@ -102,6 +107,15 @@ impl Task {
 pub(super) struct Means<'a> {
     pub(super) writing: Writing,
     pub(super) poster: Option<&'a Poster>,
+    pub(super) provenances: Provenances,
+}
+
+impl<'a> Means<'a> {
+    /// As the configuration says.
+    pub(super) fn new(workspace: &Workspace, poster: Option<&'a Poster>) -> Self {
+        let provenances = Provenances::new(&workspace.settings, poster);
+        Self { writing: options::writing(workspace), poster, provenances }
+    }
 }
 
 /// What a job becomes: no files where something keeps one of them from being written.
@@ -124,8 +138,11 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
         time.time += sum.time;
     }
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
+    let provenance = means.provenances.of(&programs);
+    let line = provenance.to_string();
+    delivered.provenance = Some(provenance);
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program));
-    let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, means, &mut delivered), Err);
+    let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
     let outputs = made.unwrap_or_else(|problems| {
         delivered.problems.extend(problems);
         Vec::new()
@@ -149,11 +166,14 @@ fn unsafe_moves(db: &Database, job: &Job, program: &Program) -> Option<Vec<Diagn
 /// Writes, compares or prints what a job becomes.
 pub(super) fn finish(
     system: &dyn System,
-    outputs: Vec<Output>,
+    mut outputs: Vec<Output>,
     task: Task,
     poster: Option<&Poster>,
     delivered: &mut Delivered,
 ) {
+    if task != Task::Print {
+        outputs.iter_mut().for_each(|output| keep_other_version(system, output));
+    }
     match task {
         Task::Write { force } => {
             if let Err(problem) = write(system, &outputs, force, delivered) {
@@ -172,6 +192,19 @@ pub(super) fn finish(
             delivered.files =
                 outputs.into_iter().map(|output| (output.path, State::Printed(output.text))).collect();
         }
+    }
+}
+
+/// What another version of pathbuild wrote stays, where it is the same program.
+fn keep_other_version(system: &dyn System, output: &mut Output) {
+    let Ok(head) = system.head(&output.path, HEAD) else { return };
+    if Provenance::of_head(&head).is_none_or(|(found, _)| *found.version == *VERSION) {
+        return;
+    }
+    if let Ok(present) = system.read(&output.path, u64::MAX)
+        && is_same_program(&present, &output.text)
+    {
+        output.text = present;
     }
 }
 
@@ -200,14 +233,19 @@ fn outputs(
     db: &Database,
     job: &Job,
     programs: &[Arc<Program>],
+    provenance: &str,
     means: &Means<'_>,
     delivered: &mut Delivered,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let drawing = job.drawing(db).path(db);
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
     match (means.poster, programs) {
-        (Some(poster), programs) => posted(job, programs, poster, at, delivered).map(|output| vec![output]),
-        (None, [program]) => native(job, program, means, at, delivered).map_err(|problem| vec![*problem]),
+        (Some(poster), programs) => {
+            posted(job, programs, provenance, poster, at, delivered).map(|output| vec![output])
+        }
+        (None, [program]) => {
+            native(job, program, provenance, means, at, delivered).map_err(|problem| vec![*problem])
+        }
         // Paths are joined through a post only.
         (None, _) => Ok(Vec::new()),
     }
@@ -216,6 +254,7 @@ fn outputs(
 fn native(
     job: &Job,
     program: &Program,
+    provenance: &str,
     means: &Means<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
@@ -226,9 +265,8 @@ fn native(
         return Err(Box::new(at(too_many_pieces(count, means.writing.most_moves))));
     }
     delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
-    let provenance = job.provenance.to_string();
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
-        let text = kind.text(program, &provenance, &means.writing);
+        let text = kind.text(program, provenance, &means.writing);
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
         Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
     };
@@ -239,6 +277,7 @@ fn native(
 fn posted(
     job: &Job,
     programs: &[Arc<Program>],
+    provenance: &str,
     poster: &Poster,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
@@ -246,7 +285,7 @@ fn posted(
     let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
     let (mut program, warnings) =
         PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
-    program.remarks = vec![job.provenance.to_string().into(), job.title.as_str().into()];
+    program.remarks = vec![provenance.into(), job.title.as_str().into()];
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path));
     let output =

@@ -12,7 +12,7 @@ use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use super::store::KnownProgram;
 use crate::posting::Poster;
-use crate::session::{CheckedTarget, Emitted, OutputKind, Provenance, Session, stem_fault};
+use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
 #[derive(PartialEq)]
@@ -31,8 +31,6 @@ pub(super) struct Job {
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
     /// What the program says that it is, behind its provenance.
     pub(super) title: String,
-    /// Out of what it is made.
-    pub(super) provenance: Provenance,
 }
 
 impl Job {
@@ -45,7 +43,6 @@ impl Job {
             stem: known.stem.clone(),
             files: known.files.clone(),
             title: String::new(),
-            provenance: Provenance::default(),
             known: Some(known),
         }
     }
@@ -207,7 +204,6 @@ impl Maker<'_> {
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
             files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
-            provenance: Provenance::new(db, path, &sources, &self.session.workspace().settings, self.poster),
             stem,
             sources,
         }

@@ -3,11 +3,13 @@
 mod asked;
 mod compare;
 mod configured;
+mod current;
 mod deliver;
 mod deps;
 mod job;
 mod older;
 mod options;
+mod provenance;
 mod stale;
 mod store;
 mod write_queue;
@@ -25,10 +27,13 @@ use crate::workspace::Workspace;
 
 use asked::Asked;
 pub(crate) use configured::Configured;
+pub use current::{Current, current};
 use deliver::Means;
 pub use deliver::{Delivered, State, Task};
 use job::{Job, Maker, without_clashes};
 pub(crate) use options::write_options;
+pub use provenance::Provenances;
+use stale::Dealt;
 use store::{Known, Run, Store};
 use write_queue::deliver_all;
 
@@ -56,12 +61,31 @@ pub struct Emission {
     pub delivered: Vec<Delivered>,
     /// The stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,
+    /// Adjusted programs that are of another program than the path's now.
+    pub outdated: Vec<Utf8PathBuf>,
     /// Everything that was found, in any order and as often as it was met.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Request<'_> {
-    /// Makes the programs, in a session with hashes.
+    /// A session for it.
+    pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
+        if workspace.keeps_results() && !self.is_always_made() {
+            Session::traced(workspace)
+        } else {
+            Session::new(workspace)
+        }
+    }
+
+    /// Whether nothing that is known from earlier runs is enough.
+    fn is_always_made(&self) -> bool {
+        matches!(self.task, Task::Print | Task::Write { force: true })
+            || self.deps.is_some()
+            || self.join.is_some()
+            || self.poster.is_some_and(Poster::runs_post_build)
+    }
+
+    /// Makes the programs, in its session.
     ///
     /// # Errors
     /// Why the request makes no sense.
@@ -70,9 +94,6 @@ impl Request<'_> {
         let store = found.as_mut().and_then(|found| {
             Store::open(session.workspace(), self, Scope::of(found), std::mem::take(&mut found.listings))
         });
-        if store.is_some() {
-            session.note_traces();
-        }
         session.prefetch(self.inputs);
         let making = Making { request: self, store: store.as_ref(), found };
         let made = session.settled(|session| making.make(session))?;
@@ -85,15 +106,19 @@ impl Request<'_> {
             let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
             diagnostics.extend(deps::write(session, file, &jobs, self.poster, &inserted));
         }
-        let stale = stale::stale(session, &asked, &jobs, self.poster);
-        let removed = stale::deal_with(session, stale, self.removes_stale, &mut diagnostics);
+        let stale = match self.task {
+            Task::Print => Vec::new(),
+            _ => stale::stale(session, &asked, &jobs, &delivered, self.poster),
+        };
+        let Dealt { removed, outdated } =
+            stale::deal_with(session, stale, self.removes_stale, &mut diagnostics);
         if let Some(store) = store {
             let (task, drawings, poster) = (self.task, &asked.drawings, self.poster);
             let (checked, jobs, delivered) = (&checked, &jobs, &delivered);
             store.keep(session, &Run { task, drawings, checked, jobs, delivered, poster });
         }
         delivered.extend(older);
-        Ok(Emission { delivered, removed, diagnostics: session.with_elsewhere(diagnostics) })
+        Ok(Emission { delivered, removed, outdated, diagnostics: session.with_elsewhere(diagnostics) })
     }
 }
 
@@ -150,7 +175,7 @@ impl Making<'_> {
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
         }
-        let means = Means { writing: options::writing(context), poster };
+        let means = Means::new(context, poster);
         let delivered = deliver(session, &jobs, task, &means);
         Ok(Made { asked, checked, jobs, delivered, diagnostics })
     }
@@ -234,10 +259,10 @@ pub(crate) fn write(
         let jobs = Maker { session, poster }.jobs(&checked, &mut diagnostics);
         let mut jobs = without_clashes(session, jobs, &mut diagnostics);
         jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-        let means = Means { writing: options::writing(context), poster };
+        let means = Means::new(context, poster);
         let delivered = deliver(session, &jobs, task, &means);
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
-        Ok(Emission { delivered, removed: Vec::new(), diagnostics })
+        Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })
     })
 }
 

@@ -7,13 +7,14 @@ use pathbuild_db::{Db, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_gcode::native;
+use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::Request;
 use super::deliver::{Delivered, State, Task};
 use super::job::{Job, output_directory, program_name};
-use super::stale::{is_gcode, same_title};
+use super::stale::is_gcode;
 use crate::posting::Poster;
-use crate::session::{HEAD, Provenance, Session};
+use crate::session::Session;
 
 /// The programs on disk of targets of which nothing was written or compared now, each as a piece of its own: a comparison counts it as not
 /// current.
@@ -61,10 +62,10 @@ fn of_target(session: &Session<'_>, target: Target, poster: Option<&Poster>) -> 
     let (drawing, path) = (target.file(db).path(db), &**target.name(db));
     let directory = output_directory(session, target.file(db));
     let stems = [drawing.file_stem().unwrap_or_default(), path].map(str::to_lowercase);
-    let title = native::title(drawing.file_name().unwrap_or_default(), path);
+    let drawing = drawing.file_name().unwrap_or_default();
     let is_of_target = |program: &Utf8PathBuf| {
         let head = system.head(program, HEAD).unwrap_or_default();
-        Provenance::of_program(&head).is_some_and(|(_, found)| same_title(&found, &title))
+        Provenance::of_head(&head).is_some_and(|(_, found)| native::is_title(&found, drawing, path))
     };
     let listing = system.list(&directory).unwrap_or_default();
     let may_be = |name: &&str| {
@@ -82,5 +83,5 @@ fn of_joined(session: &Session<'_>, first: Target, name: &str, poster: &Poster) 
     let directory = output_directory(session, first.file(session.db()));
     let program = directory.join(program_name(name, poster));
     let head = session.db().system().head(&program, HEAD).unwrap_or_default();
-    Provenance::of_program(&head).map(|_| program)
+    Provenance::of_head(&head).map(|_| program)
 }

@@ -1,88 +1,200 @@
 //! G-code that was written earlier and that nothing would write now. (PB520, spec/05-command-line.md)
 //!
-//! It is looked for only where the run knows everything that could have written it: beside drawings of directories that were named, or in the
-//! output directory. A program says itself which path of which drawing it was made from.
+//! A program says itself which path of which drawing it was made from, and by which moves. Programs of paths that are gone are looked for only
+//! where the run knows everything that could have written them: beside drawings of directories that were named, or in the output directory.
+//! What the paths of the run have left themselves is looked for always.
 
 use std::cell::LazyCell;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, SourceFile};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::native::{self, Charset, comment};
+use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::asked::Asked;
+use super::deliver::Delivered;
 use super::job::{Job, output_directory};
 use crate::posting::Poster;
-use crate::session::{HEAD, OutputKind, Provenance, Session};
+use crate::session::{OutputKind, Session};
 
-/// Reports what is stale, or removes it; what was removed.
+/// A program that nobody should take to the machine.
+#[derive(Debug)]
+pub(super) struct Stale {
+    path: Utf8PathBuf,
+    /// The program that it was adjusted from once, which is another one now.
+    clean: Option<Utf8PathBuf>,
+}
+
+impl Stale {
+    fn diagnostic(&self) -> Diagnostic {
+        let name = self.path.file_name().unwrap_or_default();
+        let problem = match self.clean.as_ref().and_then(|clean| clean.file_name()) {
+            Some(clean) => Diagnostic::new(&messages::STALE_ADJUSTED).with("clean", clean),
+            None => Diagnostic::new(&messages::STALE),
+        };
+        problem.with("name", name).in_file(&self.path)
+    }
+}
+
+/// What became of stale programs.
+#[derive(Debug, Default)]
+pub(super) struct Dealt {
+    pub(super) removed: Vec<Utf8PathBuf>,
+    /// Adjusted programs that are still there.
+    pub(super) outdated: Vec<Utf8PathBuf>,
+}
+
+/// Reports what is stale, or removes it.
 pub(super) fn deal_with(
     session: &Session<'_>,
-    stale: Vec<Utf8PathBuf>,
+    stale: Vec<Stale>,
     is_removed: bool,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Utf8PathBuf> {
-    let mut removed = Vec::new();
-    for path in stale {
-        let name = path.file_name().unwrap_or_default();
+) -> Dealt {
+    let mut dealt = Dealt::default();
+    for stale in stale {
         if !is_removed {
-            diagnostics.push(Diagnostic::new(&messages::STALE).with("name", name).in_file(&path));
+            diagnostics.push(stale.diagnostic());
+            dealt.outdated.extend(stale.clean.is_some().then_some(stale.path));
             continue;
         }
-        match session.db().system().remove(&path) {
-            Ok(()) => removed.push(path),
+        match session.db().system().remove(&stale.path) {
+            Ok(()) => dealt.removed.push(stale.path),
             Err(reason) => {
+                let name = stale.path.file_name().unwrap_or_default();
                 let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", name);
-                diagnostics.push(problem.with("reason", &*reason).in_file(&path));
+                diagnostics.push(problem.with("reason", &*reason).in_file(&stale.path));
             }
         }
     }
-    removed
+    dealt
 }
 
-/// The programs that nothing would write now.
+/// The programs that nothing would write now. `delivered`: what became of each job.
 pub(super) fn stale(
     session: &Session<'_>,
     asked: &Asked,
     jobs: &[Job],
+    delivered: &[Delivered],
     poster: Option<&Poster>,
-) -> Vec<Utf8PathBuf> {
-    if asked.covered.is_empty() && asked.directories.is_empty() {
-        return Vec::new();
-    }
-    let outputs: HashSet<Utf8PathBuf> = jobs.iter().flat_map(|job| outputs(job, poster.is_none())).collect();
-    let writers = LazyCell::new(|| Writers::new(session, asked, jobs));
-    let out_dir = session
-        .workspace()
-        .settings
-        .general
-        .out_dir
-        .value
-        .as_ref()
-        .map(|directory| session.normal(directory));
-    let system = session.db().system();
-    let mut stale = Vec::new();
-    for directory in out_dir.as_ref().map_or(&*asked.directories, std::slice::from_ref) {
-        let listing = system.list(directory).unwrap_or_default();
-        let mut programs: Vec<Utf8PathBuf> = listing
-            .files
-            .iter()
-            .filter(|name| is_gcode(name, poster))
-            .map(|name| directory.join(name))
-            .filter(|path| !outputs.contains(path))
-            .collect();
-        programs.sort_unstable();
-        for path in programs {
-            let head = system.head(&path, HEAD).unwrap_or_default();
-            let title = Provenance::of_program(&head).map(|(_, title)| title);
-            if title.is_some_and(|title| writers.have_left(directory, &title, listing.files.iter())) {
-                stale.push(path);
-            }
-        }
-    }
+) -> Vec<Stale> {
+    let settings = &session.workspace().settings;
+    let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
+    let is_wide = !asked.covered.is_empty() || !asked.directories.is_empty();
+    let directories: &[Utf8PathBuf] = match &out_dir {
+        _ if !is_wide => &[],
+        Some(directory) => std::slice::from_ref(directory),
+        None => &asked.directories,
+    };
+    let finding = Finding {
+        session,
+        jobs,
+        outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
+        delivered,
+        by_stem: LazyCell::new(Box::new(move || {
+            let native = jobs.iter().enumerate().filter(|_| poster.is_none());
+            native.map(|(number, job)| (&*job.stem, number)).collect()
+        })),
+        writers: LazyCell::new(Box::new(|| Writers::new(session, asked, jobs))),
+    };
+    let mut stale: Vec<Stale> =
+        directories.iter().flat_map(|directory| finding.in_directory(directory, poster)).collect();
+    stale.extend(finding.elsewhere(directories));
     stale
+}
+
+/// A file that the path of a job became earlier, or that was adjusted from one: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when
+/// the path had probes.
+struct Own<'a> {
+    job: &'a Job,
+    kind: OutputKind,
+    /// Of the program now.
+    provenance: &'a Provenance,
+}
+
+struct Finding<'a> {
+    session: &'a Session<'a>,
+    jobs: &'a [Job],
+    outputs: HashSet<&'a Utf8Path>,
+    delivered: &'a [Delivered],
+    /// The number of each native job by the name of its files without what tells them apart.
+    by_stem: LazyCell<HashMap<&'a Utf8Path, usize>, Box<dyn FnOnce() -> HashMap<&'a Utf8Path, usize> + 'a>>,
+    writers: LazyCell<Writers, Box<dyn FnOnce() -> Writers + 'a>>,
+}
+
+impl<'a> Finding<'a> {
+    fn in_directory(&self, directory: &Utf8Path, poster: Option<&Poster>) -> Vec<Stale> {
+        let listing = self.session.db().system().list(directory).unwrap_or_default();
+        let programs = listing.files.iter().filter(|name| is_gcode(name, poster));
+        let programs = programs.map(|name| directory.join(name));
+        let mut programs: Vec<Utf8PathBuf> =
+            programs.filter(|path| !self.outputs.contains(&**path)).collect();
+        programs.sort_unstable();
+        let stale = |path: Utf8PathBuf| {
+            let (found, title) = self.provenance(&path)?;
+            match self.own(&path) {
+                Some(own) if own.is_meant(self.session, &title) => own.stale(path, &found),
+                _ => self
+                    .writers
+                    .have_left(directory, &title, listing.files.iter())
+                    .then_some(Stale { path, clean: None }),
+            }
+        };
+        programs.into_iter().filter_map(stale).collect()
+    }
+
+    /// The same for paths that were named by themselves: only the names that their own files would have are looked at.
+    fn elsewhere(&self, directories: &[Utf8PathBuf]) -> Vec<Stale> {
+        let looked_at: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
+        let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
+        let paths = stems.flat_map(|stem| {
+            OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())))
+        });
+        let stale = |path: Utf8PathBuf| {
+            let own = self.own(&path).filter(|_| !self.outputs.contains(&*path))?;
+            let (found, title) = self.provenance(&path)?;
+            own.is_meant(self.session, &title).then(|| own.stale(path, &found)).flatten()
+        };
+        paths.filter_map(stale).collect()
+    }
+
+    /// The job whose path may have become a file.
+    fn own(&self, path: &Utf8Path) -> Option<Own<'a>> {
+        let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
+        let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
+        let number = *self.by_stem.get(Utf8Path::new(stem))?;
+        let job = &self.jobs[number];
+        let provenance = self.delivered[number].provenance.as_ref()?;
+        job.files.iter().all(|(present, _)| *present != kind).then_some(Own { job, kind, provenance })
+    }
+
+    /// What a program says that it was made from, and its title.
+    fn provenance(&self, path: &Utf8Path) -> Option<(Provenance, Box<str>)> {
+        Provenance::of_head(&self.session.db().system().head(path, HEAD).ok()?)
+    }
+}
+
+impl Own<'_> {
+    /// Whether a title is that of the job's path.
+    fn is_meant(&self, session: &Session<'_>, found: &str) -> bool {
+        let db = session.db();
+        let drawing = self.job.drawing(db).path(db).file_name().unwrap_or_default();
+        native::is_title(found, drawing, &self.job.path)
+    }
+
+    /// A file of the path that was made from something: stale, unless it was adjusted from the program as it is now.
+    fn stale(&self, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
+        if self.kind != OutputKind::Milling {
+            return Some(Stale { path, clean: None });
+        }
+        let clean = self.job.files.iter().find(|(kind, _)| *kind == OutputKind::Clean);
+        let clean = clean.map(|(_, clean)| clean.clone());
+        (!self.provenance.is_same(found)).then_some(Stale { path, clean })
+    }
 }
 
 pub(super) fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
@@ -108,12 +220,6 @@ struct Writers {
 /// What a program says that it was made from, in ASCII and without case.
 fn title(drawing: &str, path: &str) -> String {
     without_case(&comment(&native::title(drawing, path), Charset::Ascii))
-}
-
-/// Whether a program's title is this one.
-pub(super) fn same_title(of_program: &str, title: &str) -> bool {
-    let shown = |title: &str| without_case(&comment(title, Charset::Ascii));
-    shown(of_program) == shown(title)
 }
 
 /// Some posts write capitals only.
@@ -170,13 +276,4 @@ impl Writers {
         // A drawing that is there, but that the run does not know (an ignored one), is left alone.
         self.covered.contains(&drawing) || (self.knows_all && !is_beside)
     }
-}
-
-/// The files of a job, and what `adjust` makes of native ones.
-fn outputs(job: &Job, is_native: bool) -> Vec<Utf8PathBuf> {
-    let mut outputs: Vec<Utf8PathBuf> = job.files.iter().map(|(_, path)| path.clone()).collect();
-    if is_native {
-        outputs.push(format!("{}{}", job.stem, OutputKind::Milling.suffix()).into());
-    }
-    outputs
 }

@@ -15,6 +15,7 @@ use pathbuild_cache::{
 };
 use pathbuild_db::{SourceFile, Target, Trace, check_file};
 use pathbuild_diagnostic::{Diagnostic, Note};
+use pathbuild_gcode::provenance::Provenance;
 
 use super::Request;
 use super::asked::Drawings;
@@ -51,6 +52,7 @@ pub(super) struct KnownProgram {
     /// Warnings.
     problems: Vec<Diagnostic>,
     notes: Vec<Note>,
+    provenance: Provenance,
 }
 
 impl Store {
@@ -61,11 +63,7 @@ impl Store {
         scope: Scope,
         listings: Listings,
     ) -> Option<Self> {
-        let is_always_made = matches!(request.task, Task::Print | Task::Write { force: true })
-            || request.deps.is_some()
-            || request.join.is_some()
-            || request.poster.is_some_and(Poster::runs_post_build);
-        if is_always_made {
+        if request.is_always_made() {
             return None;
         }
         let text = question(request.poster);
@@ -213,6 +211,7 @@ impl KnownProgram {
             minutes: self.minutes,
             problems: self.problems.clone(),
             notes: self.notes.clone(),
+            provenance: Some(self.provenance.clone()),
             ..Delivered::default()
         }
     }
@@ -246,6 +245,7 @@ fn encoded(diagnostics: &[Diagnostic], program: Option<(&Job, &Delivered)>) -> V
         encoder.u64(delivered.minutes.to_bits());
         encoder.list(delivered.problems.iter(), encode_diagnostic);
         encoder.list(delivered.notes.iter(), encode_note);
+        encoder.text(&delivered.provenance.as_ref().map(Provenance::to_string).unwrap_or_default());
     });
     encoder.finish()
 }
@@ -266,6 +266,7 @@ fn decoded(payload: &[u8]) -> Result<Known, Corrupt> {
             minutes: f64::from_bits(decoder.u64()?),
             problems: decoder.list(decode_diagnostic)?,
             notes: decoder.list(decode_note)?,
+            provenance: decoder.text()?.parse().map_err(|()| Corrupt)?,
         })
     })?;
     if decoder.is_at_end() { Ok(Known { diagnostics, program }) } else { Err(Corrupt) }

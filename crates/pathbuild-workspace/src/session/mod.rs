@@ -9,7 +9,6 @@ mod library;
 mod nothing;
 mod outputs;
 mod prefetch;
-mod provenance;
 mod q_projects;
 mod resolve;
 mod scene;
@@ -39,7 +38,6 @@ pub use keeper::{
 };
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault, without_values};
-pub use provenance::{HEAD, Provenance};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{Found, Wanted, WantedPath};
 pub use scene::Seen;
@@ -71,19 +69,9 @@ impl<'a> Session<'a> {
         Self::over(context, false, Arc::clone(&context.system))
     }
 
-    /// A session that makes programs, and can say out of which drawings.
-    pub fn with_hashes(context: &'a Workspace) -> Self {
-        Self::over(context, true, Arc::clone(&context.system))
-    }
-
     /// A session whose results may be kept for later runs: what they were made from is noted.
     pub fn traced(context: &'a Workspace) -> Self {
         Self { is_traced: true, ..Self::over(context, true, Arc::clone(&context.system)) }
-    }
-
-    /// From now on it is noted what targets are made from.
-    pub fn note_traces(&mut self) {
-        self.is_traced = true;
     }
 
     /// Tells that a drawing may have changed, appeared or gone.

@@ -3,6 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Kind, Written};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::probes;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use pathbuild_gcode::native::{self, Charset};
 use pathbuild_gcode::provenance::Provenance;
@@ -13,7 +14,9 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::Findings;
 use pathbuild_workspace::config::{positive, regex};
+use pathbuild_workspace::emit::{Current, current};
 use pathbuild_workspace::files::{cannot_write, unreadable};
+use pathbuild_workspace::session::Session;
 
 /// Runs the command. Of several programs each is written unless something is wrong with it.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
@@ -24,7 +27,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     let mut jobs: Vec<Job> = Vec::new();
     let out_dir = context.settings.general.out_dir.value.as_deref();
     for job in args.files.iter().flat_map(|file| Job::all(context, file, out_dir)) {
-        if !jobs.contains(&job) {
+        if jobs.iter().all(|known| known.clean != job.clean) {
             jobs.push(job);
         }
     }
@@ -51,8 +54,10 @@ struct Adjustment<'a> {
 }
 
 /// The files of one program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 struct Job {
+    /// Where the argument is one.
+    drawing: Option<Utf8PathBuf>,
     clean: Utf8PathBuf,
     values: Utf8PathBuf,
     milling: Utf8PathBuf,
@@ -76,7 +81,9 @@ impl Job {
         let mut named: Vec<&str> =
             programs.filter(|name| is_of(context, &directory.join(name), drawing)).collect();
         named.sort_unstable();
-        let found: Vec<Self> = named.iter().map(|name| Self::new(&directory.join(name), out_dir)).collect();
+        let found =
+            |name: &&str| Self { drawing: job.drawing.clone(), ..Self::new(&directory.join(name), out_dir) };
+        let found: Vec<Self> = named.iter().map(found).collect();
         if found.is_empty() { vec![job] } else { found }
     }
 
@@ -88,7 +95,9 @@ impl Job {
             Some(stem) => (stem, beside),
             None => (without(name, ".dxf").unwrap_or(name), written),
         };
+        let is_drawing = without(name, ".dxf").is_some();
         Self {
+            drawing: is_drawing.then(|| argument.to_owned()),
             clean: from.join(format!("{stem}{CLEAN}")),
             values: from.join(format!("{stem}{VALUES}")),
             milling: written.join(format!("{stem}_Milling.gcode")),
@@ -130,6 +139,7 @@ impl<'a> Adjustment<'a> {
     fn run(&mut self, job: &Job) -> Result<(), Vec<Diagnostic>> {
         let (clean, values, log) = self.read(job)?;
         self.show(&clean);
+        self.compare(job, &clean)?;
         let source = |file, bytes| Source { file, bytes };
         let adjusted = adjust(&Inputs {
             program: source(&job.clean, &clean),
@@ -141,6 +151,36 @@ impl<'a> Adjustment<'a> {
         let written = written.map_err(|reason| vec![cannot_write(&job.milling, &reason)])?;
         self.say_written(&job.milling, written, &adjusted);
         self.warnings.extend(adjusted.warnings);
+        Ok(())
+    }
+
+    /// Refuses a program whose drawing gives other moves now.
+    fn compare(&self, job: &Job, clean: &[u8]) -> Result<(), Vec<Diagnostic>> {
+        let context = self.context;
+        let not_compared =
+            context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
+        let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
+        let mut session = Session::new(context);
+        match current(&mut session, clean, beside, job.drawing.as_deref()) {
+            Current::Same | Current::Unknown => return Ok(()),
+            Current::Wrong(problems) => return Err(problems),
+            Current::Other { drawing } => {
+                let problem = Diagnostic::new(&probes::OLD_PROGRAM)
+                    .with("name", job.clean.file_name().unwrap_or_default())
+                    .with("drawing", drawing.as_str());
+                return Err(vec![problem.in_file(&job.clean)]);
+            }
+            Current::NoDrawing { drawing } => {
+                let is_missing = context.choose("is not found", "wird nicht gefunden");
+                context.printer.status(format_args!("{}: {not_compared}: {drawing} {is_missing}", job.clean));
+            }
+            Current::NeedsOptions(missing) => {
+                let options: Vec<&str> = missing.iter().map(|option| option.name()).collect();
+                let give = context.choose("give", "es fehlt");
+                let options = options.join(" --");
+                context.printer.status(format_args!("{}: {not_compared}: {give} --{options}", job.clean));
+            }
+        }
         Ok(())
     }
 

@@ -1,9 +1,9 @@
 //! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
 
+use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
 use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
-use pathbuild_workspace::session::Session;
 
 use crate::args::EmitArgs;
 use crate::context::Context;
@@ -48,12 +48,12 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStat
         deps: args.deps.as_deref(),
         removes_stale: args.remove_stale,
     };
-    let mut session = Session::with_hashes(context);
+    let mut session = request.session(context);
     let emission = request.run(&mut session);
     // The run is over: to give back what every query holds, piece by piece, takes a twelfth of the time of a short one.
     std::mem::forget(session);
     match emission {
-        Ok(emission) => conclude(context, emission),
+        Ok(emission) => conclude(context, request.task, emission),
         Err(refusal) => context.usage(&refusal),
     }
 }
@@ -69,9 +69,13 @@ fn task(args: &EmitArgs) -> Task {
 }
 
 /// Says what was found, and what became of the files; the status of the run.
-fn conclude(context: &Context, emission: Emission) -> ExitStatus {
-    let Emission { delivered, removed, mut diagnostics } = emission;
-    let is_current = show_all(context, &delivered);
+fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
+    let Emission { delivered, removed, outdated, mut diagnostics } = emission;
+    let mut is_current = show_all(context, &delivered);
+    if matches!(task, Task::Compare { .. }) {
+        is_current &= outdated.is_empty();
+        outdated.iter().for_each(|path| show_state(context, path, &State::Outdated));
+    }
     diagnostics.extend(post_builds(&delivered));
     for path in removed {
         let removed = context.choose("stale, removed", "veraltet, entfernt");
@@ -124,18 +128,21 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
                 }
             }
             State::Printed(text) => context.printer.result_bytes(text),
-            State::Current => {
-                context.printer.result_line(format_args!("{path}: {}", phrase("current", "aktuell")));
-            }
-            State::Outdated | State::Missing => {
-                let state = match state {
-                    State::Missing => phrase("missing", "fehlt"),
-                    _ => phrase("not current", "nicht aktuell"),
-                };
-                context.printer.result_line(format_args!("{path}: {state}"));
-                is_current = false;
+            State::Current | State::Outdated | State::Missing => {
+                show_state(context, path, state);
+                is_current &= matches!(state, State::Current);
             }
         }
     }
     is_current
+}
+
+/// What a comparison says of a file.
+fn show_state(context: &Context, path: &Utf8Path, state: &State) {
+    let state = match state {
+        State::Current => context.choose("current", "aktuell"),
+        State::Missing => context.choose("missing", "fehlt"),
+        _ => context.choose("not current", "nicht aktuell"),
+    };
+    context.printer.result_line(format_args!("{path}: {state}"));
 }

@@ -9,7 +9,7 @@ use pathbuild_gcode::interpret::{self, Program as _, Text, Turning};
 use pathbuild_gcode::verify::{self, ToolUse};
 use pathbuild_path::PathName;
 use pathbuild_post::Spindle;
-use pathbuild_toolpath::{Comment, Program as Drawn, Step};
+use pathbuild_toolpath::Program as Drawn;
 
 use crate::context::Context;
 use pathbuild_workspace::Inputs;
@@ -51,12 +51,7 @@ impl Against {
 
     /// T in mm, if everything that is milled has the same.
     pub(super) fn surface(&self) -> Option<f64> {
-        let mut surfaces = self.drawn.steps.iter().filter_map(|step| match step {
-            Step::Comment(Comment::Element { surface, .. }) => Some(*surface),
-            _ => None,
-        });
-        let thickness = self.drawn.thickness;
-        surfaces.all(|surface| surface == thickness).then_some(thickness)
+        self.drawn.surface()
     }
 
     /// Everything that a program says otherwise than the drawing. Its steps are those at the heights before correction.
@@ -116,12 +111,8 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
 }
 
 fn missing(context: &Context, options: &[MissingOption]) -> String {
-    let name = |option: &MissingOption| match option {
-        MissingOption::Feed => "feed",
-        MissingOption::SweepHeight => "sweep-height",
-    };
     let line = |option: &MissingOption| {
-        let name = name(option);
+        let name = option.name();
         format!("{} --{name}, `{name}` in pathbuild.toml", context.choose("missing:", "es fehlt:"))
     };
     options.iter().map(line).collect::<Vec<_>>().join("\n")

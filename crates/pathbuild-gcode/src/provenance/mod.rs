@@ -3,17 +3,25 @@
 //! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5`: the version, a hash of the moves and formulas, a hash of the options, the
 //! dialect, the cutter O and the material's height T in mm. O and T are left out where a program has several.
 //!
+//! A program with the same two hashes and an unchanged body is current, whichever version wrote it, and however often its drawing was
+//! saved meanwhile.
+//!
 //! Native programs and posts both write the line with [`Display`](fmt::Display), and every reader uses [`Provenance::of_head`].
 
+mod moves;
+
+use std::borrow::Borrow;
 use std::fmt;
+use std::ops::Range;
 use std::str::FromStr;
 
 use pathbuild_diagnostic::Number;
+use pathbuild_toolpath::Program;
 
 use crate::dialect::Dialect;
 
 /// What the line says.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Provenance {
     /// The version of pathbuild.
     pub version: Box<str>,
@@ -29,6 +37,9 @@ pub struct Provenance {
     pub thickness: Option<f64>,
 }
 
+/// This version of pathbuild.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 /// The word that begins the line.
 const NAME: &str = "pathbuild";
 
@@ -39,6 +50,25 @@ const HEAD_LINES: usize = 40;
 pub const HEAD: usize = 4096;
 
 impl Provenance {
+    /// That of the programs of paths, in the order in which they are milled. `options`: everything that the text depends on beside them,
+    /// as bytes.
+    pub fn of_programs<P: Borrow<Program>>(programs: &[P], options: &[u8], dialect: Option<Dialect>) -> Self {
+        let programs = || programs.iter().map(Borrow::borrow);
+        Self {
+            version: VERSION.into(),
+            moves: moves::hash(programs()).to_hex()[..16].into(),
+            options: blake3::hash(options).to_hex()[..8].into(),
+            dialect,
+            cutter: common(programs().map(|program| program.tool)),
+            thickness: common(programs().map(Program::surface)).flatten(),
+        }
+    }
+
+    /// Whether programs of both mill the same in the same way, whichever versions wrote them.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (&self.moves, &self.options) == (&other.moves, &other.options)
+    }
+
     /// The provenance of a program by its first bytes, and the text of the comment line behind it, which is the title. `None` where
     /// pathbuild did not write the program.
     pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
@@ -47,6 +77,37 @@ impl Provenance {
         let provenance = lines.find_map(|line| line.parse().ok())?;
         Some((provenance, lines.next().unwrap_or_default().into()))
     }
+}
+
+/// The value that all have.
+fn common<T: PartialEq>(mut values: impl Iterator<Item = T>) -> Option<T> {
+    let first = values.next()?;
+    values.all(|value| value == first).then_some(first)
+}
+
+/// Whether two files are the same program: byte for byte, but for the version of pathbuild.
+pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
+    let is_same = |a: &[u8], b: &[u8]| match (version_in(a), version_in(b)) {
+        (Some(x), Some(y)) => a[..x.start] == b[..y.start] && a[x.end..] == b[y.end..],
+        _ => false,
+    };
+    a == b || is_same(a, b)
+}
+
+/// Where the version stands in a program.
+fn version_in(program: &[u8]) -> Option<Range<usize>> {
+    let head = &program[..program.len().min(HEAD)];
+    let mut begin = 0;
+    for line in head.split_inclusive(|byte| *byte == b'\n').take(HEAD_LINES) {
+        if let Ok(text) = str::from_utf8(line)
+            && let Ok(found) = remark(text).parse::<Provenance>()
+        {
+            let name = text.find(|c: char| c.eq_ignore_ascii_case(&'p'))? + NAME.len() + 1;
+            return Some(begin + name..begin + name + found.version.len());
+        }
+        begin += line.len();
+    }
+    None
 }
 
 /// A line without block number and comment signs.

@@ -14,5 +14,7 @@ pub use comment::transliterated;
 pub use comment::{Charset, comment};
 pub use number::f3;
 pub use probing::{probing_program, values_file};
-pub use program::{Header, WriteOptions, drawing_of_title, program, program_in_parts, title};
+pub use program::{
+    Header, WriteOptions, drawing_of_title, is_title, path_of_title, program, program_in_parts, title,
+};
 pub use read_back::{is_read_back, read_back, read_probing_back};

@@ -1,0 +1,101 @@
+//! Whether a program on disk moves as its drawing says now. (spec/70-z-probes.md, "Adjusting")
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, MissingOption, Role, program};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::native::{drawing_of_title, is_title, path_of_title};
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_path::PathName;
+
+use super::Provenances;
+use crate::session::{Session, WantedPath};
+
+/// What a program is, held against its drawing.
+#[derive(Debug)]
+pub enum Current {
+    /// The drawing gives the same moves.
+    Same,
+    /// It gives others.
+    Other {
+        /// The drawing.
+        drawing: Utf8PathBuf,
+    },
+    /// The drawing has errors.
+    Wrong(Vec<Diagnostic>),
+    /// Moves cannot be told without these options.
+    NeedsOptions(Vec<MissingOption>),
+    /// Its drawing is not found.
+    NoDrawing {
+        /// As the program names it.
+        drawing: Box<str>,
+    },
+    /// The program does not say what it was made from.
+    Unknown,
+}
+
+/// Holds a native program against its drawing: the one that is named, else the one that its title names, beside it or where paths are looked
+/// for.
+pub fn current(
+    session: &mut Session<'_>,
+    text: &[u8],
+    beside: &Utf8Path,
+    named: Option<&Utf8Path>,
+) -> Current {
+    let Some((found, title)) = Provenance::of_head(text) else { return Current::Unknown };
+    let (Some(path), Some(drawing)) = (path_of_title(&title), drawing_of_title(&title)) else {
+        return Current::Unknown;
+    };
+    session.settled(|session| {
+        let Some(path) = defining(session, path, &title, beside, named) else {
+            return Current::NoDrawing { drawing: drawing.into() };
+        };
+        compared(session, &path, &found)
+    })
+}
+
+/// The path of that name in the drawing that a title means.
+fn defining(
+    session: &Session<'_>,
+    path: &str,
+    title: &str,
+    beside: &Utf8Path,
+    named: Option<&Utf8Path>,
+) -> Option<WantedPath> {
+    let db = session.db();
+    let name = PathName::new(path);
+    let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == Kind::File;
+    let is_meant = |file: &str| is_title(title, file, path);
+    let file = named.filter(is_there).map(|drawing| session.file(drawing)).or_else(|| {
+        let listing = db.system().list(beside).ok()?;
+        let file = listing.files.iter().find(|file| is_meant(file))?;
+        Some(session.file(&beside.join(file)))
+    });
+    let file = file.or_else(|| {
+        let files = session.definitions(&name, &session.name_directories());
+        files.into_iter().find(|file| is_meant(file.path(db).file_name().unwrap_or_default()))
+    });
+    file.map(|file| WantedPath { file, name })
+}
+
+fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Current {
+    let db = session.db();
+    let target = session.target(path, Role::Emitted);
+    let checked = session.check(&[target]);
+    let wrong: Vec<Diagnostic> =
+        checked.iter().flat_map(|checked| super::store::found(session, checked)).collect();
+    if wrong.iter().any(Diagnostic::is_error) {
+        return Current::Wrong(wrong);
+    }
+    if let Some(checked) = checked.iter().find(|checked| !checked.missing_options.is_empty()) {
+        return Current::NeedsOptions(checked.missing_options.clone());
+    }
+    let now = program(db, target)
+        .as_deref()
+        .map(|program| Provenances::new(&session.workspace().settings, None).of(&[program]));
+    if now.is_some_and(|now| now.moves == found.moves) {
+        Current::Same
+    } else {
+        Current::Other { drawing: path.file.path(db).clone() }
+    }
+}

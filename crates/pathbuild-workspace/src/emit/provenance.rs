@@ -1,0 +1,43 @@
+//! Out of what programs are made: the line by which a sheet at the machine can be traced. (spec/60-gcode.md, "The program")
+
+use std::borrow::Borrow;
+use std::fmt::Debug;
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_toolpath::Program;
+
+use crate::config::Settings;
+use crate::posting::Poster;
+
+/// What the provenance of all programs of a run has in common.
+#[derive(Clone, Debug)]
+pub struct Provenances {
+    /// Everything in the configuration that a program's text depends on beside its moves.
+    options: Vec<u8>,
+    dialect: Option<Dialect>,
+}
+
+impl Provenances {
+    /// That of programs that are written with these settings, natively or through a post.
+    pub fn new(settings: &Settings, poster: Option<&Poster>) -> Self {
+        let general = &settings.general;
+        let mut options = Vec::new();
+        let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
+        add(&(general.rapid.value, general.compatible.value));
+        add(&(general.z_model.value, settings.z_split()));
+        add(&(general.lang.value, general.charset.value));
+        options.extend(poster.map(Poster::identity).unwrap_or_default());
+        let own = |(dialect, is_own): (Dialect, bool)| is_own.then_some(dialect);
+        let dialect = match poster {
+            None => Some(Dialect::Native),
+            Some(poster) => poster.reader().and_then(own),
+        };
+        Self { options, dialect }
+    }
+
+    /// That of the programs of one file.
+    pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
+        Provenance::of_programs(programs, &self.options, self.dialect)
+    }
+}
