@@ -331,7 +331,14 @@ impl<'a, P: Parts> Fold<'a, P> {
         peck: Option<f64>,
     ) {
         let at = Xy::new(origin.point.x.0, origin.point.y.0);
-        self.comment(Comment::Element { kind, at, bottom, surface: place.surface, peck });
+        self.comment(Comment::Element {
+            kind,
+            at,
+            bottom,
+            surface: place.surface,
+            cutter: place.path.tool,
+            peck,
+        });
     }
 
     /// Says which pass begins.

@@ -138,6 +138,8 @@ pub enum Comment {
         bottom: f64,
         /// Upper face of the material there, mm.
         surface: f64,
+        /// Diameter O of the cutter there, mm: an embedded path has its own.
+        cutter: f64,
         /// The depth C from which a hole is pecked.
         peck: Option<f64>,
     },

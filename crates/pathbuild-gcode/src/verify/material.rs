@@ -56,16 +56,23 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     });
 }
 
-/// Whether these cuts have made room for a rapid move, if all round it is material up to the highest surface. `false` also where so many
-/// cells are not enough to tell.
-pub(super) fn has_room(line: u32, it: &Move, cuts: &[(u32, Move)], stock: &Stock, cells: u64) -> bool {
+/// Whether these cuts, as far as they lie wholly below a rapid move, have made room for it, if all round it is material up to `surface`.
+/// `false` also where so many cells are not enough to tell.
+pub(super) fn has_room<'c>(
+    line: u32,
+    it: &Move,
+    surface: f64,
+    cuts: impl IntoIterator<Item = &'c (u32, Move)>,
+    stock: &Stock,
+    cells: u64,
+) -> bool {
     let Some(piece) = stock.at(line) else { return true };
-    let surface = stock.highest().unwrap_or(piece.surface);
     let mut bench = Bench::new(stock, stock.resolution(), cells);
     for part in bench.parts(it) {
         bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
     }
-    for (line, cut) in cuts {
+    let height = it.from.z().min(it.to.z()) + RESIDUE;
+    for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
         bench.mill(*line, cut);
     }
     let mut problems = Problems::default();
@@ -216,7 +223,7 @@ fn capsule(part: &Piece, radius: f64) -> Capsule {
 }
 
 /// What holds where a move cuts; `None` where nothing is known or the move does not cut below the surface.
-fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::Piece> {
+pub(super) fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::Piece> {
     let is_known = it.from.known.and(it.to.known) == Axes::ALL;
     let piece = stock.at(line).filter(|_| is_known && matches!(it.pace, Pace::Feed(_)))?;
     (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)

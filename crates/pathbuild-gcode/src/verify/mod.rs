@@ -15,6 +15,7 @@ mod pieces;
 mod rapids;
 mod rules;
 mod stock;
+mod tops;
 mod walk;
 
 use pathbuild_diagnostic::Diagnostic;

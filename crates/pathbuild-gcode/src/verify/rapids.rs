@@ -1,18 +1,23 @@
 //! Rapid moves into material, looked for in every program that is about to be written. (spec/90-gcode-import.md, "verify")
 //!
-//! What it costs grows with the moves: only a rapid move below a surface is looked at, and is fine where the cuts straight before it have
-//! made room. Where they have not, the map of the whole material decides.
+//! What it costs grows with the moves: only a rapid move below a surface is looked at, and is fine where the last cuts before it have made
+//! room. Where they have not, the map of the whole material decides.
+
+use std::cell::LazyCell;
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_toolpath::Program as Drawn;
 
 use super::material;
-use super::stock::Stock;
-use crate::interpret::{Action, Move, Pace, Program, Step, each_move_of};
+use super::stock::{Piece, Stock};
+use super::tops::Tops;
+use crate::interpret::{Action, Move, Pace, Path, Position, Program, Step, each_move_of};
 use crate::read::Problems;
 
-/// So many cuts at most are looked at for a rapid move.
-const MOST_CUTS: usize = 256;
+/// So many cuts at most are looked at for a rapid move: the last turns of a helical circle, the end of a chain.
+const MOST_CUTS: usize = 64;
 
 /// So many cells at most are visited for a rapid move.
 const MOST_CELLS: u64 = 1_000_000;
@@ -29,34 +34,84 @@ pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
 }
 
 fn all_have_room(drawn: &Drawn, stock: &Stock) -> bool {
-    let mut recent: Vec<(u32, Move)> = Vec::new();
+    let tops = LazyCell::new(|| Tops::of(drawn, stock));
+    let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
+    let mut before = None;
     for (line, it) in each_move_of(drawn) {
-        match it.pace {
-            Pace::Rapid if !is_low(line, &it, stock) => {
-                if stock.highest().is_none_or(|highest| it.to.z() >= highest) {
-                    recent.clear();
-                }
+        let last = before.replace((line, it));
+        if it.pace == Pace::Rapid {
+            if last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock)) {
+                return false;
             }
-            Pace::Rapid => {
-                if recent.len() > MOST_CUTS || !material::has_room(line, &it, &recent, stock, MOST_CELLS) {
-                    return false;
-                }
+            let Some((piece, surface)) = low_at(line, &it, stock, &tops) else { continue };
+            let is_in_circle = is_in_circle(&it, piece.cutter, &recent);
+            if !is_in_circle && !material::has_room(line, &it, surface, &recent, stock, MOST_CELLS) {
+                return false;
             }
-            Pace::Feed(_) | Pace::Probe { .. } if recent.len() <= MOST_CUTS => recent.push((line, it)),
-            Pace::Feed(_) | Pace::Probe { .. } => {}
+        } else {
+            if recent.len() == MOST_CUTS {
+                recent.pop_front();
+            }
+            recent.push_back((line, it));
         }
     }
     true
 }
 
-/// Whether a rapid move may meet material: in the plane below the highest surface, or down below its own path's.
-fn is_low(line: u32, it: &Move, stock: &Stock) -> bool {
-    let stays = it.from.at[..2] == it.to.at[..2];
-    if stays && it.to.z() >= it.from.z() {
-        return false;
+/// What holds for a rapid move that goes below a surface near its way, with the highest of these.
+fn low_at<'s>(
+    line: u32,
+    it: &Move,
+    stock: &'s Stock,
+    tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
+) -> Option<(&'s Piece, f64)> {
+    let low = it.from.z().min(it.to.z()) + material::RESIDUE;
+    let goes_up = stays(it) && it.to.z() >= it.from.z();
+    if goes_up || stock.highest().is_none_or(|highest| low >= highest) {
+        return None;
     }
-    let surface = if stays { stock.at(line).map(|piece| piece.surface) } else { stock.highest() };
-    surface.is_some_and(|surface| it.from.z().min(it.to.z()) < surface - material::RESIDUE)
+    let piece = stock.at(line)?;
+    let surface = tops.along(it, piece.cutter / 2.0);
+    (low < surface).then_some((piece, surface))
+}
+
+/// Whether a rapid move stays inside the circle that the cuts before it have gone all round, and no core stands in that: the end of a
+/// helical circle.
+fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
+    let Some(Path::Arc(last)) = recent.back().map(|(_, cut)| cut.path) else { return false };
+    let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
+    let radius = from_centre(&it.from);
+    let low = it.from.z().min(it.to.z()) + material::RESIDUE;
+    // The angle of a cut on that circle, low enough to make room.
+    let angle = |(_, cut): &(u32, Move)| match cut.path {
+        Path::Arc(arc) => {
+            let is_on_circle = [cut.from, cut.to].iter().all(|end| is_same(from_centre(end), radius));
+            let is_round_centre = (0..2).all(|axis| is_same(arc.centre[axis], last.centre[axis]));
+            let is_low = cut.from.z().max(cut.to.z()) <= low;
+            (is_on_circle && is_round_centre && is_low).then(|| arc.sweep(&cut.from, &cut.to))
+        }
+        Path::Line => None,
+    };
+    let turned: f64 = recent.iter().rev().map_while(angle).sum();
+    turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&it.to) <= radius + EXACT
+}
+
+/// Places in mm and angles that differ by less are one.
+const EXACT: f64 = 1e-6;
+
+fn is_same(one: f64, other: f64) -> bool {
+    libm::fabs(one - other) < EXACT
+}
+
+/// Whether two rapid moves after each other go below the surface and up again.
+fn is_dip(line: u32, down: &Move, up: &Move, stock: &Stock) -> bool {
+    let is_down = down.pace == Pace::Rapid && stays(down) && down.to.z() < down.from.z();
+    let is_below = || stock.at(line).is_some_and(|piece| down.to.z() < piece.surface - material::RESIDUE);
+    is_down && stays(up) && up.to.z() > up.from.z() && is_below()
+}
+
+fn stays(it: &Move) -> bool {
+    it.from.at[..2] == it.to.at[..2]
 }
 
 /// A drawing's program as steps.

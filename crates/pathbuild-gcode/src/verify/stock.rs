@@ -53,12 +53,14 @@ impl Stock {
 
     /// The material of a program, for the moves that [`moves_of`](crate::interpret::moves_of) gives.
     pub fn of(program: &Program) -> Self {
-        let piece = |line, surface| Piece { line, surface, cutter: program.tool };
+        let piece = |line, surface, cutter| Piece { line, surface, cutter };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
-            Emitted::Comment(Comment::Element { surface, .. }) => Some(piece(number, *surface)),
+            Emitted::Comment(Comment::Element { surface, cutter, .. }) => {
+                Some(piece(number, *surface, *cutter))
+            }
             _ => None,
         });
-        Self::of_pieces(std::iter::once(piece(0, program.thickness)).chain(elements).collect())
+        Self::of_pieces(std::iter::once(piece(0, program.thickness, program.tool)).chain(elements).collect())
     }
 
     /// The material of a program in the native dialect that comes without its drawing: where a rapid move down hands over to a cutting one

@@ -39,6 +39,7 @@ fn hole(peck: Option<f64>) -> ProgramStep {
         at,
         bottom: 1.0,
         surface: 5.0,
+        cutter: 3.0,
         peck,
     })
 }

@@ -164,6 +164,7 @@ fn program() -> Program {
             at,
             bottom: 1.0,
             surface: 6.0,
+            cutter: 3.0,
             peck,
         })
     };

@@ -44,9 +44,14 @@ impl Against {
         Ok(Self { drawn })
     }
 
-    /// O in mm.
-    pub(super) fn cutter(&self) -> f64 {
-        self.drawn.tool
+    /// O in mm, if everything is milled with the same.
+    pub(super) fn cutter(&self) -> Option<f64> {
+        let mut cutters = self.drawn.steps.iter().filter_map(|step| match step {
+            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
+            _ => None,
+        });
+        let own = self.drawn.tool;
+        cutters.all(|cutter| cutter == own).then_some(own)
     }
 
     /// T in mm, if everything that is milled has the same.

@@ -55,7 +55,7 @@ pub(super) fn stock(
 ) -> Option<Stock> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
-    let cutters = match wishes.cutter.or(against.map(Against::cutter)) {
+    let cutters = match wishes.cutter.or(against.and_then(Against::cutter)) {
         Some(cutter) => vec![(0, cutter)],
         None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
     };

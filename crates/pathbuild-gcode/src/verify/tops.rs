@@ -1,0 +1,90 @@
+//! How high the material may stand near a place, on a coarse grid.
+//!
+//! It is never lower than what the map of the material has there, and takes no time to speak of: most rapid moves pass above it.
+
+use pathbuild_toolpath::Program as Drawn;
+
+use super::material::cutting_piece;
+use super::stock::Stock;
+use crate::interpret::{Move, each_move_of};
+
+/// Cells along a side.
+const SIDE: usize = 64;
+
+/// A grid over everything that is cut.
+#[derive(Debug)]
+pub(super) struct Tops {
+    /// The corner with the lowest X and Y, in mm.
+    corner: [f64; 2],
+    /// The sides of a cell, in mm.
+    cell: [f64; 2],
+    /// By row, then column: the highest surface there, in mm; `-inf` where there is no material.
+    heights: Vec<f64>,
+}
+
+impl Tops {
+    /// Of a drawing's program.
+    pub(super) fn of(drawn: &Drawn, stock: &Stock) -> Self {
+        let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+        for_each_cut(drawn, stock, |ends, _| {
+            for (side, (low, high)) in sides.iter_mut().zip(ends) {
+                *side = (side.0.min(low), side.1.max(high));
+            }
+        });
+        #[expect(clippy::cast_precision_loss, reason = "a small number")]
+        let cell = sides.map(|(low, high)| ((high - low) / SIDE as f64).max(f64::MIN_POSITIVE));
+        let corner = sides.map(|(low, _)| low);
+        let mut tops = Self { corner, cell, heights: vec![f64::NEG_INFINITY; SIDE * SIDE] };
+        for_each_cut(drawn, stock, |ends, surface| tops.raise(ends, surface));
+        tops
+    }
+
+    /// The highest surface within `radius` mm of a straight move.
+    pub(super) fn along(&self, it: &Move, radius: f64) -> f64 {
+        let [(from_x, to_x), (from_y, to_y)] = [0, 1].map(|axis| (it.from.at[axis], it.to.at[axis]));
+        let rows = self.indices(1, (from_y.min(to_y) - radius, from_y.max(to_y) + radius));
+        let mut highest = f64::NEG_INFINITY;
+        for row in rows {
+            #[expect(clippy::cast_precision_loss, reason = "a small number")]
+            let low = self.corner[1] + row as f64 * self.cell[1];
+            // The shares of the move between which its Y is within the radius of this row.
+            let share = |y: f64| if to_y == from_y { f64::NAN } else { (y - from_y) / (to_y - from_y) };
+            let (one, other) = (share(low - radius), share(low + self.cell[1] + radius));
+            let x = |share: f64| from_x + share * (to_x - from_x);
+            let (one, other) = (x(one.min(other).max(0.0)), x(one.max(other).min(1.0)));
+            for column in self.indices(0, (one.min(other) - radius, one.max(other) + radius)) {
+                highest = highest.max(self.heights[row * SIDE + column]);
+            }
+        }
+        highest
+    }
+
+    fn raise(&mut self, [across, up]: [(f64, f64); 2], surface: f64) {
+        for row in self.indices(1, up) {
+            for column in self.indices(0, across) {
+                let height = &mut self.heights[row * SIDE + column];
+                *height = height.max(surface);
+            }
+        }
+    }
+
+    /// The cells that lie between two coordinates, ends included; those outside the grid are left out.
+    fn indices(&self, axis: usize, (low, high): (f64, f64)) -> std::ops::Range<usize> {
+        let index = |coordinate: f64| ((coordinate - self.corner[axis]) / self.cell[axis]).floor();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "negative ones become 0")]
+        let (first, last) = (index(low) as usize, (index(high) + 1.0) as usize);
+        first.min(SIDE)..last.min(SIDE)
+    }
+}
+
+/// The box in the plane, ends included, of the material that each cut says there is, with its surface.
+fn for_each_cut(drawn: &Drawn, stock: &Stock, mut take: impl FnMut([(f64, f64); 2], f64)) {
+    for (line, it) in each_move_of(drawn) {
+        let Some(piece) = cutting_piece(line, &it, stock) else { continue };
+        let [Some((left, right)), Some((low, high)), _] = it.extent() else { continue };
+        take(
+            [(left - piece.cutter, right + piece.cutter), (low - piece.cutter, high + piece.cutter)],
+            piece.surface,
+        );
+    }
+}

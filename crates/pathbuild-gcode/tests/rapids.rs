@@ -1,0 +1,104 @@
+//! Rapid moves into material, in programs that drawings become. (spec/90-gcode-import.md, "verify")
+
+use pathbuild_gcode::verify::rapids_into_material;
+use pathbuild_toolpath::{Class, Comment, Count, ElementKind, Height, Move, Program, Step, Xy};
+
+fn go(to: Move) -> Step {
+    Step::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
+}
+
+fn sweep(x: f64, y: f64) -> Step {
+    go(Move::Sweep { to: Xy::new(x, y) })
+}
+
+fn height(z: f64) -> Height {
+    Height { z, at: Xy::new(0.0, 0.0) }
+}
+
+fn lift(z: f64) -> Step {
+    go(Move::Lift { z: height(z) })
+}
+
+fn mill(x: f64, y: f64, z: f64) -> Step {
+    go(Move::Line { feed: 150.0, to: Xy::new(x, y), z: height(z) })
+}
+
+/// Half a circle clockwise, to a place straight above or below.
+fn half_circle(x: f64, y: f64, radius: f64, z: f64) -> Step {
+    let (to, centre) = (Xy::new(x, y), Xy::new(0.0, radius));
+    go(Move::Arc { feed: 150.0, clockwise: true, centre, to, z: height(z), is_spiral: true })
+}
+
+/// What is cut from here on has this upper face, by a cutter of this diameter.
+fn element(surface: f64, cutter: f64) -> Step {
+    let (kind, at) = (ElementKind::MillingChain, Xy::new(0.0, 0.0));
+    Step::Comment(Comment::Element { kind, at, bottom: 0.0, surface, cutter, peck: None })
+}
+
+/// The codes of what is found in a program on a plate of 5 mm, cut by 3 mm.
+fn found(steps: Vec<Step>) -> Vec<String> {
+    let program = Program { tool: 3.0, sweep_height: 20.0, thickness: 5.0, steps, ..Program::default() };
+    rapids_into_material(&program).iter().map(|it| it.code().to_string()).collect()
+}
+
+/// A helical circle round (30, 30) whose middle the tool goes to at the bottom.
+fn circle(radius: f64, cutter: f64) -> Vec<Step> {
+    let (low, high) = (30.0 - radius, 30.0 + radius);
+    let turn = |z: f64| [half_circle(30.0, high, radius, z), half_circle(30.0, low, -radius, z)];
+    let mut steps = vec![lift(7.0), element(5.0, cutter), sweep(30.0, low), lift(5.0)];
+    steps.extend([4.0, 2.0, 0.0, 0.0].into_iter().flat_map(turn));
+    steps.extend([sweep(30.0, 30.0), lift(20.0)]);
+    steps
+}
+
+#[test]
+fn the_middle_of_a_helical_circle_is_free_where_no_core_stands() {
+    assert_eq!(found(circle(1.5, 3.0)), [""; 0]);
+    assert_eq!(found(circle(2.0, 3.0)), ["PB740"]);
+}
+
+#[test]
+fn an_embedded_path_is_cut_by_its_own_cutter() {
+    assert_eq!(found(circle(2.0, 4.0)), [""; 0]);
+    assert_eq!(found(circle(1.5, 2.0)), ["PB740"]);
+}
+
+#[test]
+fn material_elsewhere_is_no_obstacle() {
+    let plates = |way: [Step; 2]| {
+        let thin = [lift(3.0), element(2.0, 3.0), mill(10.0, 0.0, 1.0), lift(3.0)];
+        let thick =
+            [lift(20.0), sweep(50.0, 0.0), lift(5.0), element(5.0, 3.0), mill(60.0, 0.0, 1.0), lift(20.0)];
+        let over_thin = [sweep(10.0, 0.0), lift(3.0)];
+        thin.into_iter().chain(thick).chain(over_thin).chain(way).collect()
+    };
+    assert_eq!(found(plates([sweep(0.0, 0.0), lift(20.0)])), [""; 0]);
+    assert_eq!(found(plates([sweep(55.0, 10.0), sweep(55.0, 4.9)])), [""; 0]);
+    assert_eq!(found(plates([sweep(55.0, 10.0), sweep(55.0, 4.0)])), ["PB740"]);
+}
+
+#[test]
+fn a_milled_slot_is_free_and_what_is_beside_it_is_not() {
+    let back = |to: Step| vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0), to, lift(20.0)];
+    assert_eq!(found(back(sweep(0.0, 0.0))), [""; 0]);
+    assert_eq!(found(back(sweep(0.0, 0.8))), ["PB740"]);
+    // A slope makes room only as deep as it is: what is above its highest place is free.
+    let slope = |z: f64| vec![lift(5.0), mill(20.0, 0.0, 2.0), lift(z), sweep(0.0, 0.0), lift(20.0)];
+    assert_eq!(found(slope(5.0)), [""; 0]);
+    assert_eq!(found(slope(2.5)), ["PB740"]);
+}
+
+#[test]
+fn a_hole_is_not_drilled_by_rapid_moves() {
+    let dip = |z: f64| vec![sweep(10.0, 10.0), lift(6.0), lift(z), lift(20.0)];
+    assert_eq!(found(dip(5.0)), [""; 0]);
+    assert_eq!(found(dip(4.9)), ["PB741"]);
+}
+
+#[test]
+fn old_cuts_are_remembered_by_the_map() {
+    let mut steps = vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0)];
+    steps.extend((0..100).map(|turn| mill(20.0 + f64::from(turn % 2), 0.0, 2.0)));
+    steps.extend([sweep(20.0, 0.0), sweep(0.0, 0.0), lift(20.0)]);
+    assert_eq!(found(steps), [""; 0]);
+}
