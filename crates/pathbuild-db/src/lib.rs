@@ -32,7 +32,7 @@ pub use queries::{
     chains, check_file, check_target, closure, combinations, content, content_hash, drawing_names,
     drawn_path, embeds, embeds_others, file_index, holders, likely_file, locate, name_table, other_layers,
     path, path_index, path_names, path_place, prefetch, program, q_project, q_project_findings, raw_file,
-    resolve_path, search_directories, summary, trace, traced_program,
+    resolve_path, search_path, summary, trace, traced_program,
 };
 pub use scratch::ScratchPool;
 pub use settings::{Limits, Lookup, Reading, Settings};

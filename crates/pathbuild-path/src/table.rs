@@ -98,7 +98,9 @@ impl RangeTable {
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
-                self.around(&First::text(group)).for_each(|entry| take(&entry.range, entry.file));
+                if self.has_texts() {
+                    self.around(&First::text(group)).for_each(|entry| take(&entry.range, entry.file));
+                }
                 if first.is_integer() {
                     self.around(&first).for_each(|entry| take(&entry.range, entry.file));
                 }
@@ -116,6 +118,10 @@ impl RangeTable {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);
         reaching.filter(move |entry| entry.to >= *first)
+    }
+
+    fn has_texts(&self) -> bool {
+        self.sorted.last().is_some_and(|entry| !entry.from.is_integer())
     }
 
     fn integers(&self) -> &[Entry] {

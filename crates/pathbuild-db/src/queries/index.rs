@@ -103,7 +103,9 @@ impl FileIndex {
     fn new(db: &dyn Db, raw: RawFile, ends: &LayerEnds<'_>, content: Content) -> Self {
         let names = raw.paths.iter().map(|(raw, _)| raw.name.clone()).collect();
         let path = |(raw, _): (RawPath, _)| Arc::new(PathIndex::new(db, &raw, ends));
-        let mut paths: Vec<Arc<PathIndex>> = raw.paths.into_iter().map(path).collect();
+        // Not collected: that would keep the memory of the raw paths.
+        let mut paths: Vec<Arc<PathIndex>> = Vec::with_capacity(raw.paths.len());
+        paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         Self { names, paths, diagnostics: raw.diagnostics, content }
     }

@@ -1,6 +1,6 @@
 //! Where paths are: file names to files. (spec/20-paths-and-files.md)
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use pathbuild_path::{PathKey, PathName};
 use rustc_hash::FxHashSet;
 
@@ -17,8 +17,6 @@ pub struct Resolved {
     pub files: Vec<SourceFile>,
     /// The files that may hold it by their names.
     pub searched: Vec<SourceFile>,
-    /// The directories that were looked through.
-    pub directories: Vec<Directory>,
 }
 
 /// Where a path is that a drawing refers to: in any file of its directory and the search directories. `None` where the drawing itself defines
@@ -27,14 +25,13 @@ pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'d
     if path_index(db, from, name).is_some() {
         return None;
     }
-    Some(resolve_path(db, db.directory(own_directory(db, from)), name))
+    Some(resolve_path(db, own_directory(db, from), name))
 }
 
 /// Where a path is that drawings in a directory refer to. Unchanged by files that cannot hold it.
 #[salsa::tracked]
 pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Resolved {
-    let directories: Vec<Directory> =
-        search_directories(db, directory.path(db)).iter().map(|path| db.directory(path)).collect();
+    let directories = search_path(db, directory);
     let searched = distinct(directories.iter().flat_map(|it| files_for(db, *it, name.folded(db))));
     let defines = |file: &&SourceFile| path_index(db, **file, name).is_some();
     let mut files: Vec<SourceFile> = searched.iter().filter(defines).copied().collect();
@@ -43,18 +40,19 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
         let mut seen = FxHashSet::default();
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }
-    Resolved { files, searched, directories }
+    Resolved { files, searched }
 }
 
-/// The directories in which paths are looked for that drawings in a directory refer to, in order.
-pub fn search_directories(db: &dyn Db, own: &Utf8Path) -> Vec<Utf8PathBuf> {
+/// The directories in which paths are looked for that drawings in a directory refer to, in order, that one first.
+#[salsa::tracked]
+pub fn search_path(db: &dyn Db, own: Directory) -> Vec<Directory> {
     let searched = Settings::get(db).lookup(db).search.iter();
-    distinct(std::iter::once(own.to_owned()).chain(searched.cloned()))
+    distinct(std::iter::once(own).chain(searched.map(|path| db.directory(path))))
 }
 
 /// The directory of a drawing.
-pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> &Utf8Path {
-    file.path(db).parent().unwrap_or(Utf8Path::new(""))
+pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
+    db.directory(file.path(db).parent().unwrap_or(Utf8Path::new("")))
 }
 
 /// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would
@@ -72,7 +70,11 @@ fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
 }
 
 /// Each of them once, in their order.
-fn distinct<T: Clone + Eq + std::hash::Hash>(all: impl Iterator<Item = T>) -> Vec<T> {
-    let mut seen = FxHashSet::default();
-    all.filter(|one| seen.insert(one.clone())).collect()
+fn distinct<T: Copy + Eq + std::hash::Hash>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut all: Vec<T> = all.collect();
+    if all.len() > 1 {
+        let mut seen = FxHashSet::default();
+        all.retain(|one| seen.insert(*one));
+    }
+    all
 }

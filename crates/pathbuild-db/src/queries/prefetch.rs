@@ -1,20 +1,19 @@
 //! Reading drawings before it is known that they are needed, while directories are listed. Only their indexes are made, which do not depend
 //! on other drawings: nothing that is shown comes from a guess.
 
-use camino::Utf8Path;
 use pathbuild_path::{PathName, SubpathName};
 use rustc_hash::FxHashSet;
 
 use super::index::{FileIndex, file_index};
-use super::lookup::{own_directory, search_directories};
+use super::lookup::{own_directory, search_path};
 use super::names::{EXTENSION, joined};
 use crate::db::Db;
-use crate::inputs::SourceFile;
+use crate::inputs::{Directory, SourceFile};
 use crate::system::Kind;
 
 /// The drawing of a directory that most likely defines a path: the one of its name, if there is one.
-pub fn likely_file(db: &dyn Db, directory: &Utf8Path, name: &str) -> Option<SourceFile> {
-    let path = joined(directory, &format!("{name}{EXTENSION}"));
+pub fn likely_file(db: &dyn Db, directory: Directory, name: &str) -> Option<SourceFile> {
+    let path = joined(directory.path(db), &format!("{name}{EXTENSION}"));
     (db.system().kind(&path) == Kind::File).then(|| db.file(&path))
 }
 
@@ -27,10 +26,10 @@ pub fn embeds_others(db: &dyn Db, file: SourceFile) -> bool {
 pub fn prefetch(db: &dyn Db, file: SourceFile) {
     let (mut open, mut seen) = (vec![file], FxHashSet::from_iter([file]));
     while let Some(file) = open.pop() {
-        let directories = search_directories(db, own_directory(db, file));
+        let directories = search_path(db, own_directory(db, file));
         for name in embedded_names(file_index(db, file)) {
             let mut places = directories.iter();
-            let likely = places.find_map(|directory| likely_file(db, directory, name.as_str()));
+            let likely = places.find_map(|directory| likely_file(db, *directory, name.as_str()));
             open.extend(likely.filter(|file| seen.insert(*file)));
         }
     }

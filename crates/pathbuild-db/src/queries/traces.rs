@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 use super::closures::closure;
 use super::embedding::embeds;
 use super::index::NameKey;
-use super::lookup::find_path;
+use super::lookup::{find_path, own_directory, search_path};
 use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 
@@ -40,7 +40,7 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
         for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
             let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
             resolved.searched.iter().for_each(|file| files.push(*file));
-            let directories = resolved.directories.iter().map(|directory| directory.path(db).clone());
+            let directories = search_path(db, own_directory(db, from)).iter().map(|it| it.path(db).clone());
             lookups.push(Sought { name: name.clone(), directories: directories.collect() });
         }
     }

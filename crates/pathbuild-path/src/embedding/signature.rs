@@ -53,7 +53,7 @@ pub struct PathSignature {
     /// Those that H raises.
     pub raised_probes: Vec<ProbeTop>,
     /// Its subpath segments, in their order.
-    pub subpaths: Vec<SubpathCall>,
+    pub subpaths: Box<[SubpathCall]>,
 }
 
 /// A subpath segment, with what messages about it show.
@@ -66,7 +66,7 @@ pub struct SubpathCall {
     /// What it says.
     pub subpath: Subpath,
     /// Its own text with a letter underlined, for each letter below that it gives.
-    faults: Vec<(Letter, TextFault)>,
+    faults: Box<[(Letter, TextFault)]>,
 }
 
 /// The letters of a subpath segment that are held against the paths on both sides.

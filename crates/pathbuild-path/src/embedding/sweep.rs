@@ -17,7 +17,7 @@ use crate::text::TextId;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepLimits {
     path: PathName,
-    faces: Vec<Face>,
+    faces: Box<[Face]>,
 }
 
 /// An upper face of the material.
@@ -34,7 +34,7 @@ impl SweepLimits {
     /// The limits of a path: its own T, that of its probes, that of its subpath segments.
     pub fn of(path: &Path) -> Self {
         let Some(surface) = &path.surface else {
-            return Self { path: path.name.clone(), faces: Vec::new() };
+            return Self { path: path.name.clone(), faces: Box::default() };
         };
         let face = |origin: Origin, thickness: f64, text: Option<TextId>| {
             let fault = path.drawn.text(text).and_then(|text| text.fault_of(Letter::T));

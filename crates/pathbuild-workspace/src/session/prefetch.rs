@@ -4,8 +4,8 @@
 use std::collections::HashSet;
 use std::thread::Builder;
 
-use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{PendingListing, SourceFile, likely_file, prefetch, search_directories};
+use camino::Utf8Path;
+use pathbuild_db::{Db as _, Directory, PendingListing, SourceFile, likely_file, prefetch, search_path};
 
 use super::Session;
 use crate::inputs::{Input, Inputs};
@@ -16,9 +16,9 @@ impl Session<'_> {
         let mut known = HashSet::new();
         for input in inputs.iter() {
             let Some((file, directory)) = self.likely_drawing(input) else { continue };
-            let directories = search_directories(&self.db, &directory);
-            let new: Vec<Utf8PathBuf> =
-                directories.into_iter().filter(|directory| known.insert(directory.clone())).collect();
+            let directories = search_path(&self.db, directory).iter();
+            let new: Vec<Directory> =
+                directories.copied().filter(|directory| known.insert(*directory)).collect();
             self.list_ahead(&new);
             if let Some(file) = file {
                 prefetch(&self.db, file);
@@ -28,23 +28,26 @@ impl Session<'_> {
 
     /// The drawing that an argument most likely means, and the directory in which paths are looked for; `None` where no names are needed,
     /// or a walk through directories lists them.
-    fn likely_drawing(&self, input: Input<'_>) -> Option<(Option<SourceFile>, Utf8PathBuf)> {
+    fn likely_drawing(&self, input: Input<'_>) -> Option<(Option<SourceFile>, Directory)> {
         match input {
             Input::Place(place) if Self::is_drawing(place) => {
                 let file = self.file(place);
-                let directory = file.path(&self.db).parent().unwrap_or(Utf8Path::new("")).to_owned();
+                let directory = self.db.directory(file.path(&self.db).parent().unwrap_or(Utf8Path::new("")));
                 pathbuild_db::embeds_others(&self.db, file).then_some((Some(file), directory))
             }
             Input::Place(_) => None,
             Input::Name(_) if self.has_library() => None,
-            Input::Name(name) => Some((likely_file(&self.db, Utf8Path::new(""), name), Utf8PathBuf::new())),
+            Input::Name(name) => {
+                let directory = self.db.directory(Utf8Path::new(""));
+                Some((likely_file(&self.db, directory, name), directory))
+            }
         }
     }
 
     /// Lists directories on a thread of its own. Where the system has no thread left, the queries that want the names list them.
-    fn list_ahead(&self, directories: &[Utf8PathBuf]) {
+    fn list_ahead(&self, directories: &[Directory]) {
         let pending: Vec<PendingListing> =
-            directories.iter().map(|directory| self.db.list_ahead(directory)).collect();
+            directories.iter().map(|directory| self.db.list_ahead(directory.path(&self.db))).collect();
         if !pending.is_empty() {
             let list = move || pending.into_iter().for_each(PendingListing::run);
             _ = Builder::new().name("listing".into()).spawn(list);
