@@ -47,6 +47,15 @@ pub struct ProbePoint {
 }
 
 impl Program {
+    /// O in mm, if everything is milled with the same.
+    pub fn cutter(&self) -> Option<f64> {
+        let mut cutters = self.steps.iter().filter_map(|step| match step {
+            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
+            _ => None,
+        });
+        cutters.all(|cutter| cutter == self.tool).then_some(self.tool)
+    }
+
     /// The upper face of the material in mm, if all of it has the same.
     pub fn surface(&self) -> Option<f64> {
         let mut surfaces = self.steps.iter().filter_map(|step| match step {

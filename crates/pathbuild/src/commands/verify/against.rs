@@ -46,12 +46,7 @@ impl Against {
 
     /// O in mm, if everything is milled with the same.
     pub(super) fn cutter(&self) -> Option<f64> {
-        let mut cutters = self.drawn.steps.iter().filter_map(|step| match step {
-            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
-            _ => None,
-        });
-        let own = self.drawn.tool;
-        cutters.all(|cutter| cutter == own).then_some(own)
+        self.drawn.cutter()
     }
 
     /// T in mm, if everything that is milled has the same.
