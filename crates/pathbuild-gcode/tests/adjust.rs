@@ -321,6 +321,10 @@ fn a_height_that_is_extrapolated_too_far_is_refused() {
     let formula = |weight: &str| format!("Z1.000(=1.000+{weight}*[#51-2.000]-0.5*[#52-2.000])");
     assert!(run(formula("1.114"), values).is_ok());
     assert_eq!(refused(run(formula("1.120"), values)), ["a_Clean.gcode:1:2 PB602"]);
+    // Downwards as upwards.
+    let down = "([0.000 0.000]/T=2.000) #51=1.100\n([1.000 0.000]/T=2.000) #52=2.000\n";
+    assert!(run(formula("1.114"), down).is_ok());
+    assert_eq!(refused(run(formula("1.120"), down)), ["a_Clean.gcode:1:2 PB602"]);
     // Weights of three decimals may come to a little more than 1.
     assert!(run("Z1.000(=1.000+1.002*[#51-2.000])", "([1 2]/T=2) #51=3").is_ok());
     // Only heights are meant.

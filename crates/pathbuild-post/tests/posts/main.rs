@@ -7,6 +7,7 @@ mod cambam_definition;
 mod cambam_lines;
 mod cambam_moves;
 mod cambam_outputs;
+mod control_text_ways;
 mod jobs;
 mod mutilated;
 mod others_texts;

@@ -60,6 +60,12 @@ pub(crate) fn read(text: &str) -> Result<Post, Vec<Diagnostic>> {
     Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
 }
 
+/// A definition of control texts.
+pub(crate) fn read_toml(text: &str) -> Post {
+    Post::read(text.as_bytes(), Utf8Path::new("test.toml"))
+        .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
+}
+
 /// What a definition makes of a job.
 pub(crate) fn output(
     definition: &str,

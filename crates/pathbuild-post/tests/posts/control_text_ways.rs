@@ -1,0 +1,174 @@
+//! Ways through the air, small arcs and holes in control texts: what a text cannot say is lifted, drawn as a line, or an error.
+
+use pathbuild_post::{Arc, Entry, Hole, HoleKind, Job, Operation, PostOptions, Spindle, Step, load};
+
+use crate::support::{DIN, feed, job, operation, rapid, read_toml, texts};
+
+/// What the manual's form makes of a job, read back in a dialect.
+#[track_caller]
+fn written(definition: &str, job: &Job) -> Vec<String> {
+    let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    let output = read_toml(definition).write(job, &options);
+    let output = output.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
+    String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect()
+}
+
+fn refused(definition: &str, job: &Job) -> Vec<String> {
+    texts(&read_toml(definition).write(job, &PostOptions::default()).expect_err("it must be refused"))
+}
+
+fn high(steps: Vec<Step>) -> Job {
+    let mut job = job(steps);
+    job.operations[0].clearance = 25.0;
+    job.operations[0].entry = Entry::At([0.0, 0.0, 25.0]);
+    job.operations[0].speed = Some(1000.0);
+    job
+}
+
+/// The heights to which the tool goes by rapid alone.
+fn lifts(lines: &[String]) -> Vec<&str> {
+    lines.iter().filter_map(|line| line.strip_prefix("G00 Z")).collect()
+}
+
+#[test]
+fn a_way_round_something_goes_over_it_or_point_for_point() {
+    let round =
+        [rapid(10.0, 0.0, 4.0), rapid(10.0, 40.0, 4.0), rapid(60.0, 40.0, 4.0), rapid(60.0, 0.0, 4.0)];
+    let mut steps = vec![rapid(0.0, 0.0, 2.0), feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0)];
+    steps.extend(round);
+    steps.extend([feed(60.0, 0.0, -1.0), feed(70.0, 0.0, -1.0), rapid(70.0, 0.0, 25.0)]);
+    let lines = written(DIN, &high(steps.clone()));
+    let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
+    assert_eq!(lines[over - 1], "G00 Z+25", "{lines:?}");
+    // A straight way at the same height needs no lift.
+    let straight = vec![
+        rapid(0.0, 0.0, 2.0),
+        feed(0.0, 0.0, -1.0),
+        feed(10.0, 0.0, -1.0),
+        rapid(10.0, 0.0, 4.0),
+        rapid(60.0, 0.0, 4.0),
+        feed(60.0, 0.0, -1.0),
+        rapid(60.0, 0.0, 25.0),
+    ];
+    let lines = written(DIN, &high(straight));
+    let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
+    assert_eq!(lines[over - 1], "G00 Z+4", "{lines:?}");
+}
+
+fn hole(x: f64, level: f64, kind: HoleKind) -> Step {
+    Step::Hole(Hole {
+        at: [x, 10.0],
+        level,
+        retract: 2.0,
+        bottom: -0.2,
+        exit: level,
+        feed: Some(150.0),
+        kind,
+    })
+}
+
+/// With a text for holes.
+fn with_point() -> String {
+    DIN.replace(
+        "contour-end =",
+        "point = '''\nG00 X{+~X1~} Y{+~Y1~}\nG00 Z{+~ZWorking~}\nG01 Z{+~Z1~} F{#~LoweringVel~}\nG00 Z{+~ZClearance~}'''\ncontour-end =",
+    )
+}
+
+#[test]
+fn the_way_between_holes_is_as_high_as_the_program_s() {
+    let steps = vec![
+        rapid(20.0, 10.0, 25.0),
+        rapid(20.0, 10.0, 4.0),
+        hole(20.0, 4.0, HoleKind::Plain),
+        rapid(20.0, 10.0, 25.0),
+        rapid(110.0, 10.0, 25.0),
+        rapid(110.0, 10.0, 4.0),
+        hole(110.0, 4.0, HoleKind::Plain),
+        rapid(110.0, 10.0, 25.0),
+    ];
+    let lines = written(&with_point(), &high(steps));
+    let second = lines.iter().position(|line| line == "G00 X+110 Y+10").expect("the second hole");
+    assert_eq!(lines[second - 1], "G00 Z+25", "{lines:?}");
+}
+
+#[test]
+fn pecks_and_dwells_that_the_text_does_not_name_are_moves_or_errors() {
+    let at = || rapid(20.0, 10.0, 25.0);
+    let pecked = written(&with_point(), &high(vec![at(), hole(20.0, 25.0, HoleKind::Peck { depth: 0.8 })]));
+    let depths: Vec<&str> = pecked.iter().filter_map(|line| line.strip_prefix("G01 Z")).collect();
+    assert!(depths.len() >= 3, "each peck is written: {pecked:?}");
+    let dwelling = high(vec![at(), hole(20.0, 25.0, HoleKind::Dwell { seconds: 0.5 })]);
+    assert_eq!(
+        refused(&with_point(), &dwelling),
+        ["PB759 mill needs the text dwell, which the post does not have"]
+    );
+}
+
+fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Step {
+    let centre = [centre[0], centre[1], from[2]];
+    Step::Arc(Arc { clockwise: false, from, centre, to, feed: Some(100.0) })
+}
+
+#[test]
+fn an_arc_that_rounding_closes_is_no_circle() {
+    let end = [10.0 * libm::cos(0.000_05), 10.0 * libm::sin(0.000_05), -1.0];
+    let steps =
+        |to| vec![rapid(10.0, 0.0, 25.0), feed(10.0, 0.0, -1.0), arc([10.0, 0.0, -1.0], [0.0; 2], to)];
+    let lines = written(DIN, &high(steps(end)));
+    assert!(lines.iter().all(|line| !line.starts_with("G03")), "{lines:?}");
+    let lines = written(DIN, &high(steps([10.0, 0.0, -1.0])));
+    assert_eq!(
+        lines.iter().filter(|line| line.starts_with("G03")).count(),
+        1,
+        "a whole turn stays: {lines:?}"
+    );
+}
+
+#[test]
+fn an_arc_whose_rounded_centre_is_elsewhere_is_an_error() {
+    let (sin, cos) = libm::sincos(1.0);
+    let radius = 3.766;
+    let from = [radius * cos + 5.0, radius * sin + 5.0, -1.0];
+    let to = [5.0 - radius, 5.0, -1.0];
+    let steps = vec![rapid(from[0], from[1], 25.0), feed(from[0], from[1], -1.0), arc(from, [5.0; 2], to)];
+    let one_decimal = DIN.replace("[text]", "decimals = 1\n[text]");
+    let found = refused(&one_decimal, &high(steps.clone()));
+    assert!(found[0].starts_with("PB756 "), "{found:?}");
+    written(DIN, &high(steps));
+}
+
+#[test]
+fn a_tool_is_changed_above_where_the_tool_is() {
+    let mill = |tool, top| {
+        let steps = vec![rapid(1.0, 0.0, top), feed(1.0, 0.0, -1.0), rapid(1.0, 0.0, top)];
+        Operation { clearance: top, speed: Some(1000.0), ..operation("m", tool, steps) }
+    };
+    let job = Job { operations: vec![mill(1, 25.0), mill(2, 5.0)], ..job(vec![]) };
+    let lines = written(DIN, &job);
+    let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
+    assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
+    assert_eq!(lifts(&lines[..change]).last(), Some(&"+25"), "{lines:?}");
+}
+
+#[test]
+fn xpertmill_has_one_speed_for_each_layer() {
+    let mill = |tool, speed| {
+        let steps = vec![rapid(1.0, 0.0, 5.0), feed(1.0, 0.0, -1.0), rapid(1.0, 0.0, 5.0)];
+        let spindle = Some(Spindle::Clockwise);
+        Operation { speed: Some(speed), spindle, ..operation("1111.1P", tool, steps) }
+    };
+    let write = |second, speed| {
+        let job = Job { operations: vec![mill(1, 12_000.0), mill(second, speed)], ..job(vec![]) };
+        load("xpertmill").unwrap().write(&job, &PostOptions::default())
+    };
+    assert!(
+        texts(&write(1, 6000.0).unwrap_err())[0]
+            .starts_with("PB765 T1 runs at 12000 and, in 1111.1P, at 6000")
+    );
+    for (tool, speed) in [(1, 12_000.0), (2, 6000.0)] {
+        let text = write(tool, speed).map(|it| String::from_utf8(it.text).unwrap());
+        let text = text.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
+        assert!(text.contains(&format!("S{speed}")), "{text}");
+    }
+}
