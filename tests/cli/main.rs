@@ -25,6 +25,7 @@ mod kills;
 mod library;
 mod licences;
 mod machines;
+mod meanwhile;
 mod nesting;
 mod nothing;
 mod posts;

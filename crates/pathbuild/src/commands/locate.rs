@@ -16,13 +16,16 @@ use pathbuild_workspace::session::{Session, Wanted};
 
 /// Runs the command: a line for each definition, `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("show");
     }
-    let wanted = session.wanted(&args.inputs);
-    let mut problems = wanted.problems.clone();
-    for (file, place) in definitions(&session, args, &wanted, &mut problems) {
+    let (found, problems) = session.settled(|session| {
+        let wanted = session.wanted(&args.inputs);
+        let mut problems = wanted.problems.clone();
+        (definitions(session, args, &wanted, &mut problems), problems)
+    });
+    for (file, place) in found {
         let file = file.path(session.db()).as_str();
         match context.format {
             Format::Json => context.printer.result_json(json(file, &place)),

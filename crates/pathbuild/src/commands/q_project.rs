@@ -14,9 +14,10 @@ use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written where the drawing is not in order, or what would be written would not be.
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     let drawing = session.file(&args.drawing);
-    let name = match path_name(&session, drawing, args.path_name.as_deref()) {
+    let name = session.settled(|session| path_name(session, drawing, args.path_name.as_deref()));
+    let name = match name {
         Ok(name) => name,
         Err(reason) => return context.usage(&reason),
     };
@@ -24,7 +25,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     if output == *drawing.path(session.db()) {
         return context.usage("the Q-project would be written over its own drawing");
     }
-    match drawn(context, &session, drawing, &output, &name) {
+    match session.settled(|session| drawn(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
         Err(problems) => {
             let findings = context.findings(session.with_elsewhere(problems));
@@ -82,10 +83,13 @@ fn drawn(
             .with("reason", reason);
         vec![problem.in_file(drawing.path(session.db()))]
     })?;
-    let as_if = Session::with_drawing(context, output, bytes.clone());
+    let mut as_if = Session::with_drawing(context, output, bytes.clone());
     let (there, written) = (as_if.file(drawing.path(session.db())), as_if.file(output));
-    let mut problems = faults(&as_if, written);
-    problems.extend_from_slice(pathbuild_db::q_project_findings(as_if.db(), there, written));
+    let problems = as_if.settled(|as_if| {
+        let mut problems = faults(as_if, written);
+        problems.extend_from_slice(pathbuild_db::q_project_findings(as_if.db(), there, written));
+        problems
+    });
     let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, planned.lines.len())) }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use pathbuild_db::{assigned_texts, check_file};
-use pathbuild_diagnostic::{Handle, Number, shown};
+use pathbuild_diagnostic::{Diagnostic, Handle, Number, shown};
 use pathbuild_path::{AssignedElement, AssignedText, Curve, Position, Shape, TextCircle, Xy};
 use regex::Regex;
 use serde_json::{Value as Json, json};
@@ -21,32 +21,48 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
         Ok(pattern) => pattern.and_then(|pattern| Regex::new(pattern).ok()),
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("show");
     }
-    let wanted = session.wanted(&args.inputs);
-    let mut problems = wanted.problems;
-    let whole = wanted.drawings.iter().map(|drawing| (drawing.file, None));
-    let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
-    let db = session.db();
-    for (file, path) in whole.chain(parts) {
-        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
-        let is_wanted = |text: &&AssignedText| {
-            path.is_none_or(|path| text.path == *path)
-                && pattern.as_ref().is_none_or(|pattern| pattern.is_match(&text.text))
-        };
-        for text in assigned_texts(db, file).iter().filter(is_wanted) {
-            let name = file.path(db).as_str();
-            match context.format {
-                Format::Json => context.printer.result_json(object(name, text)),
-                _ => context.printer.result(lines(context, name, text)),
-            }
+    let (texts, problems) = session.settled(|session| texts(context, session, args, pattern.as_ref()));
+    for text in texts {
+        match context.format {
+            Format::Json => context.printer.result_json(text),
+            _ => context.printer.result(text),
         }
     }
     let findings = context.findings(problems);
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// What is shown of each text, and what is wrong with drawings and arguments.
+fn texts(
+    context: &Context,
+    session: &Session<'_>,
+    args: &TextsArgs,
+    pattern: Option<&Regex>,
+) -> (Vec<String>, Vec<Diagnostic>) {
+    let wanted = session.wanted(&args.inputs);
+    let mut problems = wanted.problems;
+    let whole = wanted.drawings.iter().map(|drawing| (drawing.file, None));
+    let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
+    let db = session.db();
+    let mut shown = Vec::new();
+    for (file, path) in whole.chain(parts) {
+        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
+        let is_wanted = |text: &&AssignedText| {
+            path.is_none_or(|path| text.path == *path)
+                && pattern.is_none_or(|pattern| pattern.is_match(&text.text))
+        };
+        let name = file.path(db).as_str();
+        shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
+            Format::Json => object(name, text).to_string(),
+            _ => lines(context, name, text),
+        }));
+    }
+    (shown, problems)
 }
 
 /// A text in a few lines: itself, where it is, and each element that it belongs to.

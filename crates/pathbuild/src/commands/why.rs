@@ -16,7 +16,7 @@ use pathbuild_workspace::session::Session;
 /// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
 /// that is not as it was.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
@@ -24,7 +24,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };
-    let wanted = session.wanted(&args.inputs);
+    let wanted = session.settled(|session| session.wanted(&args.inputs));
     let drawings = wanted.drawings.iter().map(|drawing| drawing.file);
     let mut known = HashSet::new();
     let all = drawings.chain(wanted.paths.iter().map(|path| path.file));

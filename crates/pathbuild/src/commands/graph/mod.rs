@@ -18,24 +18,30 @@ use pathbuild_workspace::session::{Direction, Graph, Session, Wanted};
 
 /// Runs `graph`: every embedding of paths; without arguments of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("show");
     }
-    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
-    let graph = session.graph(&asked.targets);
+    let (asked, graph) = session.settled(|session| {
+        let asked = Asked::new(session, session.wanted(&args.inputs));
+        let graph = session.graph(&asked.targets);
+        (asked, graph)
+    });
     print(context, &graph, |graph| list::list(graph, context.lang()));
     asked.finish(context, &graph)
 }
 
 /// Runs `deps`: what paths embed, level by level.
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("show");
     }
-    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
-    let graph = session.graph(&asked.targets);
+    let (asked, graph) = session.settled(|session| {
+        let asked = Asked::new(session, session.wanted(&args.inputs));
+        let graph = session.graph(&asked.targets);
+        (asked, graph)
+    });
     print(context, &graph, |graph| tree::tree(graph, Direction::Down, context.lang()));
     asked.finish(context, &graph)
 }
@@ -46,9 +52,12 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() {
         return context.usage("rdeps needs to know of what: name drawings or paths");
     }
-    let session = Session::new(context);
-    let mut asked = Asked::new(&session, session.wanted(&args.inputs));
-    let whole = session.graph(&asked.and_everything(&session));
+    let mut session = Session::new(context);
+    let (asked, whole) = session.settled(|session| {
+        let mut asked = Asked::new(session, session.wanted(&args.inputs));
+        let whole = session.graph(&asked.and_everything(session));
+        (asked, whole)
+    });
     let db = session.db();
     let named = asked.targets.iter().flat_map(|target| {
         let name = PathName::new(target.name(db));
@@ -98,7 +107,7 @@ impl Asked {
     }
 
     /// Shows what could not be asked, and says where the graph ends although there is more.
-    fn finish(&mut self, context: &Context, graph: &Graph) -> ExitStatus {
+    fn finish(self, context: &Context, graph: &Graph) -> ExitStatus {
         let unknown = graph.nodes.iter().filter(|node| !node.is_sound).count();
         if unknown > 0 {
             context.printer.status(format_args!(
@@ -110,7 +119,7 @@ impl Asked {
                 context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
             ));
         }
-        let findings = context.findings(std::mem::take(&mut self.problems));
+        let findings = context.findings(self.problems);
         context.show(&findings);
         if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }

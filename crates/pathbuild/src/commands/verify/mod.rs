@@ -22,10 +22,10 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(wishes) => wishes,
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let session = Session::new(context);
+    let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
-    let against = match args.against.as_deref().map(|name| Against::new(context, &session, name)).transpose()
-    {
+    let drawn = |name| session.settled(|session| Against::new(context, session, name));
+    let against = match args.against.as_deref().map(drawn).transpose() {
         Ok(against) => against,
         Err(against::Failure::Usage(reason)) => return context.usage(&reason),
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),

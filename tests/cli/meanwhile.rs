@@ -1,0 +1,157 @@
+//! A drawing that changes between two looks of one command is looked at again: no command ends with a panic, and none shows one drawing's
+//! elements with another's places. (ARCHITECTURE.md, "Invariants")
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::SystemTime;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use clap::Parser;
+use pathbuild::args::Cli;
+use pathbuild::printer::{ColorChoice, Printer, Verbosity};
+use pathbuild::{Context, ExitStatus, commands};
+use pathbuild_cache::Stamp;
+use pathbuild_db::System;
+use pathbuild_db::system::{Entry, Kind, Listing, OsSystem, ReadError, Written};
+use pathbuild_workspace::{Workspace, config};
+
+use crate::support::Place;
+
+const BEFORE: &str = r#"
+== a 8001.1P.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate S20 F150"
+subpath 0,0 40,0 ">1234.1P"
+end 40,0
+== 1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+"#;
+
+/// The files of the operating system. After a drawing was read for the n-th time, another one is there.
+#[derive(Debug)]
+struct Changing {
+    left: AtomicU32,
+    victim: Utf8PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Changing {
+    fn change<T>(&self, path: &Utf8Path, read: T) -> T {
+        if path == self.victim && self.left.fetch_sub(1, Ordering::SeqCst) == 1 {
+            fs::write(&self.victim, &self.bytes).unwrap();
+        }
+        read
+    }
+}
+
+impl System for Changing {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        self.change(path, OsSystem.read(path, limit))
+    }
+
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        self.change(path, OsSystem.read_stamped(path, limit, room))
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        OsSystem.head(path, length)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        OsSystem.modified(path)
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
+        OsSystem.list(directory)
+    }
+
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        OsSystem.each_entry(directory, take)
+    }
+
+    fn kind(&self, path: &Utf8Path) -> Kind {
+        OsSystem.kind(path)
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        OsSystem.canonical(path)
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+        OsSystem.write(path, bytes)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+        OsSystem.remove(path)
+    }
+}
+
+/// Runs a command while a drawing changes after it was read for the n-th time; whether it was read so often.
+fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
+    let place = Place::of(BEFORE);
+    let root = Utf8Path::from_path(place.path()).unwrap();
+    // One more element before all others: every number and line is another.
+    let changed = Place::of(&BEFORE.replace("layer ", "layer REMARKS\nmill 90,90 91,91\nlayer "));
+    let bytes = fs::read(changed.path().join(victim)).unwrap();
+    let system = Arc::new(Changing { left: AtomicU32::new(reads), victim: root.join(victim), bytes });
+    let line = line.replace("DIR", root.as_str());
+    let Ok(cli) = Cli::try_parse_from(["pathbuild"].into_iter().chain(line.split('|'))) else {
+        panic!("{line}")
+    };
+    let (settings, faults) =
+        config::load(&cli.common.overrides(), &cli.command.inputs(), &Utf8PathBuf::new());
+    assert!(faults.is_empty());
+    let printer = Rc::new(Printer::new(Verbosity::Silent, ColorChoice::Never));
+    let workspace = Workspace {
+        settings,
+        system: Arc::<Changing>::clone(&system),
+        own_lang: None,
+        working_directory: Utf8PathBuf::new(),
+        jobs: Some(1),
+        cache: None,
+        reporter: Rc::<Printer>::clone(&printer),
+    };
+    let context = Context { printer, format: cli.common.format.unwrap_or_default(), workspace };
+    let status = commands::run(&context, &cli.command);
+    (status, system.left.load(Ordering::SeqCst) == 0 || system.left.load(Ordering::SeqCst) > reads)
+}
+
+#[test]
+fn commands_look_again_at_a_drawing_that_changes_meanwhile() {
+    let lines = [
+        "graph|DIR",
+        "deps|DIR/a 8001.1P.dxf",
+        "rdeps|DIR/1234.dxf",
+        "where|DIR",
+        "texts|DIR",
+        "check|DIR",
+        "q-project|DIR/1234.dxf",
+        "emit|DIR/a 8001.1P.dxf|-o|-|--rapid|1000|--feed|150",
+    ];
+    let mut changes = 0;
+    for line in lines {
+        for victim in ["a 8001.1P.dxf", "1234.dxf"] {
+            for reads in 1..4 {
+                let (status, has_changed) = run(line, victim, reads);
+                assert_eq!(status, ExitStatus::Success, "{line}: {victim} after {reads} reads");
+                changes += u32::from(has_changed);
+            }
+        }
+    }
+    assert!(changes >= 16, "{changes}");
+}
