@@ -88,6 +88,7 @@ fn settings(db: &mut Database) {
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
+        doubts: pathbuild_path::Doubts::default(),
     };
     let lookup = Lookup { file_pattern: FilePattern::default(), search: vec!["parts".into()] };
     let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), ..FoldOptions::default() };

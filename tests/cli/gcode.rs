@@ -96,7 +96,7 @@ fn verify_reports_with_the_severities_of_the_configuration() {
     let unsafe_program = "G17 G21 G90 G94\nG0 X0 Y0\nG0 Z5\nG1 Z1\nG1 X10 F100\nM30\n";
     let place = Place::new().file("a.gcode", unsafe_program).file(
         "pathbuild.toml",
-        "[severity]\nPB742 = \"ignore\"\nPB743 = \"error\"\nmissing-feed = \"warning\"\n[machine]\nx = [0, 5]\nmax-feed = 90\n",
+        "[severity]\nPB742 = \"ignore\"\nPB743 = \"error\"\nmissing-feed = \"warning\"\n[machine]\nx = [0, 5]\nmaximum-feed = 90\n",
     );
     assert_snapshot!(runs(
         &place,

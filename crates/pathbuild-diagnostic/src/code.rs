@@ -63,6 +63,7 @@ codes! {
     113 WrongUnits "wrong-units" Error "PB113: units other than millimetres";
     114 TurnMarkerWithoutEffect "turn-marker-without-effect" Warning "PB114: turn marker without effect";
     115 JoinedEnds "joined-ends" Warning "PB115: ends joined within join-tolerance";
+    116 DoubtfulText "doubtful-text" Warning "PB116: a text that nearly belongs to another element";
     201 MissingParameter "missing-parameter" Error "PB201: needed, neither given nor inherited";
     202 UnknownParameter "unknown-parameter" Error "PB202: letter not known for this element";
     203 ParameterOutOfRange "parameter-out-of-range" Error "PB203: a value against its limits";
@@ -73,6 +74,7 @@ codes! {
     208 InvalidAtReference "invalid-at-reference" Error "PB208: @ with other letters, to no path, or to a path that uses @";
     209 InvalidRegex "invalid-regex" Error "PB209: E is no regular expression";
     210 ParameterWithoutEffect "parameter-without-effect" Warning "PB210: parameter without effect";
+    211 DoubtfulValue "doubtful-value" Warning "PB211: a value that is allowed and unlikely: B, I or F";
     301 InvalidVariableDefinition "invalid-variable-definition" Error "PB301: invalid variable definition";
     302 MissingVariableValue "missing-variable-value" Error "PB302: missing variable value";
     303 UnknownVariable "unknown-variable" Error "PB303: value without definition, or reference to none";

@@ -66,6 +66,7 @@ pages! {
     WrongUnits "PB113" example;
     TurnMarkerWithoutEffect "PB114" example;
     JoinedEnds "PB115" example;
+    DoubtfulText "PB116" example;
     MissingParameter "PB201" example;
     UnknownParameter "PB202" example;
     ParameterOutOfRange "PB203" example;
@@ -76,6 +77,7 @@ pages! {
     InvalidAtReference "PB208" example;
     InvalidRegex "PB209" example;
     ParameterWithoutEffect "PB210" example;
+    DoubtfulValue "PB211" example;
     InvalidVariableDefinition "PB301" example;
     MissingVariableValue "PB302" example;
     UnknownVariable "PB303" example;

@@ -79,6 +79,7 @@ fn settle(db: &Database) {
         path_pattern: PathPattern::default(),
         line_types: LineTypeAliases::default(),
         text_limit: 4096,
+        doubts: pathbuild_path::Doubts::default(),
         join_tolerance: 0.0,
     };
     let lookup = Lookup { file_pattern: FilePattern::default(), search: Vec::new() };

@@ -41,10 +41,23 @@ enum Kind {
     Line,
 }
 
+/// A candidate that a text belongs to.
+#[derive(Clone, Copy)]
+pub(crate) struct Found {
+    pub(crate) candidate: usize,
+    /// The next one of the same kind, and how much farther away it is in mm.
+    pub(crate) rival: Option<(usize, f64)>,
+}
+
 /// The candidate that a text with this circle belongs to: the nearest overlapped circle, else arc, else line; the first of several at
 /// the same distance.
-pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes) -> Option<usize> {
+pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes) -> Option<Found> {
     let mut nearest: Option<(Kind, f64, usize)> = None;
+    let mut second: Option<(Kind, f64, usize)> = None;
+    let is_same_group = |one: Option<(Kind, f64, usize)>, other: usize| {
+        let group = candidates[other].group;
+        group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
+    };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
         if candidate.is_taken {
@@ -53,10 +66,18 @@ pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes)
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
         let found = (kind, distance, index);
         if nearest.is_none_or(|nearest| found < nearest) {
+            if !is_same_group(nearest, index) {
+                second = nearest;
+            }
             nearest = Some(found);
+        } else if !is_same_group(nearest, index) && second.is_none_or(|second| found < second) {
+            second = Some(found);
         }
     });
-    nearest.map(|(_, _, index)| index)
+    nearest.map(|(kind, distance, candidate)| Found {
+        candidate,
+        rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
+    })
 }
 
 /// The nearest free candidate to a text that overlaps none; the first of several.

@@ -14,13 +14,13 @@ use smol_str::SmolStr;
 
 use crate::element::{Element, Marker, Origin};
 use crate::letter::Letter;
-use crate::limits;
 use crate::matrix::ElementClass;
 use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::ParameterText;
 use crate::values::{Given, Values};
 use crate::variables::{Bindings, Interpolation};
+use crate::{doubts, limits};
 
 use segments::Scope;
 
@@ -124,6 +124,8 @@ impl<'a> Binder<'a> {
             problems.push(self.values.underline(Letter::E, problem));
         }
         problems.extend(limits::check(&self.values, &self.values, ElementClass::PathStart));
+        let doubts = &self.language.doubts;
+        problems.extend(doubts::check(&self.values, &self.values, ElementClass::PathStart, doubts));
         self.problems.extend(problems.into_iter().map(|problem| {
             let problem = self.raw.at_parameters(problem);
             if problem.path.is_none() { problem.in_path(self.raw.name.as_str()) } else { problem }
@@ -149,6 +151,7 @@ impl<'a> Binder<'a> {
         let mut values = Values::of(text, &self.interpolation);
         let mut problems = std::mem::take(&mut values.problems);
         problems.append(&mut limits::check(&values, &self.values, class));
+        problems.append(&mut doubts::check(&values, &self.values, class, &self.language.doubts));
         for problem in problems {
             self.report(at, problem);
         }

@@ -11,6 +11,7 @@ mod chain;
 mod combinations;
 mod default_pattern;
 mod definition;
+mod doubts;
 mod element;
 mod embedding;
 mod file_name;
@@ -41,6 +42,7 @@ pub use bind::bind;
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
+pub use doubts::Doubts;
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
     Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, near_names,

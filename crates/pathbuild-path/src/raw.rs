@@ -6,6 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 use smol_str::SmolStr;
 
 use crate::definition::Definition;
+use crate::doubts::Doubts;
 use crate::element::{Element, Marker, Origin, Role};
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
@@ -73,6 +74,8 @@ pub struct Language {
     pub join_tolerance: f64,
     /// Longest value that variables may make, in bytes.
     pub text_limit: usize,
+    /// From where on something is doubtful.
+    pub doubts: Doubts,
 }
 
 /// All paths of a drawing, in order of first appearance.

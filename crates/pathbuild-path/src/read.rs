@@ -35,7 +35,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
         diagnostics.extend(path.orphans());
     }
     for path in &mut collected {
-        path.assign_texts();
+        path.assign_texts(language);
     }
     let starts = starts(&collected);
     RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }

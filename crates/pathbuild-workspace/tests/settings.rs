@@ -64,12 +64,15 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("machine.x", "[machine]\nx = [0, 1]", NONE),
     ("machine.y", "[machine]\ny = [0, 1]", NONE),
     ("machine.z", "[machine]\nz = [0, 1]", NONE),
-    ("machine.max-feed", "[machine]\nmax-feed = 1", NONE),
+    ("machine.maximum-feed", "[machine]\nmaximum-feed = 1", BOTH),
     ("machine.travel", "[machine]\ntravel = [1, 1, 1]", NONE),
     ("machine.spindle-speeds", "[machine]\nspindle-speeds = [1, 2]", NONE),
     ("machine.rates", "[machine]\nrates = [1, 1, 1]", NONE),
     ("machine.accelerations", "[machine]\naccelerations = [1, 1, 1]", NONE),
     ("machine.junction-deviation", "[machine]\njunction-deviation = 1", NONE),
+    ("warnings.below-plate", "[warnings]\nbelow-plate = 1", BOTH),
+    ("warnings.infeed", "[warnings]\ninfeed = 2", BOTH),
+    ("warnings.text-margin", "[warnings]\ntext-margin = 1", BOTH),
     ("watch.debounce", "[watch]\ndebounce = '1 s'", NONE),
     ("watch.poll", "[watch]\npoll = true", NONE),
 ];
@@ -94,7 +97,7 @@ fn every_setting_is_tried() {
     };
     let mut expected = BTreeSet::new();
     for name in keys(&schema) {
-        if matches!(&*name, "emit" | "limits" | "machine" | "watch") {
+        if matches!(&*name, "emit" | "limits" | "machine" | "warnings" | "watch") {
             expected.extend(keys(&schema["properties"][&name]).iter().map(|key| format!("{name}.{key}")));
         } else {
             expected.insert(name);

@@ -46,6 +46,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         path_pattern: PathPattern::default(),
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
+        doubts: pathbuild_path::Doubts::default(),
         join_tolerance: 0.0,
     };
     let lookup = Lookup {

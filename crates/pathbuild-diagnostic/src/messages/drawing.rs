@@ -64,6 +64,20 @@ messages! {
         help_en: "move it over its element; text and element must be on exactly the same layer",
         help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
     }
+    /// A text that a small shift gives to another element.
+    NEARLY_OTHER_ELEMENT: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",
+        de: "der Text \"{text}\" gehört zu {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
+        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name; `text-margin` under [warnings] sets the limit",
+        help_de: "den Text näher an sein Element schieben, oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
+    }
+    /// A text that belongs to an element because that comes first.
+    FIRST_OF_EQUALS: DoubtfulText {
+        en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
+        de: "der Text \"{text}\" ist {other} bei {other_point} so nah wie {element} bei {point}, zu dem er nur gehört, weil es in der Datei zuerst kommt",
+        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name",
+        help_de: "den Text näher an sein Element schieben, oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
+    }
     /// Note: what it may have been meant for.
     NEAREST_ELEMENT: TextWithoutElement {
         en: "nearest is {element} at {point}, {distance} mm away from the text's circle",

@@ -701,8 +701,8 @@ messages! {
     FEED_ABOVE_MOST: FeedTooHigh {
         en: "a feed of {feed} mm/min; the machine's largest is {most}",
         de: "ein Vorschub von {feed} mm/min; der größte der Maschine ist {most}",
-        help_en: "the control slows down, and times are longer; change F, or `max-feed` under [machine]",
-        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder `max-feed` unter [machine]",
+        help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder `maximum-feed` unter [machine]",
     }
     /// Placed box.
     OUTSIDE_MACHINE: OutsideMachine {

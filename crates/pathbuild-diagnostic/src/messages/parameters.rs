@@ -92,6 +92,27 @@ messages! {
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
+    /// Far below the plate.
+    BELOW_PLATE: DoubtfulValue {
+        en: "B is {value}: {depth} mm below the plate",
+        de: "B ist {value}: {depth} mm unter der Platte",
+        help_en: "check B, and that nothing lies there that must not be milled; `below-plate` under [warnings] allows more than {limit} mm",
+        help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; `below-plate` unter [warnings] erlaubt mehr als {limit} mm",
+    }
+    /// More than the whole plate at once.
+    INFEED_ABOVE_THICKNESS: DoubtfulValue {
+        en: "I is {value}, more than the thickness T of {thickness}: everything is milled in one pass",
+        de: "I ist {value}, mehr als die Dicke T von {thickness}: alles wird in einem Durchgang gefräst",
+        help_en: "write the infeed of one pass, for example I0.5",
+        help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I0.5",
+    }
+    /// Faster than the machine.
+    FEED_ABOVE_MACHINE: DoubtfulValue {
+        en: "F is {value}, but the machine's largest feed is {limit}",
+        de: "F ist {value}, der größte Vorschub der Maschine ist aber {limit}",
+        help_en: "correct F, or `maximum-feed` under [machine]",
+        help_de: "F berichtigen, oder `maximum-feed` unter [machine]",
+    }
     /// The sweep height that an emitted path gets because it has none.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",

@@ -46,8 +46,14 @@ proptest! {
         let boxes = Boxes::new(&candidates);
         let free = || candidates.iter().enumerate().filter(|(_, candidate)| !candidate.is_taken);
         let overlapped = free().filter_map(|(index, it)| overlap(&circle, &it.shape).map(|(kind, distance)| (kind, distance, index)));
-        let nearest = overlapped.reduce(|best, other| if other < best { other } else { best });
-        prop_assert_eq!(find(&circle, &candidates, &boxes), nearest.map(|(_, _, index)| index));
+        let mut overlapped: Vec<_> = overlapped.collect();
+        overlapped.sort_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
+        let expected = overlapped.first().map(|(kind, distance, index)| {
+            let rival = overlapped.get(1).filter(|rival| rival.0 == *kind);
+            (*index, rival.map(|(_, other, index)| (*index, other - distance)))
+        });
+        let found = find(&circle, &candidates, &boxes).map(|found| (found.candidate, found.rival));
+        prop_assert_eq!(found, expected);
         let gaps = free().map(|(index, it)| (gap(&circle, &it.shape), index));
         let least = gaps.reduce(|best, other| if other < best { other } else { best });
         prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes).map(|miss| (miss.distance, miss.candidate)), least);

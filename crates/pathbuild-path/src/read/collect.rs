@@ -115,7 +115,7 @@ impl Collected<'_> {
 
     /// What is wrong with a group of layers that holds texts only.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
-        take(&mut self.texts).assign(&mut self);
+        take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);
         for diagnostic in &mut diagnostics {
             self.map.locate(diagnostic);
@@ -125,10 +125,10 @@ impl Collected<'_> {
     }
 
     /// Gives each text to its element.
-    pub(crate) fn assign_texts(&mut self) {
+    pub(crate) fn assign_texts(&mut self, language: &Language) {
         let mut texts = take(&mut self.texts);
         let before = self.diagnostics.len();
-        texts.assign(self);
+        texts.assign(self, language.doubts.text_margin);
         self.texts = texts;
         // A broken entity may be what the text belongs to.
         if self.has_broken_entity {

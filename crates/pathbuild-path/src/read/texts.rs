@@ -1,6 +1,7 @@
 //! The texts of a path's layers, and the elements they are given to.
 
 use std::borrow::Cow;
+use std::mem::discriminant;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -10,9 +11,11 @@ use smol_str::SmolStr;
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
-use crate::assign::{Boxes, Candidate, find, nearest_miss};
-use crate::element::{Origin, Shape, Source, shown};
+use crate::approx::near;
+use crate::assign::{Boxes, Candidate, Found, find, nearest_miss};
+use crate::element::{Element, Origin, Shape, Source, shown};
 use crate::geometry::Xy;
+use crate::matrix::Use;
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 use crate::text_circle::TextCircle;
 
@@ -77,7 +80,7 @@ impl<'d> Texts<'d> {
         let mut matched = Vec::new();
         for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
-            layer.each_match(|layer, text, circle, owners| {
+            layer.each_match(|layer, text, circle, owners, _| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
                 let origin = layer.origin(text.source, text.anchor());
                 matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
@@ -88,9 +91,10 @@ impl<'d> Texts<'d> {
     }
 
     /// Gives each text to its element; what finds none is PB107.
-    pub(crate) fn assign(&mut self, path: &mut Collected<'_>) {
+    /// `margin`: by how much it must be nearer to it than to another, in mm, else PB116.
+    pub(crate) fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
         for layer in &mut self.layers {
-            layer.assign(path);
+            layer.assign(path, margin);
         }
         if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
@@ -114,9 +118,10 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Gives each text to its element. What finds no element stays in `texts`.
-    fn assign(&mut self, path: &mut Collected<'_>) {
-        self.each_match(|layer, text, _, owners| {
+    fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
+        self.each_match(|layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
+            path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
             if has_owner {
                 let text = path.given.push_drawn(text.string());
                 layer.give(text, owners, path);
@@ -129,7 +134,7 @@ impl<'d> LayerTexts<'d> {
     /// What is not taken stays.
     fn each_match(
         &mut self,
-        mut is_taken: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>) -> bool,
+        mut is_taken: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>, Option<Found>) -> bool,
     ) {
         if self.texts.is_empty() {
             return;
@@ -140,11 +145,11 @@ impl<'d> LayerTexts<'d> {
         texts.retain(|text| {
             let circle = text.circle();
             let found = find(&circle, &self.candidates, &self.boxes);
-            let owners = found.map_or(0..0, |index| self.parts(index));
+            let owners = found.map_or(0..0, |found| self.parts(found.candidate));
             for owner in &mut self.candidates[owners.clone()] {
                 owner.is_taken = true;
             }
-            !is_taken(self, text, circle, owners)
+            !is_taken(self, text, circle, owners, found)
         });
         self.texts = texts;
     }
@@ -173,6 +178,36 @@ impl<'d> LayerTexts<'d> {
                 *owner = Some(text);
             }
         }
+    }
+
+    /// PB116 where another element of the same kind is as near as the one that was found, or nearly. Not where the text would be an error
+    /// there: between markers and elements, and where the other element knows one of its letters not.
+    fn doubt(
+        &self,
+        text: &FoundText<'_>,
+        found: Found,
+        margin: f64,
+        elements: &[Element],
+    ) -> Option<Diagnostic> {
+        let (rival, farther) = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0))?;
+        let [element, other] = [found.candidate, rival].map(|index| &self.candidates[index]);
+        let string = without_percent_codes(text.string());
+        let texts = ParameterTexts::from(&*string);
+        let refuses = |text: ParameterText<'_>| refuses(other.owner, text, elements);
+        if discriminant(&element.owner) != discriminant(&other.owner) || texts.first().is_some_and(refuses) {
+            return None;
+        }
+        let message =
+            if near(farther, 0.0) { &messages::FIRST_OF_EQUALS } else { &messages::NEARLY_OTHER_ELEMENT };
+        let mut doubt = Diagnostic::new(message)
+            .with("text", string.replace('\n', " "))
+            .with("element", candidate_word(element))
+            .with("point", shown(element.shape.point()))
+            .with("other", candidate_word(other))
+            .with("other_point", shown(other.shape.point()))
+            .with("margin", farther);
+        doubt.text = texts.first().map(ParameterText::whole);
+        Some(self.origin(text.source, text.anchor()).at(doubt))
     }
 
     fn without_element<'a>(
@@ -206,8 +241,8 @@ impl<'d> LayerTexts<'d> {
 
     /// Notes that a text would have found its element, had it been on this layer.
     fn would_take(&self, text: &FoundText<'_>, diagnostic: Diagnostic) -> Diagnostic {
-        let Some(index) = find(&text.circle(), &self.candidates, &self.boxes) else { return diagnostic };
-        let candidate = &self.candidates[index];
+        let Some(found) = find(&text.circle(), &self.candidates, &self.boxes) else { return diagnostic };
+        let candidate = &self.candidates[found.candidate];
         diagnostic.note(
             &messages::ELEMENT_ON_OTHER_LAYER,
             vec![
@@ -217,4 +252,12 @@ impl<'d> LayerTexts<'d> {
             ],
         )
     }
+}
+
+/// Whether an element does not know a letter of a text (PB202).
+fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool {
+    let Owner::Element(element) = owner else { return false };
+    let class = elements[element].class(None);
+    let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
+    letters.any(|letter| matches!(class.use_of(letter), Use::Unknown | Use::PathOnly))
 }

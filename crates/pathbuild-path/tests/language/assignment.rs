@@ -12,7 +12,8 @@ fn drawing(statements: &str) -> RawPath {
 /// The elements in the order of segments with their texts.
 fn owners(statements: &str) -> Vec<String> {
     let raw = drawing(statements);
-    assert_eq!(codes(&raw.diagnostics), [""; 0], "{statements}");
+    let found = codes(&raw.diagnostics).into_iter().filter(|code| code != "PB116");
+    assert_eq!(found.collect::<Vec<_>>(), [""; 0], "{statements}");
     let owner = |element: &pathbuild_path::Element| {
         let text = raw.drawn.text(element.text).map_or("-", |text| text.as_str());
         let shape = match element.shape {

@@ -7,6 +7,7 @@ mod chains;
 mod circles;
 mod crowded;
 mod default_patterns;
+mod doubts;
 mod embedding;
 mod file_name;
 mod files;

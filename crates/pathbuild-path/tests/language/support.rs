@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked, Xy, bind,
-    raw_file, walk,
+    Bindings, Curve, Doubts, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked,
+    Xy, bind, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 
@@ -27,11 +27,16 @@ impl Compiled {
     }
 }
 
+/// Odd values are no matter of tests of other rules.
+const NO_DOUBTS: Doubts =
+    Doubts { below_plate: f64::INFINITY, infeed: f64::INFINITY, maximum_feed: None, text_margin: 0.0 };
+
 pub(crate) fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
+        doubts: NO_DOUBTS,
         join_tolerance: 0.0,
     }
 }

@@ -56,6 +56,7 @@ pub fn language() -> Language {
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
+        doubts: pathbuild_path::Doubts::default(),
     }
 }
 

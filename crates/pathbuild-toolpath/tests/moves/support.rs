@@ -60,6 +60,7 @@ fn drawn(drawing: &str) -> Drawn {
         path_pattern: PathPattern::default(),
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
+        doubts: pathbuild_path::Doubts::default(),
         join_tolerance: 0.0,
     };
     let reading = Options {

@@ -27,6 +27,7 @@ impl Settings {
         self.emit.concerning(whose, add);
         self.limits.concerning(whose, add);
         self.machine.concerning(whose, add);
+        self.warnings.concerning(whose, add);
         self.watch.concerning(whose, add);
         self.tables.concerning(whose, add);
     }

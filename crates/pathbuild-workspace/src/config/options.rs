@@ -1,7 +1,7 @@
 use toml::de::DeTable;
 
 use super::reader::Reader;
-use super::sections::{emit, general, limits, machine, tables, watch};
+use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::settings::Settings;
 
 /// What one source says: a configuration, or the command line. Keys that it does not give are `None`.
@@ -12,6 +12,7 @@ pub struct Options {
     pub emit: emit::Options,
     pub limits: limits::Options,
     pub machine: machine::Options,
+    pub warnings: warnings::Options,
     pub watch: watch::Options,
     pub tables: tables::Options,
 }
@@ -25,6 +26,7 @@ impl Options {
                 emit: table.section("emit", emit::Options::read),
                 limits: table.section("limits", limits::Options::read_lowered),
                 machine: table.section("machine", machine::Options::read),
+                warnings: table.section("warnings", warnings::Options::read),
                 watch: table.section("watch", watch::Options::read),
                 tables: tables::Options::read(table),
             };
@@ -40,6 +42,7 @@ impl Options {
             emit: self.emit.over(below.emit),
             limits: self.limits.over(below.limits),
             machine: self.machine.over(below.machine),
+            warnings: self.warnings.over(below.warnings),
             watch: self.watch.over(below.watch),
             tables: self.tables.over(below.tables),
         }
@@ -54,6 +57,7 @@ impl Options {
             emit: self.emit.resolve(),
             limits: self.limits.resolve(),
             machine: self.machine.resolve(),
+            warnings: self.warnings.resolve(),
             watch: self.watch.resolve(),
             tables: self.tables.resolve(),
         }

@@ -2,7 +2,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use pathbuild_db::system::Confined;
 
-use super::sections::{emit, general, limits, machine, tables, watch};
+use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::types::{Severities, ZModel};
 
 /// What holds in a run, each value with where it comes from.
@@ -17,6 +17,7 @@ pub struct Settings {
     pub emit: emit::Settings,
     pub limits: limits::Settings,
     pub machine: machine::Settings,
+    pub warnings: warnings::Settings,
     pub watch: watch::Settings,
     pub tables: tables::Settings,
 }

@@ -23,6 +23,7 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
         ("emit", settings.emit.shown()),
         ("limits", settings.limits.shown()),
         ("machine", settings.machine.shown()),
+        ("warnings", settings.warnings.shown()),
         ("watch", settings.watch.shown()),
     ];
     for (name, entries) in sections {

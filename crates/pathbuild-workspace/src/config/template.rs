@@ -1,7 +1,7 @@
 use std::fmt::Write;
 
 use super::kind::Key;
-use super::sections::{emit, general, limits, machine, tables, watch};
+use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 
 /// A configuration with every key, its meaning and its default (or an example), all commented out but `library`.
 pub fn template() -> String {
@@ -12,8 +12,13 @@ pub fn template() -> String {
     for key in tables::KEYS {
         table(&mut text, key);
     }
-    let sections =
-        [("emit", emit::KEYS), ("limits", limits::KEYS), ("machine", machine::KEYS), ("watch", watch::KEYS)];
+    let sections = [
+        ("emit", emit::KEYS),
+        ("limits", limits::KEYS),
+        ("machine", machine::KEYS),
+        ("warnings", warnings::KEYS),
+        ("watch", watch::KEYS),
+    ];
     for (name, keys) in sections {
         _ = write!(text, "\n[{name}]\n");
         for key in keys {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_db::{Database, Limits, Lookup, Reading, Settings};
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
+use pathbuild_path::{Doubts, FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
 use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
@@ -34,6 +34,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         line_types: aliases(context),
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
+        doubts: doubts(&context.settings),
     };
     let search = general.search.value.iter();
     let lookup = Lookup {
@@ -50,6 +51,16 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     };
     let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };
     _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
+}
+
+fn doubts(settings: &crate::config::Settings) -> Doubts {
+    let warnings = &settings.warnings;
+    Doubts {
+        below_plate: warnings.below_plate.value,
+        infeed: warnings.infeed.value,
+        maximum_feed: settings.machine.max_feed.value,
+        text_margin: warnings.text_margin.value,
+    }
 }
 
 fn aliases(context: &Workspace) -> LineTypeAliases {

@@ -23,7 +23,7 @@ section! {
     /// mm: the same for the Z axis
     z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Neither;
     /// mm/min: largest feed
-    max_feed: Option<f64> = "max-feed", POSITIVE, None, "1500", Neither;
+    max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
     /// mm: how far X, Y and Z go, wherever the part is clamped; x, y and z say more
     travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Neither;
     /// 1/min: the spindle's slowest and fastest speed

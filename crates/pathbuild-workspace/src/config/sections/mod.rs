@@ -63,4 +63,5 @@ pub mod general;
 pub mod limits;
 pub mod machine;
 pub mod tables;
+pub mod warnings;
 pub mod watch;

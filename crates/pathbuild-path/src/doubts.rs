@@ -1,0 +1,62 @@
+//! Values that are allowed, and that a machinist would look at twice: PB211. (spec/30-parameters.md)
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::parameters as messages;
+
+use crate::approx::above;
+use crate::letter::Letter;
+use crate::matrix::{ElementClass, Use};
+use crate::values::{Given, Values};
+
+/// From where on something is doubtful.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubts {
+    /// How far B may be below the plate, in mm.
+    pub below_plate: f64,
+    /// How many times T an infeed may be.
+    pub infeed: f64,
+    /// The machine's largest feed in mm/min.
+    pub maximum_feed: Option<f64>,
+    /// By how much a text must be nearer to its element than to another, in mm.
+    pub text_margin: f64,
+}
+
+impl Default for Doubts {
+    fn default() -> Self {
+        Self { below_plate: 0.5, infeed: 1.0, maximum_feed: None, text_margin: 0.1 }
+    }
+}
+
+/// What is doubtful about the values that `own` gives and that have an effect on the element. `path`: the path's.
+pub(crate) fn check(
+    own: &Values<'_>,
+    path: &Values<'_>,
+    class: ElementClass,
+    limits: &Doubts,
+) -> Vec<Diagnostic> {
+    let value = |letter| {
+        let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);
+        own.number(letter).number().filter(|_| has_effect)
+    };
+    let below = value(Letter::B).filter(|bottom| above(-bottom, limits.below_plate)).map(|bottom| {
+        let problem = Diagnostic::new(&messages::BELOW_PLATE).with("value", bottom).with("depth", -bottom);
+        own.underline(Letter::B, problem.with("limit", limits.below_plate))
+    });
+    let thickness = match path.number(Letter::T) {
+        Given::Number(thickness) => Some(thickness),
+        Given::Absent | Given::Faulty => None,
+    };
+    let infeed = value(Letter::I)
+        .zip(thickness)
+        .filter(|(infeed, thickness)| above(*infeed, limits.infeed * thickness));
+    let infeed = infeed.map(|(infeed, thickness)| {
+        let problem = Diagnostic::new(&messages::INFEED_ABOVE_THICKNESS).with("value", infeed);
+        own.underline(Letter::I, problem.with("thickness", thickness))
+    });
+    let feed = value(Letter::F).zip(limits.maximum_feed).filter(|(feed, maximum)| above(*feed, *maximum));
+    let feed = feed.map(|(feed, maximum)| {
+        let problem = Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
+        own.underline(Letter::F, problem.with("limit", maximum))
+    });
+    [below, infeed, feed].into_iter().flatten().collect()
+}

@@ -1,0 +1,19 @@
+//! `[warnings]`: from where on something that is allowed is doubtful.
+
+use std::fmt::Debug;
+
+use crate::config::concerns::Concerns;
+use crate::config::kind::Key;
+use crate::config::kinds::number::NOT_NEGATIVE;
+use crate::config::origin::Sourced;
+use crate::config::reader::Table;
+use crate::config::show::Shown;
+
+section! {
+    /// mm: how far B may be below the plate (PB211)
+    below_plate: f64 = "below-plate", NOT_NEGATIVE, 0.5, "0.5", Check;
+    /// how many times T an infeed I may be (PB211)
+    infeed: f64 = "infeed", NOT_NEGATIVE, 1.0, "1", Check;
+    /// mm: by how much a text must be nearer to its element than to another (PB116)
+    text_margin: f64 = "text-margin", NOT_NEGATIVE, 0.1, "0.1", Check;
+}
