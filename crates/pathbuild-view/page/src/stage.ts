@@ -15,6 +15,15 @@ export interface Spot {
   node: HTMLElement;
 }
 
+/** Strokes of which a number can be drawn. */
+interface Strokes {
+  object: THREE.Object3D;
+  draw(count: number): void;
+}
+
+/** Of more pieces thick lines are too slow without a graphics card: they become thin. */
+const MOST_THICK = 20_000;
+
 /** Clicks and hovers reach so many px. */
 const REACH = 9;
 
@@ -24,15 +33,16 @@ export class Stage {
   private camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
   private controls: OrbitControls;
   private materials: LineMaterial[] = [];
-  private cuts: LineSegments2;
-  private rapids: LineSegments2;
-  private arrows: LineSegments2;
-  private rapidArrows: LineSegments2;
+  private cuts: Strokes;
+  private rapids: Strokes;
+  private arrows: Strokes;
+  private rapidArrows: Strokes;
   private other: THREE.LineSegments;
   private tool: THREE.Mesh;
   private mark: LineSegments2;
   private spots: Spot[] = [];
   private isDue = false;
+  private layer = 0;
   private unit: number;
 
   constructor(
@@ -43,9 +53,10 @@ export class Stage {
     dark: boolean,
   ) {
     const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", { antialias: true });
+    const isLight = model.cuts.step.length + model.rapids.step.length <= MOST_THICK;
+    const context = canvas.getContext("webgl2", { antialias: isLight });
     if (!context) throw new Error("no WebGL2");
-    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: isLight });
     host.append(canvas);
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
@@ -57,17 +68,18 @@ export class Stage {
     this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
     this.scene.add(this.thin(keepOuts(scene), 0xd55e00));
     this.scene.add(this.fat(bars(scene), 6));
-    this.rapids = this.fat(model.rapids, 1.1);
-    this.rapidArrows = this.fat(model.rapidArrows, 1.2);
-    this.cuts = this.fat(model.cuts, 2.2);
-    this.arrows = this.fat(model.arrows, 1.4);
+    this.rapids = this.strokes(model.rapids, 1.1);
+    this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
+    this.cuts = this.strokes(model.cuts, 2.2);
+    this.arrows = this.strokes(model.arrows, 1.4);
     this.mark = this.fat({ points: [0, 0, 0, 0, 0, 0], colors: [1, 0.2, 0.1, 1, 0.2, 0.1], until: [], step: [0] }, 5);
     this.mark.visible = false;
     const diameter = scene.paths.find((path) => path.tool)?.tool ?? this.unit / 60;
     const height = Math.max(diameter * 3, this.unit / 20);
     const body = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 24).rotateX(Math.PI / 2).translate(0, 0, height / 2);
     this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
-    this.scene.add(this.other, this.cuts, this.rapids, this.arrows, this.rapidArrows, this.mark, this.tool);
+    this.scene.add(this.other, this.mark, this.tool);
+    for (const strokes of [this.cuts, this.rapids, this.arrows, this.rapidArrows]) this.scene.add(strokes.object);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
     this.controls.zoomToCursor = true;
@@ -110,9 +122,7 @@ export class Stage {
       [this.arrows, this.model.arrows],
       [this.rapidArrows, this.model.rapidArrows],
     ] as const;
-    for (const [lines, pieces] of all) {
-      lines.geometry.instanceCount = of(pieces);
-    }
+    for (const [strokes, pieces] of all) strokes.draw(of(pieces));
     const step = this.model.steps[Math.max(count - 1, 0)];
     const at = step && (count === 0 ? step.move.from : step.move.to);
     this.tool.visible = !!at && at[0] !== null && at[1] !== null;
@@ -121,8 +131,8 @@ export class Stage {
   }
 
   toggle(what: "rapids" | "arrows" | "other", on: boolean): void {
-    this[what].visible = on;
-    this.rapidArrows.visible = this.rapids.visible && this.arrows.visible;
+    (what === "other" ? this.other : this[what].object).visible = on;
+    this.rapidArrows.object.visible = this.rapids.object.visible && this.arrows.object.visible;
     this.draw();
   }
 
@@ -161,7 +171,7 @@ export class Stage {
       a.set(points[index], points[index + 1], points[index + 2]).applyMatrix4(matrix);
       return [((a.x + 1) / 2) * width, ((1 - a.y) / 2) * height];
     };
-    const all = this.rapids.visible ? [this.model.cuts, this.model.rapids] : [this.model.cuts];
+    const all = this.rapids.object.visible ? [this.model.cuts, this.model.rapids] : [this.model.cuts];
     for (const pieces of all) {
       const until = count === 0 ? 0 : pieces.until[count - 1];
       for (let piece = until - 1; piece >= 0; piece--) {
@@ -218,6 +228,20 @@ export class Stage {
     this.draw();
   }
 
+  private strokes(pieces: Pieces, width: number): Strokes {
+    if (pieces.step.length <= MOST_THICK) {
+      const lines = this.fat(pieces, width);
+      return { object: lines, draw: (count) => (lines.geometry.instanceCount = count) };
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(pieces.points, 3));
+    geometry.setAttribute("color", new THREE.Float32BufferAttribute(pieces.colors, 3));
+    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true, depthTest: false, depthWrite: false }));
+    lines.frustumCulled = false;
+    lines.renderOrder = ++this.layer;
+    return { object: lines, draw: (count) => geometry.setDrawRange(0, count * 2) };
+  }
+
   private fat(pieces: Pieces, width: number): LineSegments2 {
     const material = new LineMaterial({ linewidth: width, vertexColors: true, depthTest: false, depthWrite: false });
     this.materials.push(material);
@@ -228,7 +252,7 @@ export class Stage {
     const lines = new LineSegments2(geometry, material);
     lines.frustumCulled = false;
     // What is drawn later lies on top: deeper passes come later than those above them.
-    lines.renderOrder = this.materials.length;
+    lines.renderOrder = ++this.layer;
     return lines;
   }
 
