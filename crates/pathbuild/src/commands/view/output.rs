@@ -128,7 +128,11 @@ fn show(context: &Context, page: &[u8]) -> Result<(), String> {
     file.as_file().write_all(page).map_err(told)?;
     let (_, path) = file.keep().map_err(|error| error.to_string())?;
     context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
-    open::that_detached(&path).map_err(told)
+    let advice = context.choose(
+        "no browser could be started: open the file named above, or give -o FILE",
+        "kein Browser ließ sich starten: die oben genannte Datei öffnen oder -o DATEI angeben",
+    );
+    open::that_detached(&path).map_err(|error| format!("{advice} ({error})"))
 }
 
 #[cfg(not(feature = "pictures"))]
