@@ -172,7 +172,9 @@ pub(super) fn finish(
     delivered: &mut Delivered,
 ) {
     if task != Task::Print {
-        outputs.iter_mut().for_each(|output| keep_other_version(system, output));
+        for output in &mut outputs {
+            keep_other_version(system, output);
+        }
     }
     match task {
         Task::Write { force } => {

@@ -115,14 +115,17 @@ struct Own<'a> {
     provenance: &'a Provenance,
 }
 
+/// Made when it is first wanted.
+type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
+
 struct Finding<'a> {
     session: &'a Session<'a>,
     jobs: &'a [Job],
     outputs: HashSet<&'a Utf8Path>,
     delivered: &'a [Delivered],
     /// The number of each native job by the name of its files without what tells them apart.
-    by_stem: LazyCell<HashMap<&'a Utf8Path, usize>, Box<dyn FnOnce() -> HashMap<&'a Utf8Path, usize> + 'a>>,
-    writers: LazyCell<Writers, Box<dyn FnOnce() -> Writers + 'a>>,
+    by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
+    writers: Lazy<'a, Writers>,
 }
 
 impl<'a> Finding<'a> {

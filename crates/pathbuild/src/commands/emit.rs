@@ -74,7 +74,9 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     let mut is_current = show_all(context, &delivered);
     if matches!(task, Task::Compare { .. }) {
         is_current &= outdated.is_empty();
-        outdated.iter().for_each(|path| show_state(context, path, &State::Outdated));
+        for path in &outdated {
+            show_state(context, path, &State::Outdated);
+        }
     }
     diagnostics.extend(post_builds(&delivered));
     for path in removed {
