@@ -48,7 +48,10 @@ impl Writer<'_> {
             }
             Step::Probe { to, feed } => {
                 let values = self.with_feed(*feed);
-                self.go(Section::Probe, to.axes(), values)
+                self.go(Section::Probe, to.axes(), values)?;
+                // Where it stopped only the machine knows: what follows is written whole.
+                self.machine.forget(&[Register::X, Register::Y, Register::Z]);
+                Ok(())
             }
             Step::Stop => self.lines_of(Section::Stop),
             Step::Comment(text) => self.comment(text, " "),
