@@ -8,7 +8,7 @@ use std::sync::Arc;
 use camino::Utf8Path;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use pathbuild_db::system::MemorySystem;
-use pathbuild_db::{Database, Db, Limits, Lookup, Reading, Role, Settings, Target, closure, program, trace};
+use pathbuild_db::{Database, Db, Limits, Reading, Role, Settings, Target, closure, program, trace};
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
 use pathbuild_testkit::sheet;
 use pathbuild_toolpath::FoldOptions;
@@ -90,10 +90,10 @@ fn settings(db: &mut Database) {
         text_limit: 65_536,
         doubts: pathbuild_path::Doubts::default(),
     };
-    let lookup = Lookup { file_pattern: FilePattern::default(), search: vec!["parts".into()] };
+    let (files, search) = (FilePattern::default(), vec!["parts".into()]);
     let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     let reading = Reading::default();
-    _ = Settings::new(db, reading, Arc::new(language), lookup, Vec::new(), fold, Limits::default());
+    _ = Settings::new(db, reading, Arc::new(language), files, search, Vec::new(), fold, Limits::default());
 }
 
 /// Four-digit names below those of projects.

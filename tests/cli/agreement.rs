@@ -9,7 +9,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_file, closure, locate,
+    Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_file, closure, locate,
     path_names, q_project_findings,
 };
 use pathbuild_diagnostic::Diagnostic;
@@ -141,7 +141,8 @@ impl Asked {
             &db,
             Reading::default(),
             Arc::new(language()),
-            Lookup { file_pattern: FilePattern::default(), search },
+            FilePattern::default(),
+            search,
             restrict.collect(),
             FoldOptions { feed: Some(100.0), sweep_height: None, ..FoldOptions::default() },
             Limits::default(),

@@ -35,5 +35,5 @@ pub use queries::{
     resolve_path, search_path, summary, trace, traced_program,
 };
 pub use scratch::ScratchPool;
-pub use settings::{Limits, Lookup, Reading, Settings};
+pub use settings::{Limits, Reading, Settings};
 pub use system::System;

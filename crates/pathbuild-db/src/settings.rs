@@ -17,9 +17,12 @@ pub struct Settings {
     /// What the drawing language needs to know.
     #[returns(ref)]
     pub language: Arc<Language>,
-    /// Where embedded paths are looked for.
+    /// What file names say about paths.
     #[returns(ref)]
-    pub lookup: Lookup,
+    pub file_pattern: FilePattern,
+    /// Directories where embedded paths are looked for beyond the drawing's own, in order.
+    #[returns(ref)]
+    pub search: Vec<Utf8PathBuf>,
     /// Which paths may embed which.
     #[returns(ref)]
     pub restrictions: Vec<Restriction>,
@@ -48,15 +51,6 @@ pub struct Reading {
     pub is_hashed: bool,
     /// Whether only those entities count that PathDxf2GCode knows.
     pub compatible: bool,
-}
-
-/// Where embedded paths are looked for.
-#[derive(Clone, Debug)]
-pub struct Lookup {
-    /// What file names say about paths.
-    pub file_pattern: FilePattern,
-    /// Directories beyond the drawing's own, in order.
-    pub search: Vec<Utf8PathBuf>,
 }
 
 /// What is refused as too much: PB005.

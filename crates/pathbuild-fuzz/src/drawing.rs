@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Limits, Lookup, Reading, Role, Settings, Target, check_file, check_target, path_names,
-    program,
+    Database, Db, Limits, Reading, Role, Settings, Target, check_file, check_target, path_names, program,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
@@ -82,11 +81,11 @@ fn settle(db: &Database) {
         doubts: pathbuild_path::Doubts::default(),
         join_tolerance: 0.0,
     };
-    let lookup = Lookup { file_pattern: FilePattern::default(), search: Vec::new() };
+    let (files, search) = (FilePattern::default(), Vec::new());
     let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
     // A fuzzer would find what takes long only because it is much.
     let limits = Limits { moves: 20_000, ..Limits::default() };
-    Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, limits);
+    Settings::new(db, Reading::default(), Arc::new(language), files, search, Vec::new(), fold, limits);
 }
 
 /// What is said can be shown, and is no bug.

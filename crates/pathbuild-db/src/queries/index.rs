@@ -115,7 +115,7 @@ impl FileIndex {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
             let stem = file.path(db).file_stem().unwrap_or_default();
-            let (files, paths) = (&settings.lookup(db).file_pattern, &settings.language(db).path_pattern);
+            let (files, paths) = (settings.file_pattern(db), &settings.language(db).path_pattern);
             self.diagnostics.extend(judge_file_name(stem, &self.names, files, paths));
         }
         self

@@ -46,7 +46,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
 /// The directories in which paths are looked for that drawings in a directory refer to, in order, that one first.
 #[salsa::tracked]
 pub fn search_path(db: &dyn Db, own: Directory) -> Vec<Directory> {
-    let searched = Settings::get(db).lookup(db).search.iter();
+    let searched = Settings::get(db).search(db).iter();
     distinct(std::iter::once(own).chain(searched.map(|path| db.directory(path))))
 }
 

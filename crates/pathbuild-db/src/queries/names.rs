@@ -42,7 +42,7 @@ impl NameTable {
 #[salsa::tracked]
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
-    let pattern = &Settings::get(db).lookup(db).file_pattern;
+    let pattern = Settings::get(db).file_pattern(db);
     let list = || db.system().list(directory.path(db)).unwrap_or_default().files;
     NameTable::new(&db.listed(directory).unwrap_or_else(list), pattern)
 }

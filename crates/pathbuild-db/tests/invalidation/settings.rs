@@ -1,8 +1,8 @@
 //! Settings: one field for each consumer.
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Lookup, Settings};
-use pathbuild_path::{FilePattern, Restriction};
+use pathbuild_db::Settings;
+use pathbuild_path::Restriction;
 use pathbuild_toolpath::FoldOptions;
 use salsa::Setter;
 
@@ -61,11 +61,15 @@ fn a_restriction_runs_only_the_embedding() {
 #[test]
 fn a_search_directory_runs_only_lookups() {
     let mut world = world();
-    let lookup = Lookup { file_pattern: FilePattern::default(), search: vec![Utf8PathBuf::from("parts")] };
     let settings = Settings::get(&world.db);
-    settings.set_lookup(&mut world.db).to(lookup);
+    settings.set_search(&mut world.db).to(vec![Utf8PathBuf::from("parts")]);
     world.expect(
-        &["name_table project", "name_table new", "resolve_path project", "embeddings project"],
-        &[&READING[..], &VALUES, &["closure project", "program project"]].concat(),
+        &["search_path project", "name_table new", "resolve_path project"],
+        &[
+            &READING[..],
+            &VALUES,
+            &["name_table project", "embeddings project", "closure project", "program project"],
+        ]
+        .concat(),
     );
 }

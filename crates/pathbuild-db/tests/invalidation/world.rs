@@ -7,7 +7,7 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{MemorySystem, System};
 use pathbuild_db::{
-    Database, Db, Limits, Lookup, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
+    Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
@@ -49,12 +49,18 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         doubts: pathbuild_path::Doubts::default(),
         join_tolerance: 0.0,
     };
-    let lookup = Lookup {
-        file_pattern: FilePattern::default(),
-        search: search.iter().map(Utf8PathBuf::from).collect(),
-    };
+    let search = search.iter().map(Utf8PathBuf::from).collect();
     let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
-    Settings::new(db, Reading::default(), Arc::new(language), lookup, Vec::new(), fold, Limits::default());
+    Settings::new(
+        db,
+        Reading::default(),
+        Arc::new(language),
+        FilePattern::default(),
+        search,
+        Vec::new(),
+        fold,
+        Limits::default(),
+    );
 }
 
 /// What somebody who asks for a target gets.

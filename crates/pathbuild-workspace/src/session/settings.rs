@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{Database, Limits, Lookup, Reading, Settings};
+use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{Doubts, FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
 use pathbuild_toolpath::FoldOptions;
@@ -37,10 +37,8 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         doubts: doubts(&context.settings),
     };
     let search = general.search.value.iter();
-    let lookup = Lookup {
-        file_pattern: FilePattern::new(&general.file_pattern.value).unwrap_or_default(),
-        search: search.map(|directory| normal(directory, &context.working_directory)).collect(),
-    };
+    let file_pattern = FilePattern::new(&general.file_pattern.value).unwrap_or_default();
+    let search = search.map(|directory| normal(directory, &context.working_directory)).collect();
     let rules = general.restrict.value.iter();
     let restrictions = rules.filter_map(|rule| Restriction::new(&rule.parent, &rule.child).ok()).collect();
     let fold = FoldOptions {
@@ -50,7 +48,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         compatible: general.compatible.value,
     };
     let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };
-    _ = Settings::new(db, reading, Arc::new(language), lookup, restrictions, fold, limits);
+    _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
 fn doubts(settings: &crate::config::Settings) -> Doubts {
