@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
@@ -34,7 +35,8 @@ fn configuration(feed: u32) -> String {
 fn library() -> Place {
     let mut place = Place::new();
     for path in 0..3 {
-        let mills: String = (0..40).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
+        let mills: Vec<String> = (0..40).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
+        let mills = mills.concat();
         let text = format!("layer 100{path}.1P\nstart 0,0 \"T5 O2 I0.5 B0 MX\"\n{mills}end 40,0");
         place = place.file(&format!("100{path}.1P.dxf"), sheet(&text).unwrap().to_dxf());
     }
@@ -46,7 +48,7 @@ fn files(place: &Place) -> (Vec<String>, BTreeMap<String, Vec<u8>>) {
     let (mut debris, mut outputs) = (Vec::new(), BTreeMap::new());
     for entry in fs::read_dir(place.path()).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        if name.ends_with(".tmp") {
+        if Path::new(&name).extension().is_some_and(|extension| extension == "tmp") {
             debris.push(name);
         } else if name.ends_with("_Milling.gcode") {
             let bytes = fs::read(place.path().join(&name)).unwrap();
@@ -64,6 +66,7 @@ fn start(place: &Place, arguments: &[&str]) -> Child {
 }
 
 /// Kills a command at moments of its run, while what it makes changes from one state to the other. `change` puts the tree into a state.
+#[expect(clippy::print_stdout, reason = "how many kills met a running program is a part of the result")]
 fn kill_at_any_moment(place: &Place, arguments: &[&str], last: &[&str], change: impl Fn(&Place, u64)) {
     let mut states = Vec::new();
     let mut time = Duration::ZERO;
@@ -130,9 +133,8 @@ fn watch_that_is_killed_leaves_whole_programs() {
 
 #[test]
 fn adjust_that_is_killed_leaves_a_whole_program() {
-    let lines: String = (0..2_000)
-        .map(|x| format!("G01 F150.000 X{x}.000 Y0.000 Z1.000(=1.000+1.000*[#51-5.000])\n"))
-        .collect();
+    let line = |x| format!("G01 F150.000 X{x}.000 Y0.000 Z1.000(=1.000+1.000*[#51-5.000])\n");
+    let lines = (0..2_000).map(line).collect::<Vec<_>>().concat();
     let place = Place::new().file("a_Clean.gcode", format!("%\nG00 Z20.000\n{lines}M30\n%\n"));
     let adjust = ["adjust", "a", "--max-correction", "1"];
     kill_at_any_moment(&place, &adjust, &adjust, |place, state| {

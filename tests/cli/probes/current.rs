@@ -95,7 +95,7 @@ fn programs_with_probes_are_stale_when_the_probes_are_gone() {
 #[test]
 fn a_program_of_another_path_is_not_stale() {
     let place = adjusted();
-    let other = place.read("a_Milling.gcode").replace("drawing a.dxf", "drawing b.dxf").replace("-", "0-");
+    let other = place.read("a_Milling.gcode").replace("drawing a.dxf", "drawing b.dxf").replace('-', "0-");
     write(&place, "a_Milling.gcode", &other);
     names_milling(&place, "a.dxf", false);
 }
