@@ -21,6 +21,8 @@ const CELLS_ACROSS: f64 = 12.0;
 pub struct Stock {
     /// In the order of lines. Before the first, nothing is known.
     pieces: Vec<Piece>,
+    /// The highest surface of all: asked for each rapid move, so not looked for each time.
+    highest: Option<f64>,
     /// Side of a cell of the height map, in mm.
     resolution: f64,
     /// The most cells that are visited, cells that many moves visit counted as often.
@@ -46,7 +48,8 @@ impl Stock {
 
     /// Material whose surface or cutter changes; pieces are in the order of their lines.
     pub fn of_pieces(pieces: Vec<Piece>) -> Self {
-        let stock = Self { pieces, resolution: FINEST, cells: MOST_VISITED };
+        let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
+        let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED };
         let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
         stock.with_resolution(resolution)
     }
@@ -112,7 +115,7 @@ impl Stock {
 
     /// The highest surface of all.
     pub(super) fn highest(&self) -> Option<f64> {
-        self.pieces.iter().map(|piece| piece.surface).reduce(f64::max)
+        self.highest
     }
 
     /// What holds in a line.
