@@ -6,6 +6,7 @@
 )]
 
 mod agreement;
+mod book;
 mod cache;
 mod check;
 mod compat;
@@ -15,8 +16,8 @@ mod diagnostics;
 mod elsewhere;
 mod emit;
 mod emit_check_kept;
+mod example;
 mod explain_examples;
-mod first_steps;
 mod gcode;
 mod help;
 mod hostile;

@@ -40,6 +40,11 @@ impl LineType {
         Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 
+    /// What other programs and languages call it.
+    pub fn other_names(self) -> impl Iterator<Item = &'static str> {
+        ALIASES.iter().filter(move |(_, known)| *known == self).map(|(name, _)| *name)
+    }
+
     /// The line type that a name in a drawing (upper case) stands for: exactly, with a suffix dropped, or through an alias. It is never
     /// guessed from the dash pattern: DASHED2 and HIDDEN have the same.
     pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {

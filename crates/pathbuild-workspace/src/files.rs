@@ -5,7 +5,7 @@
 use std::fs;
 use std::io::Write;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::Diagnostic;
@@ -32,13 +32,28 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".into())
 }
 
-/// Writes a file that must not be there yet.
+/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there, none.
 ///
 /// # Errors
-/// A diagnostic that says why it cannot be written.
-pub fn create(file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
-    let written = fs::File::create_new(file).and_then(|mut new| new.write_all(text.as_bytes()));
-    written.map_err(|reason| Box::new(cannot_write(file, &reason.to_string())))
+/// For each file that cannot be written a diagnostic that says why.
+pub fn create(files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
+    let is_there = |(file, _): &&(Utf8PathBuf, &[u8])| file.as_std_path().symlink_metadata().is_ok();
+    let old: Vec<Diagnostic> = files.iter().filter(is_there).map(|(file, _)| already_there(file)).collect();
+    if !old.is_empty() {
+        return Err(old);
+    }
+    files.iter().try_for_each(|(file, content)| {
+        create_new(file, content).map_err(|reason| vec![cannot_write(file, &reason.to_string())])
+    })
+}
+
+fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
+    file.parent().map_or(Ok(()), fs::create_dir_all)?;
+    fs::File::create_new(file)?.write_all(content)
+}
+
+fn already_there(file: &Utf8Path) -> Diagnostic {
+    cannot_write(file, "it is there already")
 }
 
 /// Writes a file whole or not at all. What is no file, such as a device or a pipe, is written to as it is: it was named.

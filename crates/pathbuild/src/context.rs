@@ -63,9 +63,13 @@ impl Context {
 
     /// Refuses to run without anything to work on.
     pub fn nothing_named(&self, command: &str) -> ExitStatus {
-        self.usage(&format!(
-            "nothing to {command}: name drawings, paths or directories, or set `library` in pathbuild.toml"
-        ))
+        let advice = match self.settings.file {
+            Some(_) => "or set `library` in pathbuild.toml",
+            None => {
+                "or write a pathbuild.toml: `pathbuild init`, or `pathbuild init --example` with a small library to learn on"
+            }
+        };
+        self.usage(&format!("nothing to {command}: name drawings, paths or directories, {advice}"))
     }
 
     /// Says what is wrong with the command line.

@@ -92,7 +92,7 @@ impl Place {
             let text = String::from_utf8(bytes).unwrap().replace(&*self.path().to_string_lossy(), "<PLACE>");
             let text = text.replace(&*self.cache().to_string_lossy(), "<CACHE>");
             // How long it took is another number on another day.
-            Regex::new(r"(?m)\(\d+\.\d s\)$").unwrap().replace_all(&text, "(0.0 s)").into_owned()
+            Regex::new(r"(?m)\(\d+([.,])\d s\)$").unwrap().replace_all(&text, "(0${1}0 s)").into_owned()
         };
         Run {
             arguments: arguments.join(" "),

@@ -82,6 +82,14 @@ pub struct ExplainArgs {
     pub codes: Vec<String>,
 }
 
+/// `pathbuild init`
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct InitArgs {
+    /// Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs
+    #[arg(long)]
+    pub example: bool,
+}
+
 /// `pathbuild config`
 #[derive(Clone, Debug, Args)]
 pub struct ConfigArgs {

@@ -26,7 +26,7 @@ pub use graph::GraphArgs;
 pub use inputs::InputArgs;
 pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
-    QProjectArgs, TextsArgs, ViewArgs,
+    InitArgs, QProjectArgs, TextsArgs, ViewArgs,
 };
 pub use watch::WatchArgs;
 
@@ -87,7 +87,7 @@ pub enum Command {
     /// Print the page on a diagnostic code; without a code, list them
     Explain(Deferred<ExplainArgs>),
     /// Write a commented pathbuild.toml into the working directory
-    Init,
+    Init(Deferred<InitArgs>),
     /// Show the configuration
     Config(Deferred<ConfigArgs>),
     /// Print a completion script for a shell
@@ -128,7 +128,7 @@ impl Command {
 
     /// Whether a configuration with faults stops it.
     pub fn needs_configuration(&self) -> bool {
-        !matches!(self, Self::Explain(_) | Self::Init | Self::Completions(_) | Self::Man | Self::Compat(_))
+        !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
     }
 
     /// The name that it is called by.
@@ -152,7 +152,7 @@ impl Command {
             Self::QProject(_) => "q-project",
             Self::Cache(_) => "cache",
             Self::Explain(_) => "explain",
-            Self::Init => "init",
+            Self::Init(_) => "init",
             Self::Config(_) => "config",
             Self::Completions(_) => "completions",
             Self::Man => "man",

@@ -1,18 +1,42 @@
-//! `pathbuild init`: a configuration with every key, commented.
+//! `pathbuild init`: a configuration with every key, commented; or a small library to learn on.
+
+use camino::Utf8PathBuf;
 
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{FILE_NAME, template};
 use pathbuild_workspace::files;
 
-/// Writes it into the working directory, unless there is one.
-pub fn run(context: &Context) -> ExitStatus {
-    let file = context.working_directory.join(FILE_NAME);
-    match files::create(&file, &template()) {
+macro_rules! example {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_bytes!(concat!("../../example/", $name)))),*]
+    };
+}
+
+/// The library to learn on. Its drawings are written as text beside them, and held against it by the tests of the book.
+const EXAMPLE: &[(&str, &[u8])] = example![
+    "pathbuild.toml",
+    "starter.dxf",
+    "components/2001.1P.dxf",
+    "components/2002.1P.dxf",
+    "projects/8001.1P.dxf",
+    "templates/cad6.dxf",
+    "templates/librecad.dxf",
+    "templates/qcad.dxf",
+];
+
+/// Writes it into the working directory, unless a file is there already.
+pub fn run(context: &Context, example: bool) -> ExitStatus {
+    let template = template();
+    let configuration = [(FILE_NAME, template.as_bytes())];
+    let files = if example { EXAMPLE } else { &configuration };
+    let placed: Vec<(Utf8PathBuf, &[u8])> =
+        files.iter().map(|(name, content)| (context.working_directory.join(name), *content)).collect();
+    match files::create(&placed) {
         Ok(()) => {
-            context.printer.result_line(FILE_NAME);
+            files.iter().for_each(|(name, _)| context.printer.result_line(name));
             ExitStatus::Success
         }
-        Err(reason) => context.fail(vec![*reason]),
+        Err(reasons) => context.fail(reasons),
     }
 }

@@ -55,7 +55,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::View(args) => view::run(context, args),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),
-        Command::Init => init::run(context),
+        Command::Init(args) => init::run(context, args.example),
         Command::Config(args) => config::run(context, args),
         _ => refuse(context, &format!("`{}` is not built yet", command.name())),
     }

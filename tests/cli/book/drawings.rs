@@ -1,0 +1,27 @@
+//! Each drawing of the books lies there twice: as text, which we write, and as DXF, which anyone can open.
+
+use std::path::PathBuf;
+
+use super::{assert_none, files_below, kept, scratch};
+use crate::support::project;
+
+/// Where drawings lie that are written as text.
+fn folders() -> [PathBuf; 2] {
+    [scratch::drawings(), project().join("crates/pathbuild/example")]
+}
+
+#[test]
+fn drawings_are_what_their_text_form_says() {
+    let mut wrong = Vec::new();
+    for folder in folders() {
+        let files = files_below(&folder);
+        for name in files.iter().filter(|name| name.ends_with(".draw")) {
+            let file = folder.join(name);
+            wrong.extend(kept(&file.with_extension("dxf"), &scratch::drawn(&file)));
+        }
+        let drawings = files.iter().filter_map(|name| name.strip_suffix(".dxf"));
+        let alone = drawings.filter(|name| !files.contains(&format!("{name}.draw")));
+        wrong.extend(alone.map(|name| format!("{name}.dxf has no text form in {}", folder.display())));
+    }
+    assert_none(&wrong);
+}

@@ -1,0 +1,208 @@
+//! Tables that come from the code, between `<!-- generated: NAME -->` and `<!-- end -->`.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use clap::{Arg, Command, CommandFactory};
+use pathbuild::args::Cli;
+use pathbuild_diagnostic::{Code, Lang, Severity, page};
+use pathbuild_path::{ElementClass, Letter, LineType, Use};
+
+use super::{Page, code, pages};
+
+const BEGIN: &str = "<!-- generated: ";
+const END: &str = "<!-- end -->";
+
+/// A page with its tables made anew.
+pub(super) fn filled(page: &Page, text: &str) -> String {
+    let mut now = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(BEGIN) {
+        let (name, after) = after.split_once(" -->\n").unwrap();
+        let (_, after) = after.split_once(END).unwrap_or_else(|| panic!("{}: no {END}", page.file.display()));
+        _ = write!(now, "{before}{BEGIN}{name} -->\n{}\n{END}", table(name, page.lang).trim_end());
+        rest = after;
+    }
+    now + rest
+}
+
+fn table(name: &str, lang: Lang) -> String {
+    match name {
+        "letters" => letters(lang),
+        "line-type-names" => line_type_names(),
+        "commands" => commands(),
+        "diagnostics" => diagnostics(lang),
+        "configuration" => configuration(),
+        _ => panic!("no table is called {name}"),
+    }
+}
+
+/// The columns of the table of letters, as machinists look for them.
+const COLUMNS: &str = "OTSIFBDPUWCNQAHMZL>:ER@";
+
+const ROWS: [ElementClass; 12] = [
+    ElementClass::PathStart,
+    ElementClass::Mill,
+    ElementClass::Mark,
+    ElementClass::Support,
+    ElementClass::Sweep,
+    ElementClass::DrilledHole,
+    ElementClass::DrilledMark,
+    ElementClass::HelicalCircle,
+    ElementClass::HelicalMark,
+    ElementClass::HelicalSupport,
+    ElementClass::Subpath,
+    ElementClass::Probe,
+];
+
+fn letters(lang: Lang) -> String {
+    let element = if lang == Lang::De { "Element" } else { "element" };
+    let columns: Vec<Letter> = COLUMNS.chars().map(|letter| Letter::new(letter).unwrap()).collect();
+    let heads: Vec<String> = COLUMNS.chars().map(|letter| format!("`{letter}`")).collect();
+    let mut table =
+        format!("| {element} | {} |\n| --- |{}\n", heads.join(" | "), " --- |".repeat(columns.len()));
+    for class in ROWS {
+        let word = class.word();
+        let name = if lang == Lang::De { word.de } else { word.en };
+        let name = name.split_once(' ').map_or(name, |(_, noun)| noun);
+        let cells: Vec<&str> = columns.iter().map(|letter| mark(class.use_of(*letter))).collect();
+        _ = writeln!(table, "| {name} | {} |", cells.join(" | "));
+    }
+    table
+}
+
+fn mark(usage: Use) -> &'static str {
+    match usage {
+        Use::Needed => "**!**",
+        Use::Allowed => "o",
+        Use::ChainNeeded => "**c!**",
+        Use::Chain => "c",
+        Use::Ignored => "-",
+        Use::PathOnly => "p",
+        Use::Unknown => "",
+    }
+}
+
+/// Other names of the line types, by what they stand for.
+fn line_type_names() -> String {
+    let mut table = String::from("| | |\n| --- | --- |\n");
+    for (name, line_type) in LineType::NAMES {
+        let names: Vec<String> = LineType::other_names(line_type).map(|name| format!("`{name}`")).collect();
+        if !names.is_empty() {
+            _ = writeln!(table, "| {name} | {} |", names.join(", "));
+        }
+    }
+    table
+}
+
+fn commands() -> String {
+    let mut cli = Cli::command();
+    cli.build();
+    let mut text = String::new();
+    let visible = cli.get_subcommands().filter(|command| !command.is_hide_set());
+    for command in visible {
+        command_text(&mut text, "pathbuild", command);
+    }
+    text + "## Common options\n\n" + &options(cli.get_arguments())
+}
+
+fn command_text(text: &mut String, before: &str, command: &Command) {
+    let name = format!("{before} {}", command.get_name());
+    let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+    _ = writeln!(text, "## {name}\n\n{about}.\n");
+    let arguments = command.get_arguments().filter(|it| !it.is_global_set() && it.get_id() != "help");
+    let table = options(arguments);
+    if !table.is_empty() {
+        _ = writeln!(text, "{table}");
+    }
+    for inner in command.get_subcommands() {
+        command_text(text, &name, inner);
+    }
+}
+
+fn options<'a>(arguments: impl Iterator<Item = &'a Arg>) -> String {
+    let mut table = String::new();
+    for argument in arguments.filter(|argument| !argument.is_hide_set()) {
+        let values: Vec<String> =
+            argument.get_value_names().unwrap_or_default().iter().map(ToString::to_string).collect();
+        let takes = argument.get_action().takes_values();
+        let value = if takes { values.join(" ") } else { String::new() };
+        let names = argument.get_short().map(|short| format!("-{short}"));
+        let names = names.into_iter().chain(argument.get_long().map(|long| format!("--{long}")));
+        let names: Vec<String> = names.collect();
+        let shown = if names.is_empty() { value } else { format!("{} {value}", names.join(", ")) };
+        let help = argument.get_help().map(ToString::to_string).unwrap_or_default().replace('|', "\\|");
+        _ = writeln!(table, "| `{}` | {help} |", shown.trim().replace('|', "\\|"));
+    }
+    if table.is_empty() { table } else { format!("| | |\n| --- | --- |\n{table}") }
+}
+
+fn diagnostics(lang: Lang) -> String {
+    let [code_head, name, severity, means] = match lang {
+        Lang::En => ["code", "name", "severity", "means"],
+        Lang::De => ["Code", "Name", "Schwere", "bedeutet"],
+    };
+    let mut table = format!("| {code_head} | {name} | {severity} | {means} |\n| --- | --- | --- | --- |\n");
+    for found in Code::ALL {
+        let severity = match (found.severity(), lang) {
+            (Severity::Error, Lang::En) => "error",
+            (Severity::Error, Lang::De) => "Fehler",
+            (Severity::Warning, Lang::En) => "warning",
+            (Severity::Warning, Lang::De) => "Warnung",
+        };
+        let link = format!("../../../../crates/pathbuild-diagnostic/src/pages/{found}.{}.md", code(lang));
+        let first = first_sentence(page(*found, lang).unwrap_or_default()).replace('|', "\\|");
+        _ = writeln!(table, "| [{found}]({link}) | {} | {severity} | {first} |", found.name());
+    }
+    table
+}
+
+/// The first sentence below a page's heading.
+fn first_sentence(page: &str) -> String {
+    let paragraph = page.split("\n\n").nth(1).unwrap_or_default().replace('\n', " ");
+    let is_end = |(at, _): &(usize, &str)| {
+        let before = &paragraph[..*at];
+        !before.ends_with("z. B") && !before.ends_with("e.g")
+    };
+    let end = paragraph.match_indices(". ").find(is_end).map_or(paragraph.len(), |(at, _)| at + 1);
+    paragraph[..end].to_owned()
+}
+
+/// The keys as `init` writes them.
+fn configuration() -> String {
+    format!("```toml\n{}```", pathbuild_workspace::config::template())
+}
+
+/// Every word in backticks in the first column of a page's tables.
+fn first_column(text: &str) -> BTreeSet<String> {
+    let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
+    rows.flat_map(|cell| cell.split('`').skip(1).step_by(2)).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_letters_of_the_book_are_those_of_the_code() {
+    let known: BTreeSet<char> = (' '..='~').filter(|it| Letter::new(*it).is_some()).collect();
+    assert_eq!(known, COLUMNS.chars().collect());
+    for lang in [Lang::En, Lang::De] {
+        let text = pages(lang).into_iter().find(|page| page.name == "language/letters").unwrap().text();
+        let (meanings, _) = text.split_once(BEGIN).unwrap();
+        let explained = first_column(meanings).into_iter().filter_map(|cell| cell.chars().next());
+        assert_eq!(known, explained.collect(), "{lang:?}");
+    }
+}
+
+/// What the keys mean stands in the code in English; the German page has its own table.
+#[test]
+fn the_german_page_explains_every_key_of_the_configuration() {
+    let template = pathbuild_workspace::config::template();
+    let keys = template.lines().filter_map(|line| line.trim_start_matches('#').split_once(" = "));
+    let is_key = |key: &str| key.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'-');
+    let keys: BTreeSet<&str> = keys.map(|(key, _)| key).filter(|key| is_key(key)).collect();
+    let text =
+        pages(Lang::De).into_iter().find(|page| page.name == "reference/configuration").unwrap().text();
+    let explained = first_column(&text);
+    let missing: Vec<_> = keys.iter().filter(|key| !explained.contains(**key)).collect();
+    let unknown: Vec<_> =
+        explained.iter().filter(|key| !keys.contains(key.as_str()) && is_key(key)).collect();
+    assert!(missing.is_empty() && unknown.is_empty(), "missing {missing:?}, unknown {unknown:?}");
+}

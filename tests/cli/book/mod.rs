@@ -1,0 +1,125 @@
+//! The books in docs/en and docs/de, and the README: what they show is made here again and compared. Commands are typed into a
+//! scratch copy of the book's drawings, pictures are drawn by `view`, tables come from the code, links are followed.
+//! `PATHBUILD_UPDATE=1` writes anew what differs. (CONTRIBUTING.md, "The books")
+
+mod console;
+mod drawings;
+mod generated;
+mod html;
+mod links;
+mod pictures;
+mod scratch;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use pathbuild_diagnostic::Lang;
+use rayon::prelude::*;
+
+use crate::support::project;
+
+/// A page of a book, or the README.
+struct Page {
+    /// Below the project's directory.
+    file: PathBuf,
+    /// Below the book's `src`, without `.md`.
+    name: String,
+    lang: Lang,
+}
+
+impl Page {
+    fn path(&self) -> PathBuf {
+        project().join(&self.file)
+    }
+
+    fn text(&self) -> String {
+        fs::read_to_string(self.path()).unwrap()
+    }
+}
+
+/// How a language is called in configurations and file names.
+fn code(lang: Lang) -> &'static str {
+    match lang {
+        Lang::En => "en",
+        Lang::De => "de",
+    }
+}
+
+fn source(lang: Lang) -> PathBuf {
+    PathBuf::from("docs").join(code(lang)).join("src")
+}
+
+/// The pages of a book, its summary included.
+fn pages(lang: Lang) -> Vec<Page> {
+    let mut pages: Vec<Page> = files_below(&project().join(source(lang)))
+        .into_iter()
+        .filter_map(|name| {
+            let page = name.strip_suffix(".md")?.to_owned();
+            Some(Page { file: source(lang).join(&name), name: page, lang })
+        })
+        .collect();
+    pages.sort_by(|a, b| a.name.cmp(&b.name));
+    pages
+}
+
+fn all_pages() -> Vec<Page> {
+    let readme = Page { file: "README.md".into(), name: "README".to_owned(), lang: Lang::En };
+    pages(Lang::En).into_iter().chain(pages(Lang::De)).chain([readme]).collect()
+}
+
+/// The names of the files below a directory, with `/`.
+fn files_below(directory: &Path) -> BTreeSet<String> {
+    let mut files = BTreeSet::new();
+    for entry in fs::read_dir(directory).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() {
+            files.extend(files_below(&path).into_iter().map(|file| format!("{name}/{file}")));
+        } else {
+            files.insert(name);
+        }
+    }
+    files
+}
+
+/// Compares a file with what it should hold, or writes it. Gives what is wrong.
+fn kept(file: &Path, now: &[u8]) -> Option<String> {
+    if fs::read(file).is_ok_and(|content| content == now) {
+        return None;
+    }
+    if std::env::var_os("PATHBUILD_UPDATE").is_some() {
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, now).unwrap();
+        return None;
+    }
+    let shown = file.strip_prefix(project()).unwrap_or(file).display();
+    Some(format!("{shown} differs from what is made now (PATHBUILD_UPDATE=1 writes it: read what changed)"))
+}
+
+fn assert_none(wrong: &[String]) {
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// Tables first, then commands, so that both are of one writing.
+#[test]
+fn pages_show_what_is_printed_and_what_the_code_says() {
+    let wrong: Vec<String> = all_pages()
+        .par_iter()
+        .filter_map(|page| {
+            let text = page.text();
+            let now = console::replayed(page, &generated::filled(page, &text));
+            let difference = first_difference(&text, &now);
+            kept(&page.path(), now.as_bytes()).map(|wrong| format!("{wrong}\n{difference}"))
+        })
+        .collect();
+    assert_none(&wrong);
+}
+
+fn first_difference(text: &str, now: &str) -> String {
+    let lines = text.lines().zip(now.lines()).enumerate();
+    let different = lines.into_iter().find(|(_, (old, new))| old != new);
+    different.map_or_else(String::new, |(at, (old, new))| {
+        format!("line {}:\n  stands: {old}\n  now:    {new}", at + 1)
+    })
+}

@@ -1,0 +1,55 @@
+//! Pictures: `pictures/FOLDER-PATH.svg` is what `view PATH` draws in the copy of the drawings of that folder; where a drawing has
+//! the name, `view NAME.dxf`.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use pathbuild_diagnostic::Lang;
+use rayon::prelude::*;
+
+use super::{all_pages, assert_none, files_below, kept, links, scratch, source};
+use crate::support::project;
+
+#[test]
+fn pictures_are_what_view_draws() {
+    let shown: BTreeSet<String> = all_pages()
+        .iter()
+        .flat_map(|page| {
+            let text = page.text();
+            let images =
+                links::images(&text).into_iter().map(|link| links::target(page, link)).collect::<Vec<_>>();
+            images
+        })
+        .collect();
+    let wrong: Vec<String> = shown.par_iter().filter_map(|file| wrong(file)).collect();
+    assert_none(&wrong);
+    for lang in [Lang::En, Lang::De] {
+        let folder = source(lang).join("pictures");
+        let there = files_below(&project().join(&folder));
+        let unused: Vec<String> = there
+            .iter()
+            .map(|name| folder.join(name).to_string_lossy().into_owned())
+            .filter(|file| !shown.contains(file))
+            .collect();
+        assert!(unused.is_empty(), "no page shows {unused:?}");
+    }
+}
+
+fn wrong(file: &str) -> Option<String> {
+    let lang =
+        [Lang::En, Lang::De].into_iter().find(|lang| file.starts_with(&*source(*lang).to_string_lossy()));
+    let name = file.rsplit('/').next().unwrap().strip_suffix(".svg");
+    let (Some(lang), Some((folder, path))) = (lang, name.and_then(|name| name.rsplit_once('-'))) else {
+        return Some(format!("{file}: not named pictures/FOLDER-PATH.svg"));
+    };
+    let place = scratch::place(folder, lang);
+    let directory = if folder == "fixtures" { "fixtures/library" } else { "." };
+    let picture = place.path().join("picture.svg");
+    let drawing = format!("{path}.dxf");
+    let what = if place.path().join(&drawing).exists() { &drawing } else { path };
+    let run = place.run_in(directory, &["view", what, "-o", &picture.to_string_lossy()]);
+    match fs::read(&picture) {
+        Ok(drawn) => kept(&project().join(file), &drawn),
+        Err(_) => Some(format!("{file}: nothing to see\n{run}")),
+    }
+}
