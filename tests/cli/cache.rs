@@ -477,3 +477,40 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     let place = place.file("library/.ignore", "b\n");
     assert_ne!(summary(&place), without);
 }
+
+/// How many of the drawings that a check looks at are known, and how many there are.
+fn known(place: &Place, arguments: &str) -> String {
+    let run = place.run(&format!("check -v {arguments}"));
+    let line = run.stderr.lines().find(|line| line.starts_with("drawings whose results still hold"));
+    line.unwrap_or_default().rsplit(": ").next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn paths_and_drawings_that_are_named_are_checked_once() {
+    let place = library();
+    let named = [
+        ("8001.1P", "1 / 1"),
+        ("1001.1P 1002.1P 1003.1P", "2 / 2"),
+        ("library/projects/8002.dxf", "1 / 1"),
+        ("8003", "1 / 1"),
+        ("library/parts 8001.1P", "3 / 3"),
+        ("", "5 / 5"),
+    ];
+    for (arguments, all) in named {
+        let run = place.run(&format!("check {arguments}"));
+        let without = place.run(&format!("check --no-cache {arguments}"));
+        assert_eq!(said(&run), said(&without));
+        assert_eq!(known(&place, arguments), all, "{arguments}");
+        assert_eq!(said(&place.run(&format!("check {arguments}"))), said(&without));
+    }
+    // Another path of the same drawing.
+    assert_eq!(known(&place, "1002.1P"), "0 / 1");
+    // A drawing whose name does not cover the path says nothing about it; one whose name does may define it again.
+    let place = place.file("library/parts/1004.dxf", dxf(&[path("1001.1P", 5, &[])]));
+    assert_eq!(known(&place, "1001.1P 1002.1P 1003.1P"), "2 / 2");
+    let place = place.file("library/parts/1000-1001.dxf", dxf(&[path("1001.1P", 5, &[])]));
+    let without = place.run("check --no-cache 1001.1P");
+    assert!(without.stderr.contains("PB504"), "{without}");
+    assert_eq!(said(&place.run("check 1001.1P")), said(&without));
+    assert_eq!(known(&place, "8001.1P"), "0 / 1");
+}

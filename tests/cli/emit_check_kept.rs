@@ -425,3 +425,186 @@ fn without_a_configuration_nothing_is_kept() {
     place.run("emit --check ./projects --search components --feed 150 --rapid 1000 --sweep-height 20");
     assert!(!place.cache().exists());
 }
+
+/// What `emit` says with `arguments` as often as it is typed: what it says without kept results, and from the second time on without reading a
+/// drawing or writing a file.
+#[track_caller]
+fn settles(place: &Place, arguments: &str) -> Run {
+    place.run(&format!("emit {arguments}"));
+    let before = programs(place);
+    let without = place.run(&format!("emit --no-cache {arguments}"));
+    for _ in 0..2 {
+        assert_eq!(said(&place.run(&format!("emit {arguments}"))), said(&without));
+        let (paths, drawings) = known(&place.run(&format!("emit -v {arguments}")));
+        assert_eq!((paths.0, drawings.0), (paths.1, drawings.1), "{arguments}");
+    }
+    assert_eq!(programs(place), before, "{arguments}");
+    without
+}
+
+/// Of how many of its paths the next `emit` knows the results.
+fn paths_known(place: &Place, arguments: &str) -> (u32, u32) {
+    known(&place.run(&format!("emit -v {arguments}"))).0
+}
+
+const POST: &str = "<PostProcessor><PostFile>{$mops}</PostFile></PostProcessor>";
+
+/// A library in which two paths can be joined.
+fn joinable() -> Place {
+    Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", "")).file("my.cbpp", POST)
+}
+
+#[test]
+fn whatever_is_named_is_made_once() {
+    let place = Place::of(LIBRARY);
+    let all =
+        ["8001.1P", "8001", "projects/8002.dxf", "projects", ".", "8002.1P 8001", "projects 1300.1P", ""];
+    for arguments in all {
+        settles(&place, arguments);
+    }
+    // What one run made is known to the others, whatever they name.
+    for arguments in all {
+        let (known, all) = paths_known(&place, arguments);
+        assert_eq!(known, all, "{arguments}");
+    }
+    let place = joinable();
+    for arguments in
+        ["--post my.cbpp", "8001 8002 --join both --post my.cbpp", "8002 8001 --join both --post my.cbpp"]
+    {
+        settles(&place, arguments);
+    }
+}
+
+#[test]
+fn errors_of_what_is_named_are_known() {
+    let place = with(
+        emitted(),
+        "projects/8001.dxf",
+        "layer 8001.1P\nstart 0,0 \"T5",
+        "layer 8001.1P\nstart 0,0 \"T6",
+    );
+    for arguments in ["8001.1P", "projects/8001.dxf", "projects"] {
+        assert_eq!(settles(&place, arguments).status, Some(1));
+    }
+    // Probes cannot be posted: the path is right, and becomes nothing.
+    let place = Place::of(LIBRARY).file("my.cbpp", POST);
+    for arguments in ["8002.1P --post my.cbpp", "8001 8002 --join both --post my.cbpp"] {
+        assert_eq!(settles(&place, arguments).status, Some(1));
+    }
+}
+
+#[test]
+fn a_new_definition_of_a_name_is_noticed_and_another_drawing_is_not() {
+    let place = emitted();
+    settles(&place, "8001.1P");
+    let bytes = fs::read(place.path().join("projects/8001.dxf")).unwrap();
+    let place = place.file("components/9000.dxf", bytes.clone());
+    assert_eq!(paths_known(&place, "8001.1P"), (1, 1));
+    let place = place.file("components/8001-8009.dxf", bytes);
+    let run = settles(&place, "8001.1P");
+    assert!(run.stderr.contains("PB504") && run.stderr.contains("8001-8009.dxf"), "{run}");
+    fs::remove_file(place.path().join("components/8001-8009.dxf")).unwrap();
+    assert_eq!(settles(&place, "8001.1P").status, Some(0));
+}
+
+#[test]
+fn a_drawing_in_the_search_path_that_may_define_what_is_embedded_is_noticed() {
+    let place = emitted();
+    settles(&place, "8001.1P");
+    let bytes = fs::read(place.path().join("components/1234.dxf")).unwrap();
+    let place = place.file("components/1235-1240.dxf", bytes.clone());
+    assert_eq!(paths_known(&place, "8001.1P"), (1, 1));
+    let place = place.file("components/1230-1240.dxf", bytes);
+    assert_eq!(paths_known(&place, "8001.1P"), (0, 1));
+    assert!(settles(&place, "8001.1P").stderr.contains("1230-1240.dxf"));
+}
+
+#[test]
+fn options_and_posts_of_what_is_named_count() {
+    let place = joinable();
+    for arguments in ["8001", "8001 8002 --join both --post my.cbpp"] {
+        settles(&place, arguments);
+        assert_eq!(
+            paths_known(&place, &format!("{arguments} --feed 150")).0,
+            paths_known(&place, arguments).1
+        );
+        assert_eq!(paths_known(&place, &format!("{arguments} --feed 160")).0, 0, "{arguments}");
+        settles(&place, arguments);
+    }
+    let arguments = "8001 8002 --join both --post my.cbpp";
+    let place = place.file("my.cbpp", POST.replace("{$mops}", "(other)\n{$mops}"));
+    assert_eq!(paths_known(&place, arguments), (0, 2));
+    settles(&place, arguments);
+    // Another name, or the same paths in another order, is another program.
+    assert_eq!(paths_known(&place, "8001 8002 --join other --post my.cbpp"), (0, 2));
+    assert_eq!(paths_known(&place, "8002 8001 --join both --post my.cbpp"), (0, 2));
+    assert_eq!(paths_known(&place, arguments), (0, 2), "the file is of the paths in another order");
+}
+
+#[test]
+fn a_joined_program_is_made_again_where_one_of_its_paths_or_its_file_changed() {
+    let arguments = "8001 8002 --join both --post my.cbpp";
+    let place = joinable();
+    settles(&place, arguments);
+    let program = place.read("projects/both_Milling.nc");
+    fs::remove_file(place.path().join("projects/both_Milling.nc")).unwrap();
+    assert_eq!(paths_known(&place, arguments), (0, 2));
+    assert_eq!(place.read("projects/both_Milling.nc"), program);
+    let place = place.file("projects/both_Milling.nc", program.replacen("40", "41", 1));
+    settles(&place, arguments);
+    assert_eq!(place.read("projects/both_Milling.nc"), program);
+    let drawing = fs::read(place.path().join("components/1300.dxf")).unwrap();
+    let edited = String::from_utf8(drawing).unwrap().replace("I1 B4", "I1 B3");
+    let place = place.file("components/1300.dxf", edited);
+    assert_eq!(paths_known(&place, arguments), (0, 2));
+    assert_ne!(place.read("projects/both_Milling.nc"), program);
+    settles(&place, arguments);
+}
+
+#[test]
+fn a_path_that_gives_its_files_another_name_leaves_a_stale_program_on_every_run() {
+    let place = emitted();
+    settles(&place, "8001.1P");
+    let drawing = String::from_utf8(fs::read(place.path().join("projects/8001.dxf")).unwrap()).unwrap();
+    let place = place.file("projects/8001.dxf", drawing.replace("T5 O2 MPlate", "T5 O2 MPlate R_x"));
+    assert!(settles(&place, "projects").stderr.contains("PB520"));
+    assert!(place.path().join("projects/8001_x_Milling.gcode").exists());
+}
+
+#[test]
+fn paths_that_claim_one_file_are_known_to_do_so_and_made_when_they_no_longer_do() {
+    let place = emitted();
+    let bytes = fs::read(place.path().join("projects/8001.dxf")).unwrap();
+    let configuration = format!("out-dir = \"projects\"\n{}", place.read("pathbuild.toml"));
+    let place = place.file("pathbuild.toml", configuration).file("components/8001.dxf", bytes);
+    let run = settles(&place, "");
+    assert!(run.stderr.contains("PB514"), "{run}");
+    fs::remove_file(place.path().join("projects/8001_Milling.gcode")).unwrap();
+    fs::remove_file(place.path().join("components/8001.dxf")).unwrap();
+    let run = place.run("emit");
+    assert!(run.stderr.contains("projects/8001_Milling.gcode: written"), "{run}");
+    settles(&place, "");
+}
+
+#[test]
+fn records_of_drawings_that_were_not_looked_at_stay_unless_they_are_of_other_bytes() {
+    let place = emitted();
+    settles(&place, "");
+    // Read by a run that names one project only.
+    let drawing = String::from_utf8(fs::read(place.path().join("components/1234.dxf")).unwrap()).unwrap();
+    let place = place.file("components/1234.dxf", drawing.replace("I1 B4", "I1 B3"));
+    settles(&place, "8001.1P");
+    // The component itself was not looked at; its record was of other bytes.
+    assert_eq!(known(&place.run("emit -v")), ((2, 2), (3, 4)));
+}
+
+#[test]
+fn a_program_that_may_not_be_written_is_not_made_again() {
+    let place = Place::of(
+        &LIBRARY
+            .replace("mill 0,0 40,0", "sweep 0,0 40,0 \"S1\"\nmill 40,0 80,0")
+            .replace("end 40,0", "end 80,0"),
+    );
+    let run = settles(&place, "components");
+    assert_eq!(run.status, Some(1), "{run}");
+}

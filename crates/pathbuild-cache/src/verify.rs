@@ -20,6 +20,8 @@ pub type Stamped = (Vec<u8>, Stamp);
 pub struct Verdict {
     /// For each record, whether it was asked for and still holds, whatever became of its outputs.
     pub holds: Vec<bool>,
+    /// For each record, asked for or not, whether nothing is known against it.
+    pub is_sound: Vec<bool>,
     /// For each file, what became of it.
     pub files: Vec<FileState>,
     /// Each directory as it is now.
@@ -61,9 +63,10 @@ pub fn verify(kept: &Kept, looking: Looking<'_>, mut listings: Listings) -> Verd
     let are_same = !changes.iter().any(DirectoryChange::is_some);
     let is_current =
         are_same && files.iter().all(|state| matches!(state, FileState::Resting | FileState::Unlooked));
-    let holds =
-        if is_current { is_asked } else { holding(kept, &is_asked, &files, &changes, looking.covers) };
-    Verdict { holds, files, directories, is_current }
+    let is_sound =
+        if is_current { vec![true; kept.records()] } else { sound(kept, &files, &changes, looking.covers) };
+    let holds = is_asked.iter().zip(&is_sound).map(|(is_asked, is_sound)| *is_asked && *is_sound).collect();
+    Verdict { holds, is_sound, files, directories, is_current }
 }
 
 /// What became of the files of the records that are asked for: to ask the system for ten thousand is most of the work.
@@ -90,26 +93,19 @@ enum Role {
     Output,
 }
 
-/// For each record that is asked for, whether it still holds.
-fn holding(
-    kept: &Kept,
-    is_asked: &[bool],
-    files: &[FileState],
-    changes: &[DirectoryChange],
-    covers: Covers<'_>,
-) -> Vec<bool> {
+/// For each record whether no file that was looked at has changed, and every question has the same answer.
+fn sound(kept: &Kept, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
     let is_anew = |number| {
         let (directory, name) = kept.lookup(number);
         changes[directory].concerns(name, covers)
     };
     let anew: Vec<bool> = (0..kept.lookups()).map(is_anew).collect();
-    let holds = |(number, is_asked): (usize, &bool)| {
+    let is_sound = |number| {
         let record = kept.record(number);
-        *is_asked
-            && record.files().all(|file| files[file] != FileState::Changed)
+        record.files().all(|file| files[file] != FileState::Changed)
             && !record.lookup_numbers().any(|lookup| anew[lookup])
     };
-    is_asked.iter().enumerate().map(holds).collect()
+    (0..kept.records()).map(is_sound).collect()
 }
 
 /// What became of a file.

@@ -37,7 +37,7 @@ pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use index::{FileIndex, NameKey, PathIndex, content, content_hash, file_index, path_index, path_names};
 pub use instance::{Instance, chains, path, summary};
-pub use lookup::{Resolved, holders, resolve_path, search_path};
+pub use lookup::{Resolved, holders, may_hold, resolve_path, search_path};
 pub use names::{drawing_names, name_table};
 pub use prefetch::{embeds_others, likely_file, prefetch};
 pub use programs::program;

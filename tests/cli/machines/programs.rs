@@ -71,8 +71,8 @@ fn of_run(run: &Run) -> Vec<Named> {
     let inputs = cli.command.inputs().inputs.into_iter().map(|input| absolute(&case, input)).collect();
     let wanted = session.wanted(&Inputs { inputs });
     let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();
-    for drawing in &wanted.drawings {
-        targets.extend(session.targets(drawing.file, &Role::Emitted));
+    for file in wanted.whole(&session) {
+        targets.extend(session.targets(file, &Role::Emitted));
     }
     let checked = session.check(&targets);
     let sound = checked.iter().filter(|checked| checked.emitted.is_some());

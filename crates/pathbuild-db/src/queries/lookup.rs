@@ -58,8 +58,13 @@ pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
 /// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would
 /// reclaim there.)
 pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
-    let files = files_for(db, directory, name.as_str()).into_iter();
+    let files = may_hold(db, directory, name).into_iter();
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
+}
+
+/// The files of a directory that may define a path by their names; none is read.
+pub fn may_hold(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
+    files_for(db, directory, name.as_str())
 }
 
 /// The files of a directory that may hold a path by their names.

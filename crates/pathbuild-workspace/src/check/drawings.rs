@@ -8,30 +8,26 @@ use pathbuild_path::PathName;
 /// So many drawings are checked before what was read from them is dropped.
 const BATCH: usize = 1024;
 
-/// A drawing, or some of its paths.
-pub(super) struct Asked {
-    pub(super) file: SourceFile,
-    /// `None`: all.
-    pub(super) names: Option<Vec<PathName>>,
-}
-
 /// What is found in drawings, each with what it was found from.
 pub(crate) fn check_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let asked: Vec<Asked> = files.iter().map(|file| Asked { file: *file, names: None }).collect();
+    let asked: Vec<Asked<'_>> = files.iter().map(|file| (*file, None)).collect();
     check_paths(session, &asked, with_all_values)
 }
+
+/// A drawing, with the paths that are asked for if that is not all.
+type Asked<'a> = (SourceFile, Option<&'a [PathName]>);
 
 /// The same of drawings of which only some paths may be asked for.
 pub(super) fn check_paths(
     session: &mut Session<'_>,
-    asked: &[Asked],
+    asked: &[Asked<'_>],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let files: Vec<SourceFile> = asked.iter().map(|asked| asked.file).collect();
+    let files: Vec<SourceFile> = asked.iter().map(|(file, _)| *file).collect();
     session.read_ahead(&files);
     session.in_batches(asked, BATCH, |session, asked| {
         session.each(asked, |asking, asked| check_drawing(asking, asked, with_all_values))
@@ -40,11 +36,11 @@ pub(super) fn check_paths(
 
 fn check_drawing(
     asking: &Asking<'_>,
-    Asked { file, names }: &Asked,
+    (file, names): &Asked<'_>,
     with_all_values: bool,
 ) -> (DrawingResult, Vec<Trace>) {
     let (db, file) = (asking.db(), *file);
-    let names = names.as_deref().unwrap_or_else(|| path_names(db, file));
+    let names = names.unwrap_or_else(|| path_names(db, file));
     let mut diagnostics = Vec::new();
     let mut reached = vec![file];
     let mut traces = own_trace(asking.is_traced(), file);

@@ -2,9 +2,9 @@
 
 mod changed;
 mod drawings;
-mod kept;
+mod results;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use camino::Utf8PathBuf;
 use pathbuild_cache::Listings;
@@ -15,11 +15,15 @@ use pathbuild_path::PathName;
 use crate::Inputs;
 use crate::config::Concerns;
 use crate::session::timings::FINDING;
-use crate::session::{DrawingResult, Keeper, Question, Scope, Session, Wanted, WantedPath, by_place};
+use crate::session::{
+    DrawingResult, Found, Keeper, Made, Question, Scope, Session, Wanted, WantedPath, by_place,
+};
 use crate::workspace::Workspace;
 
+use changed::Changed;
 pub(crate) use drawings::check_drawings;
-use drawings::{Asked, check_paths};
+use drawings::check_paths;
+use results::{Concerned, Results, of};
 
 /// What is to be checked.
 #[derive(Clone, Debug)]
@@ -50,6 +54,19 @@ pub struct CheckedFile {
     pub paths: Vec<PathName>,
 }
 
+/// A drawing, or some of its paths.
+struct Asked {
+    drawing: Utf8PathBuf,
+    /// `None`: all.
+    names: Option<Vec<PathName>>,
+}
+
+impl Asked {
+    fn file(&self, session: &Session<'_>) -> SourceFile {
+        session.file(&self.drawing)
+    }
+}
+
 /// A request for drawings that changed names single drawings or paths: what depends on others is only looked for in directories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotDirectories;
@@ -64,34 +81,112 @@ impl Request<'_> {
         }
     }
 
-    /// Checks in its session; results of directories are taken from earlier runs, and kept for later ones.
+    /// Checks in its session; results are taken from earlier runs, and kept for later ones.
     ///
     /// # Errors
     /// Only what depends on changed drawings is wanted, and the inputs are not directories only.
     pub fn run(&self, session: &mut Session<'_>) -> Result<Checked, NotDirectories> {
-        let mut checked = self.checked(session)?;
+        if !session.is_traced() {
+            session.prefetch(self.inputs, &|_| false);
+        }
+        let mut found = session.timings().measure(&FINDING, || session.found(self.inputs));
+        let results = Results::open(session, self, &mut found);
+        let mut checked = check(session, self, &found, &results)?;
         checked.diagnostics = session.with_elsewhere(checked.diagnostics);
+        leave((results, found));
         Ok(checked)
-    }
-
-    fn checked(&self, session: &mut Session<'_>) -> Result<Checked, NotDirectories> {
-        if session.is_traced()
-            && let Some(found) = session.timings().measure(&FINDING, || session.directories_only(self.inputs))
-        {
-            return Ok(kept::check(session, self, found));
-        }
-        if self.changed.is_some() {
-            return Err(NotDirectories);
-        }
-        session.prefetch(self.inputs);
-        Ok(session.settled(|session| {
-            let wanted = session.timings().measure(&FINDING, || session.wanted(self.inputs));
-            check(session, wanted, self.with_all_values)
-        }))
     }
 }
 
-/// What the last checks of the library found, for telling why it no longer holds. `None` where no results are kept.
+/// Checks what is not known.
+fn check(
+    session: &mut Session<'_>,
+    request: &Request<'_>,
+    found: &Found,
+    results: &Results,
+) -> Result<Checked, NotDirectories> {
+    let changed = request.changed.as_ref().map(|drawings| Changed::new(session, drawings));
+    let Answers { wanted, each: answers, mut made } =
+        session.settled(|session| answers(session, request, found, results));
+    if changed.is_some() && !(wanted.named.is_empty() && wanted.paths.is_empty()) {
+        return Err(NotDirectories);
+    }
+    let (q_projects, made_of_pairs) = session.settled(|session| results.q_projects(session, &wanted));
+    made.extend(made_of_pairs);
+    results.keep(session, &made);
+    let concerned = Concerned::new(session, results, &made, changed.as_ref());
+    let mut checked = Checked { diagnostics: found.problems.clone(), ..Checked::default() };
+    checked.diagnostics.extend(wanted.problems);
+    if !session.is_compatible() {
+        let named = answers.iter().skip(wanted.drawings.len()).take(wanted.named.len());
+        checked.diagnostics.extend(named.filter_map(|(asked, said)| session.no_path(&asked.drawing, said)));
+    }
+    if !checked.diagnostics.iter().any(Diagnostic::is_error) {
+        let parts = answers.iter().map(|(_, result)| result.parts());
+        checked.diagnostics.extend(session.no_path_anywhere(parts));
+    }
+    for (Asked { drawing, names }, result) in answers {
+        if !concerned.contains(&of(&drawing, names.as_deref())) {
+            continue;
+        }
+        checked.files.push(CheckedFile { file: drawing, paths: result.names });
+        checked.diagnostics.extend(result.diagnostics);
+    }
+    checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
+    let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));
+    checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
+    leave(made);
+    Ok(checked)
+}
+
+/// What the arguments mean, and what is found in that.
+struct Answers {
+    wanted: Wanted,
+    each: Vec<(Asked, DrawingResult)>,
+    /// What this run found itself.
+    made: Vec<Made>,
+}
+
+fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, results: &Results) -> Answers {
+    let (wanted, mut made) = results.wanted(session, found);
+    let asked = asked(session, &wanted);
+    let mut known: Vec<Option<DrawingResult>> =
+        asked.iter().map(|asked| results.known(&of(&asked.drawing, asked.names.as_deref()))).collect();
+    let open: Vec<usize> = (0..asked.len()).filter(|index| known[*index].is_none()).collect();
+    results.tell_known(session, asked.len() - open.len(), asked.len());
+    let paths: Vec<(SourceFile, Option<&[PathName]>)> =
+        open.iter().map(|index| (asked[*index].file(session), asked[*index].names.as_deref())).collect();
+    let checked = check_paths(session, &paths, request.with_all_values);
+    for ((result, traces), index) in checked.into_iter().zip(open) {
+        let Asked { drawing, names } = &asked[index];
+        if session.is_traced() {
+            made.push(results::new(&of(drawing, names.as_deref()), traces, &result));
+        }
+        known[index] = Some(result);
+    }
+    Answers { wanted, each: asked.into_iter().zip(known.into_iter().flatten()).collect(), made }
+}
+
+/// Each drawing, and for the paths that were named by themselves the drawings that define them, without those that are checked as a whole.
+fn asked(session: &Session<'_>, wanted: &Wanted) -> Vec<Asked> {
+    let db = session.db();
+    let named = wanted.named.iter().map(|file| file.path(db));
+    let whole = wanted.drawings.iter().chain(named);
+    let mut asked: Vec<Asked> =
+        whole.map(|drawing| Asked { drawing: drawing.clone(), names: None }).collect();
+    if !wanted.paths.is_empty() {
+        let is_whole: HashSet<Utf8PathBuf> = asked.iter().map(|asked| asked.drawing.clone()).collect();
+        let mut single: BTreeMap<&Utf8PathBuf, Vec<PathName>> = BTreeMap::new();
+        for WantedPath { file, name } in &wanted.paths {
+            single.entry(file.path(db)).or_default().push(name.clone());
+        }
+        let single = single.into_iter().filter(|(drawing, _)| !is_whole.contains(*drawing));
+        asked.extend(single.map(|(drawing, names)| Asked { drawing: drawing.clone(), names: Some(names) }));
+    }
+    asked
+}
+
+/// What the last checks found, for telling why it no longer holds. `None` where no results are kept.
 pub fn kept_results(workspace: &Workspace) -> Option<Keeper> {
     open(workspace, false, Scope::All, Listings::new())
 }
@@ -104,46 +199,4 @@ fn open(workspace: &Workspace, with_all_values: bool, scope: Scope, listings: Li
 /// The run is over: to take a million values apart would take longer than to end.
 fn leave<T>(over: T) {
     std::mem::forget(over);
-}
-
-fn check(session: &mut Session<'_>, wanted: Wanted, with_all_values: bool) -> Checked {
-    session.know_names(&wanted.listings);
-    leave(wanted.listings);
-    let whole: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
-    let mut asked: Vec<Asked> = whole.iter().map(|file| Asked { file: *file, names: None }).collect();
-    asked.extend(single_paths(wanted.paths, &whole));
-    let found = check_paths(session, &asked, with_all_values);
-    let files = asked.iter().map(|asked| asked.file);
-    let mut checked = Checked { diagnostics: wanted.problems, ..Checked::default() };
-    if !session.is_compatible() {
-        let named = wanted.drawings.iter().filter(|drawing| drawing.is_named);
-        checked.diagnostics.extend(named.filter_map(|drawing| session.no_path(drawing.file)));
-    }
-    if !checked.diagnostics.iter().any(Diagnostic::is_error) {
-        checked.diagnostics.extend(session.no_path_anywhere(found.iter().map(|(result, _)| result.parts())));
-    }
-    checked.files.reserve(found.len());
-    for (file, (DrawingResult { names, diagnostics }, _)) in files.zip(found) {
-        checked.files.push(CheckedFile { file: file.path(session.db()).clone(), paths: names });
-        checked.diagnostics.extend(diagnostics);
-    }
-    checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
-    checked.diagnostics.extend(session.q_projects(&whole));
-    checked
-}
-
-/// The paths that were named by themselves, drawing by drawing, without those of drawings that are checked as a whole.
-fn single_paths(paths: Vec<WantedPath>, whole: &[SourceFile]) -> Vec<Asked> {
-    if paths.is_empty() {
-        return Vec::new();
-    }
-    let is_whole: HashSet<SourceFile> = whole.iter().copied().collect();
-    let mut single: Vec<Asked> = Vec::new();
-    for WantedPath { file, name } in paths.into_iter().filter(|path| !is_whole.contains(&path.file)) {
-        match single.iter_mut().find(|asked| asked.file == file) {
-            Some(asked) => asked.names.get_or_insert_default().push(name),
-            None => single.push(Asked { file, names: Some(vec![name]) }),
-        }
-    }
-    single
 }

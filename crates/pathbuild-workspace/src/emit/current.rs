@@ -83,7 +83,7 @@ fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Cur
     let target = session.target(path, Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| super::store::found(session, checked)).collect();
+        checked.iter().flat_map(|checked| super::making::found(session, checked)).collect();
     if wrong.iter().any(Diagnostic::is_error) {
         return Current::Wrong(wrong);
     }

@@ -49,6 +49,8 @@ pub struct Delivered {
     pub minutes: f64,
     /// What went wrong, or where moves differ.
     pub problems: Vec<Diagnostic>,
+    /// Whether there is something wrong with the program itself, so that nothing is written of it.
+    pub(super) is_refused: bool,
     /// Out of what the program was made; `None` where none was.
     pub(super) provenance: Option<Provenance>,
     /// What a post notes.
@@ -144,6 +146,7 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program));
     let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
     let outputs = made.unwrap_or_else(|problems| {
+        delivered.is_refused = true;
         delivered.problems.extend(problems);
         Vec::new()
     });
@@ -199,15 +202,18 @@ pub(super) fn finish(
 
 /// What another version of pathbuild wrote stays, where it is the same program.
 fn keep_other_version(system: &dyn System, output: &mut Output) {
-    let Ok(head) = system.head(&output.path, HEAD) else { return };
-    if Provenance::of_head(&head).is_none_or(|(found, _)| *found.version == *VERSION) {
-        return;
-    }
-    if let Ok(present) = system.read(&output.path, u64::MAX)
+    if is_of_other_version(system, &output.path)
+        && let Ok(present) = system.read(&output.path, u64::MAX)
         && is_same_program(&present, &output.text)
     {
         output.text = present;
     }
+}
+
+/// Whether another version of pathbuild wrote a program.
+pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
+    let head = system.head(program, HEAD).unwrap_or_default();
+    Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
 /// PB005: what comes of cutting moves is limited like the moves themselves.

@@ -1,6 +1,6 @@
 //! What is to be done for one path: which files it becomes.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, SourceFile, Target, path_names};
@@ -10,15 +10,15 @@ use pathbuild_gcode::native;
 
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
-use super::store::KnownProgram;
+use super::store::{KnownJob, KnownProgram};
 use crate::posting::Poster;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
-#[derive(PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Job {
-    /// What is known of its program from an earlier run: nothing need be made.
-    pub(super) known: Option<KnownProgram>,
+    /// What an earlier run did.
+    pub(super) known: Known,
     /// The paths, in the order in which they are milled. There is one at least.
     pub(super) targets: Vec<Target>,
     /// The drawings that they are made from, the first path's own first.
@@ -34,17 +34,10 @@ pub(super) struct Job {
 }
 
 impl Job {
-    /// That of a path of which everything is known.
-    pub(super) fn known(target: Target, known: KnownProgram) -> Self {
-        Self {
-            targets: vec![target],
-            sources: Vec::new(),
-            path: known.path.clone(),
-            stem: known.stem.clone(),
-            files: known.files.clone(),
-            title: String::new(),
-            known: Some(known),
-        }
+    /// That of paths of which everything is known.
+    pub(super) fn known(targets: Vec<Target>, KnownJob { path, stem, files, program }: KnownJob) -> Self {
+        let known = program.map_or(Known::Plan, |program| Known::Program(Box::new(program)));
+        Self { known, targets, sources: Vec::new(), path, stem, files, title: String::new() }
     }
 
     /// The drawing of the first path.
@@ -90,67 +83,62 @@ impl Job {
     }
 }
 
+/// What is known of a job from earlier runs.
+#[derive(Debug, PartialEq)]
+pub(super) enum Known {
+    /// Nothing.
+    Nothing,
+    /// Which files it becomes: it was refused because another path becomes one of them too.
+    Plan,
+    /// What came of it.
+    Program(Box<KnownProgram>),
+}
+
 /// What makes jobs of paths.
 pub(super) struct Maker<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post that programs are written through.
     pub(super) poster: Option<&'a Poster>,
+    /// The name of the one program that all paths become.
+    pub(super) join: Option<&'a str>,
 }
 
 impl Maker<'_> {
-    /// The jobs for the paths that are right.
-    pub(super) fn jobs(&self, checked: &[CheckedTarget], diagnostics: &mut Vec<Diagnostic>) -> Vec<Job> {
-        let mut jobs = Vec::new();
-        for checked in checked {
-            let Some(emitted) = &checked.emitted else { continue };
-            match self.job(checked, emitted) {
-                Ok(job) => jobs.push(job),
-                Err(problem) => diagnostics.push(*problem),
+    /// The job for paths that become one program, if all are right.
+    ///
+    /// # Errors
+    /// Why right paths become no program.
+    pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
+        match (self.join, checked) {
+            (Some(name), checked) => self.joined(name, checked),
+            (None, [checked]) => {
+                let Some(emitted) = &checked.emitted else { return Ok(None) };
+                self.alone(checked, emitted).map(Some).map_err(|problem| vec![*problem])
             }
+            (None, _) => Ok(None),
         }
-        jobs
     }
 
-    /// The one job for all paths, if all are right.
-    pub(super) fn joined(
-        &self,
-        name: &str,
-        checked: &[CheckedTarget],
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> Option<Job> {
-        let mut is_right = true;
-        for checked in checked {
-            match &checked.emitted {
-                Some(emitted) => {
-                    if let Err(problem) = self.refuse_probes(checked, emitted) {
-                        diagnostics.push(*problem);
-                        is_right = false;
-                    }
-                }
-                None => is_right = false,
-            }
+    fn joined(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
+        let right = || checked.iter().filter_map(|checked| Some((checked, checked.emitted.as_ref()?)));
+        let refused = right().filter_map(|(checked, emitted)| self.refuse_probes(checked, emitted).err());
+        let refused: Vec<Diagnostic> = refused.map(|problem| *problem).collect();
+        if !refused.is_empty() {
+            return Err(refused);
         }
-        let first = checked.first().filter(|_| is_right)?;
-        let mut sources: Vec<SourceFile> = Vec::new();
-        for file in checked.iter().flat_map(|checked| &checked.files) {
-            if !sources.contains(file) {
-                sources.push(*file);
-            }
-        }
+        let Some(first) = checked.first().filter(|_| right().count() == checked.len()) else {
+            return Ok(None);
+        };
+        let mut seen = HashSet::new();
+        let sources = checked.iter().flat_map(|checked| &checked.files).copied();
+        let sources = sources.filter(|file| seen.insert(*file)).collect();
         let directory = output_directory(self.session, first.target.file(self.session.db()));
-        match self.named(name, &directory) {
-            Ok(stem) => {
-                let title = joined_title(name, checked);
-                Some(Job { title, ..self.with_files(stem, name, sources, checked, &[OutputKind::Milling]) })
-            }
-            Err(problem) => {
-                diagnostics.push(*problem);
-                None
-            }
-        }
+        let stem = self.named(name, &directory).map_err(|problem| vec![*problem])?;
+        let title = joined_title(name, checked);
+        Ok(Some(Job { title, ..self.with_files(stem, name, sources, checked, &[OutputKind::Milling]) }))
     }
 
-    fn job(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
+    fn alone(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
         let db = self.session.db();
         let file = checked.target.file(db);
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
@@ -199,7 +187,7 @@ impl Maker<'_> {
         let db = self.session.db();
         let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
-            known: None,
+            known: Known::Nothing,
             title: native::title(drawing, path),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
@@ -229,16 +217,15 @@ pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Ut
     }
 }
 
-/// The jobs without those of which two would write the same file: all of these are refused (PB514).
-pub(super) fn without_clashes(
+/// Takes out the jobs of which two would write the same file: all of these are refused (PB514).
+pub(super) fn take_clashes(
     session: &Session<'_>,
-    mut jobs: Vec<Job>,
+    jobs: &mut Vec<Job>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Job> {
-    let refused = clashes(session, &jobs, diagnostics);
+    let refused = clashes(session, jobs, diagnostics);
     let mut index = 0..;
-    jobs.retain(|_| index.next().is_none_or(|index| !refused.contains(&index)));
-    jobs
+    jobs.extract_if(.., |_| index.next().is_some_and(|index| refused.contains(&index))).collect()
 }
 
 /// The jobs that would write the same file as another. Case does not count, since on some systems it does not.

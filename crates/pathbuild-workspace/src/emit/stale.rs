@@ -8,7 +8,7 @@ use std::cell::LazyCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Db, SourceFile};
+use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::native::{self, Charset, comment};
@@ -16,7 +16,7 @@ use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::asked::Asked;
 use super::deliver::Delivered;
-use super::job::{Job, output_directory};
+use super::job::Job;
 use crate::posting::Poster;
 use crate::session::{OutputKind, Session};
 
@@ -83,7 +83,7 @@ pub(super) fn stale(
 ) -> Vec<Stale> {
     let settings = &session.workspace().settings;
     let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
-    let is_wide = !asked.covered.is_empty() || !asked.directories.is_empty();
+    let is_wide = asked.covered.iter().len() > 0 || !asked.directories.is_empty();
     let directories: &[Utf8PathBuf] = match &out_dir {
         _ if !is_wide => &[],
         Some(directory) => std::slice::from_ref(directory),
@@ -225,6 +225,10 @@ fn title(drawing: &str, path: &str) -> String {
     without_case(&comment(&native::title(drawing, path), Charset::Ascii))
 }
 
+fn file_name(drawing: &Utf8Path) -> &str {
+    drawing.file_name().unwrap_or_default()
+}
+
 /// Some posts write capitals only.
 fn without_case(title: &str) -> String {
     title.to_lowercase()
@@ -236,28 +240,30 @@ type Title = (Utf8PathBuf, String);
 impl Writers {
     fn new(session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
         let db = session.db();
-        let place = |file: SourceFile| output_directory(session, file);
-        let name = |file: SourceFile| file.path(db).file_name().unwrap_or_default();
-        let drawing = |file: SourceFile| (place(file), without_case(&comment(name(file), Charset::Ascii)));
-        let made: BTreeSet<Title> = jobs
+        let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
+        let out_dir = out_dir.map(|directory| session.normal(directory));
+        let place = |drawing: &Utf8Path| {
+            let beside = || drawing.parent().unwrap_or(Utf8Path::new("")).to_owned();
+            out_dir.clone().unwrap_or_else(beside)
+        };
+        let written =
+            |drawing: &Utf8Path| (place(drawing), without_case(&comment(file_name(drawing), Charset::Ascii)));
+        let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
+        let made: BTreeSet<Title> =
+            jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
+        let of_covered = asked
+            .covered
             .iter()
-            .map(|job| (place(job.drawing(db)), title(name(job.drawing(db)), &job.path)))
-            .collect();
-        let of_covered = asked.covered.iter().flat_map(|file| {
-            asked
-                .drawings
-                .names(session, *file)
-                .iter()
-                .map(|path| (place(*file), title(name(*file), path.as_str())))
-        });
-        let covered: HashSet<SourceFile> = asked.covered.iter().copied().collect();
+            .flat_map(|drawing| drawing.said.names.iter().map(|name| path(&drawing.path, name.as_str())));
+        let covered: HashSet<&Utf8Path> = asked.covered.iter().map(|drawing| &*drawing.path).collect();
         let has_library = session.has_library();
-        let library = if has_library { session.everything() } else { Vec::new() };
+        let library = if has_library { session.library() } else { Vec::new() };
+        let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
         Self {
             idle: of_covered.filter(|title| !made.contains(title)).collect(),
-            covered: asked.covered.iter().map(|file| drawing(*file)).collect(),
-            others: library.into_iter().filter(|file| !covered.contains(file)).map(drawing).collect(),
-            knows_all: has_library || session.workspace().settings.general.out_dir.value.is_none(),
+            covered: covered.iter().map(|drawing| written(drawing)).collect(),
+            others: others.map(|drawing| written(drawing)).collect(),
+            knows_all: has_library || out_dir.is_none(),
         }
     }
 

@@ -6,20 +6,20 @@ use std::fmt::Write;
 
 use crate::config::Concerns;
 use crate::session::{
-    CheckedTarget, DrawingResult, Keeper, Made, MadeOutput, OutputKind, OutputState, Question, Scope,
-    Session, is_passing,
+    Drawing, DrawingResult, Keeper, Made, MadeOutput, OutputKind, OutputState, Question, Scope, Session,
+    is_passing,
 };
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
     Corrupt, Decoder, Encoder, Listings, decode_diagnostic, decode_note, encode_diagnostic, encode_note,
 };
-use pathbuild_db::{SourceFile, Target, Trace, check_file};
+use pathbuild_db::{Database, System, Target, Trace};
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::provenance::Provenance;
 
-use super::Request;
-use super::asked::Drawings;
-use super::deliver::{Delivered, State, Task};
+use super::Answer;
+use super::asked::Asked;
+use super::deliver::{Delivered, State, Task, is_of_other_version};
 use super::job::Job;
 use crate::posting::Poster;
 use crate::workspace::Workspace;
@@ -27,46 +27,49 @@ use crate::workspace::Workspace;
 /// The records of earlier runs with these settings.
 pub(super) struct Store(Keeper);
 
-/// What is known of a path.
-pub(super) struct Known {
-    /// What is wrong with it and with what it embeds.
+/// What is known of paths that become one program.
+pub(super) struct KnownPaths {
+    /// What is wrong with them and with what they embed, and why they become nothing though they are right.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// What it becomes; `None` where it is wrong.
-    pub(super) program: Option<KnownProgram>,
+    /// What they become; `None` where that is nothing.
+    pub(super) job: Option<KnownJob>,
 }
 
-/// What is known of a program without making it.
-#[derive(Debug, PartialEq)]
-pub(super) struct KnownProgram {
+/// What is known of a job.
+pub(super) struct KnownJob {
     /// The path, as the drawing spells it.
     pub(super) path: Box<str>,
     /// The name of its files without what tells them apart, with the directory.
     pub(super) stem: Utf8PathBuf,
     /// Its files.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
-    /// How they lie there now.
-    states: Vec<OutputState>,
+    /// What came of it; `None` where it was refused.
+    pub(super) program: Option<KnownProgram>,
+}
+
+/// What is known of a program without making it.
+#[derive(Debug, PartialEq)]
+pub(super) struct KnownProgram {
+    /// How each of its files lies there now; nothing where something is wrong with the program.
+    files: Vec<(OutputKind, Utf8PathBuf, OutputState)>,
     /// In mm.
     length: f64,
     minutes: f64,
-    /// Warnings.
+    /// Warnings, and what is wrong with the program.
     problems: Vec<Diagnostic>,
     notes: Vec<Note>,
     provenance: Provenance,
 }
 
 impl Store {
-    /// The records about these drawings. `None` for runs that always make everything.
+    /// The records about these drawings; `None` where none can be kept.
     pub(super) fn open(
         workspace: &Workspace,
-        request: &Request<'_>,
+        poster: Option<&Poster>,
         scope: Scope,
         listings: Listings,
     ) -> Option<Self> {
-        if request.is_always_made() {
-            return None;
-        }
-        let text = question(request.poster);
+        let text = question(poster);
         let question = Question { whose: Concerns::Emit, text: &text, scope, listings };
         Keeper::open(workspace, question).map(Self)
     }
@@ -76,38 +79,48 @@ impl Store {
         DrawingResult::decode(self.0.payload(drawing.as_str())?).ok()
     }
 
-    /// What is known of a path, if that is enough for the task: whoever writes makes a program again of which a file is not as it was.
-    pub(super) fn path(&self, drawing: &Utf8Path, path: &str, task: Task) -> Option<Known> {
-        let of = of(drawing, path);
-        let mut known = decoded(self.0.payload(&of)?).ok()?;
-        if let Some(program) = &mut known.program {
-            program.states = self.0.outputs(&of);
-            let is_enough = program.states.len() == program.files.len()
-                && (task == Task::Compare { moves_only: false } || program.is_current(task));
-            return is_enough.then_some(known);
+    /// What is known of paths that become one program, if that is enough for the task: whoever writes makes a program again of which a file is
+    /// not as it was.
+    pub(super) fn paths(&self, system: &dyn System, of: &str, task: Task) -> Option<KnownPaths> {
+        let mut known = decoded(self.0.payload(of)?).ok()?;
+        if let Some(KnownJob { files, program: Some(program), .. }) = &mut known.job
+            && !program.is_wrong()
+        {
+            let states = self.0.outputs(of);
+            if states.len() != files.len() {
+                return None;
+            }
+            let states = files.iter().zip(states).map(|((kind, path), state)| (*kind, path.clone(), state));
+            program.files = states.collect();
+            let is_enough = match task {
+                // The same program may have been written by another version.
+                Task::Compare { moves_only: false } => {
+                    program.outdated().all(|it| !is_of_other_version(system, it))
+                }
+                _ => program.is_current(task),
+            };
+            if !is_enough {
+                return None;
+            }
         }
         Some(known)
     }
 
     /// Keeps what was found now.
     pub(super) fn keep(&self, session: &Session<'_>, run: &Run<'_>) {
-        let db = session.db();
-        let drawing = |file: &SourceFile| Made {
-            of: file.path(db).as_str().into(),
-            traces: vec![Trace { files: vec![*file], lookups: Vec::new() }],
-            payload: DrawingResult {
-                names: run.drawings.names(session, *file).to_vec(),
-                diagnostics: run.drawings.diagnostics(session, *file).to_vec(),
-            }
-            .encode(),
+        let drawing = |Drawing { path, said, .. }: &Drawing| Made {
+            of: path.as_str().into(),
+            traces: vec![Trace { files: vec![session.file(path)], lookups: Vec::new() }],
+            payload: said.encode(),
             ..Made::default()
         };
-        let mut made: Vec<Made> = run.drawings.read().map(drawing).collect();
-        let open: HashMap<Target, (&Job, &Delivered)> =
-            run.open().map(|(job, delivered)| (job.targets[0], (job, delivered))).collect();
-        for checked in run.checked {
-            made.push(run.made(session, checked, open.get(&checked.target).copied()));
-        }
+        let mut made: Vec<Made> =
+            run.asked.drawings().filter(|drawing| drawing.is_read).map(drawing).collect();
+        let done = run.jobs.iter().zip(run.delivered).map(|(job, delivered)| (job, Some(delivered)));
+        let all = done.chain(run.refused.iter().map(|job| (job, None)));
+        let jobs: HashMap<&[Target], (&Job, Option<&Delivered>)> =
+            all.map(|(job, delivered)| (&*job.targets, (job, delivered))).collect();
+        made.extend(run.answers.iter().map(|answer| run.made(session, answer, &jobs)));
         self.0.keep(session, &made);
     }
 }
@@ -115,44 +128,43 @@ impl Store {
 /// What a run did.
 pub(super) struct Run<'a> {
     pub(super) task: Task,
-    pub(super) drawings: &'a Drawings,
-    /// The targets that were not known.
-    pub(super) checked: &'a [CheckedTarget],
-    /// All jobs.
-    pub(super) jobs: &'a [Job],
-    pub(super) delivered: &'a [Delivered],
+    pub(super) join: Option<&'a str>,
     pub(super) poster: Option<&'a Poster>,
+    pub(super) asked: &'a Asked,
+    /// What was not known.
+    pub(super) answers: &'a [Answer],
+    pub(super) jobs: &'a [Job],
+    /// What became of each of these.
+    pub(super) delivered: &'a [Delivered],
+    /// Jobs that were not done.
+    pub(super) refused: &'a [Job],
 }
 
 impl Run<'_> {
-    /// What became of the jobs that were not known.
-    fn open(&self) -> impl Iterator<Item = (&Job, &Delivered)> {
-        self.jobs.iter().zip(self.delivered).filter(|(job, _)| job.known.is_none())
-    }
-
-    fn made(&self, session: &Session<'_>, checked: &CheckedTarget, job: Option<(&Job, &Delivered)>) -> Made {
-        let db = session.db();
-        let of = of(checked.target.file(db).path(db), checked.target.name(db)).into();
-        let traces = checked.trace.iter().cloned().collect();
-        let diagnostics = found(session, checked);
-        let is_lasting = checked.trace.is_some() && !diagnostics.iter().any(is_passing);
-        match job.filter(|(job, delivered)| is_complete(job, delivered)) {
-            // Refused, or not written: another time it may be.
-            None if checked.emitted.is_some() => Made { of, ..Made::default() },
-            None => Made {
-                of,
-                traces,
-                payload: is_lasting.then(|| encoded(&diagnostics, None)),
-                ..Made::default()
-            },
-            Some((job, delivered)) => Made {
-                of,
-                traces,
-                further: self.inserted(session, delivered),
-                outputs: outputs(delivered, self.task),
-                payload: is_lasting.then(|| encoded(&diagnostics, Some((job, delivered)))),
-            },
-        }
+    fn made(
+        &self,
+        session: &Session<'_>,
+        answer: &Answer,
+        jobs: &HashMap<&[Target], (&Job, Option<&Delivered>)>,
+    ) -> Made {
+        let targets: Vec<Target> = answer.checked.iter().map(|checked| checked.target).collect();
+        let of = of(session.db(), &targets, self.join).into();
+        let traces: Vec<Trace> = answer.checked.iter().filter_map(|checked| checked.trace.clone()).collect();
+        let mut diagnostics = answer.found(session);
+        diagnostics.extend_from_slice(&answer.refusals);
+        let job = jobs.get(&*targets).copied();
+        let problems = job.and_then(|(_, delivered)| delivered).into_iter().flat_map(|it| &it.problems);
+        let is_lasting = traces.len() == targets.len() && !diagnostics.iter().chain(problems).any(is_passing);
+        let (further, outputs) = match job {
+            _ if !is_lasting => return Made { of, ..Made::default() },
+            Some((job, Some(delivered))) if is_complete(job, delivered) => {
+                (self.inserted(session, delivered), outputs(delivered, self.task))
+            }
+            // Not written: another time it may be.
+            Some((_, Some(delivered))) if !delivered.is_refused => return Made { of, ..Made::default() },
+            _ => Default::default(),
+        };
+        Made { of, traces, further, outputs, payload: Some(encoded(&diagnostics, job)) }
     }
 
     /// The files that the post put in; its own is a part of the question.
@@ -161,12 +173,6 @@ impl Run<'_> {
         let beside = post.parent().unwrap_or(Utf8Path::new(""));
         delivered.inserted.iter().map(|name| session.normal(&beside.join(&**name))).collect()
     }
-}
-
-/// What is wrong with a path, and with the drawings that it is made from.
-pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
-    let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
-    of_files.chain(&checked.diagnostics).cloned().collect()
 }
 
 /// Whether all files of a program were written or compared, and nothing went wrong that may go right another time.
@@ -189,10 +195,19 @@ fn outputs(delivered: &Delivered, task: Task) -> Vec<MadeOutput> {
 }
 
 impl KnownProgram {
+    /// Whether nothing is written of it.
+    fn is_wrong(&self) -> bool {
+        self.problems.iter().any(Diagnostic::is_error)
+    }
+
+    fn outdated(&self) -> impl Iterator<Item = &Utf8Path> {
+        let outdated = self.files.iter().filter(|(.., state)| *state == OutputState::Outdated);
+        outdated.map(|(_, path, _)| &**path)
+    }
+
     fn is_current(&self, task: Task) -> bool {
-        let counts = |kind: OutputKind| task.compares(kind);
-        let mut all = self.files.iter().zip(&self.states);
-        all.all(|((kind, _), state)| !counts(*kind) || *state == OutputState::Current)
+        let is_current = |state: OutputState| state == OutputState::Current;
+        self.files.iter().all(|(kind, _, state)| !task.compares(*kind) || is_current(*state))
     }
 
     /// What becomes of its files: nothing, or what a comparison says.
@@ -204,9 +219,9 @@ impl KnownProgram {
             OutputState::Outdated => State::Outdated,
             OutputState::Missing => State::Missing,
         };
-        let files = self.files.iter().zip(&self.states).filter(|((kind, _), _)| task.compares(*kind));
+        let files = self.files.iter().filter(|(kind, ..)| task.compares(*kind));
         Delivered {
-            files: files.map(|((_, path), found)| (path.clone(), state(*found))).collect(),
+            files: files.map(|(_, path, found)| (path.clone(), state(*found))).collect(),
             length: self.length,
             minutes: self.minutes,
             problems: self.problems.clone(),
@@ -226,48 +241,63 @@ fn question(poster: Option<&Poster>) -> String {
     text
 }
 
-/// The name of a path's record.
-fn of(drawing: &Utf8Path, path: &str) -> String {
-    format!("{drawing}\0{path}")
+/// The name of the record of paths that become one program: the drawing of the first stands before the first NUL.
+pub(super) fn of(db: &Database, targets: &[Target], join: Option<&str>) -> String {
+    let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
+    let mut of = each.collect::<Vec<_>>().join("\0");
+    if let Some(join) = join {
+        _ = write!(of, "\0\0{join}");
+    }
+    of
 }
 
-fn encoded(diagnostics: &[Diagnostic], program: Option<(&Job, &Delivered)>) -> Vec<u8> {
+fn encoded(diagnostics: &[Diagnostic], job: Option<(&Job, Option<&Delivered>)>) -> Vec<u8> {
     let mut encoder = Encoder::default();
     encoder.list(diagnostics.iter(), encode_diagnostic);
-    encoder.option(program, |encoder, (job, delivered)| {
+    encoder.option(job, |encoder, (job, delivered)| {
         encoder.text(&job.path);
         encoder.text(job.stem.as_str());
         encoder.list(job.files.iter(), |encoder, (kind, path)| {
             encoder.u8(*kind as u8);
             encoder.text(path.as_str());
         });
-        encoder.u64(delivered.length.to_bits());
-        encoder.u64(delivered.minutes.to_bits());
-        encoder.list(delivered.problems.iter(), encode_diagnostic);
-        encoder.list(delivered.notes.iter(), encode_note);
-        encoder.text(&delivered.provenance.as_ref().map(Provenance::to_string).unwrap_or_default());
+        encoder.option(delivered, encode_program);
     });
     encoder.finish()
 }
 
-fn decoded(payload: &[u8]) -> Result<Known, Corrupt> {
+fn encode_program(encoder: &mut Encoder, delivered: &Delivered) {
+    encoder.u64(delivered.length.to_bits());
+    encoder.u64(delivered.minutes.to_bits());
+    encoder.list(delivered.problems.iter(), encode_diagnostic);
+    encoder.list(delivered.notes.iter(), encode_note);
+    encoder.text(&delivered.provenance.as_ref().map(Provenance::to_string).unwrap_or_default());
+}
+
+fn decoded(payload: &[u8]) -> Result<KnownPaths, Corrupt> {
     let mut decoder = Decoder::new(payload);
     let diagnostics = decoder.list(decode_diagnostic)?;
-    let program = decoder.option(|decoder| {
-        Ok(KnownProgram {
+    let job = decoder.option(|decoder| {
+        Ok(KnownJob {
             path: decoder.text()?.into(),
             stem: decoder.text()?.into(),
             files: decoder.list(|decoder| {
                 let kind = usize::from(decoder.u8()?);
                 Ok((*OutputKind::ALL.get(kind).ok_or(Corrupt)?, decoder.text()?.into()))
             })?,
-            states: Vec::new(),
-            length: f64::from_bits(decoder.u64()?),
-            minutes: f64::from_bits(decoder.u64()?),
-            problems: decoder.list(decode_diagnostic)?,
-            notes: decoder.list(decode_note)?,
-            provenance: decoder.text()?.parse().map_err(|()| Corrupt)?,
+            program: decoder.option(decode_program)?,
         })
     })?;
-    if decoder.is_at_end() { Ok(Known { diagnostics, program }) } else { Err(Corrupt) }
+    if decoder.is_at_end() { Ok(KnownPaths { diagnostics, job }) } else { Err(Corrupt) }
+}
+
+fn decode_program(decoder: &mut Decoder<'_>) -> Result<KnownProgram, Corrupt> {
+    Ok(KnownProgram {
+        files: Vec::new(),
+        length: f64::from_bits(decoder.u64()?),
+        minutes: f64::from_bits(decoder.u64()?),
+        problems: decoder.list(decode_diagnostic)?,
+        notes: decoder.list(decode_note)?,
+        provenance: decoder.text()?.parse().map_err(|()| Corrupt)?,
+    })
 }

@@ -1,7 +1,9 @@
 //! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
 
 mod combinations;
+mod drawings;
 mod elsewhere;
+mod found;
 mod graph;
 mod ignoring;
 mod keeper;
@@ -31,6 +33,8 @@ use self::workers::Workers;
 use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
+pub(crate) use drawings::{Drawing, Drawings};
+pub use found::{Argument, Found};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use keeper::{
     BUILD, Coverage, DrawingResult, Facts, Held, Keeper, Made, MadeOutput, OutputState, Question, Scope,
@@ -39,7 +43,7 @@ pub use keeper::{
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
-pub use resolve::{Found, Wanted, WantedPath};
+pub use resolve::{NamesOf, Wanted, WantedPath};
 pub use scene::Seen;
 pub use work::{Asking, CheckedTarget, Emitted};
 

@@ -1,15 +1,15 @@
 //! Looking at nothing is not right: directories that are missing or hold no drawing, drawings without paths. (spec/80-diagnostics.md)
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::Db;
 use pathbuild_db::system::Kind;
-use pathbuild_db::{Db, SourceFile, check_file, path_names};
 use pathbuild_diagnostic::messages::{configuration, outputs as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
-use super::Session;
+use super::found::FoundDirectory;
+use super::{DrawingResult, Session};
 use crate::config::{Origin, Sourced};
-use crate::inputs::Inputs;
 
 impl Session<'_> {
     /// PB003 for each directory of the library, and for each that is searched, that is not there.
@@ -39,10 +39,9 @@ impl Session<'_> {
     }
 
     /// PB518 for each named directory without drawings; of the library only if no directory of it has one, for it may be new.
-    /// `asked`: each directory, and whether there is a drawing in it or below.
-    pub(super) fn without_drawings(inputs: &Inputs, asked: &[(Utf8PathBuf, bool)]) -> Vec<Diagnostic> {
-        let is_library = inputs.inputs.is_empty();
-        let empty: Vec<&Utf8Path> = asked.iter().filter(|it| !it.1).map(|it| it.0.as_path()).collect();
+    pub(super) fn without_drawings(is_library: bool, asked: &[&FoundDirectory]) -> Vec<Diagnostic> {
+        let empty = asked.iter().filter(|directory| directory.drawings.is_empty());
+        let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
         match empty.as_slice() {
             [] => Vec::new(),
             all if is_library && all.len() == asked.len() => vec![no_drawing(all)],
@@ -76,15 +75,13 @@ impl Session<'_> {
         self.context.settings.general.compatible.value
     }
 
-    /// PB513 of a drawing that was named and holds no path, unless it cannot be read.
-    pub fn no_path(&self, file: SourceFile) -> Option<Diagnostic> {
-        let db = &self.db;
-        let is_right =
-            !path_names(db, file).is_empty() || check_file(db, file).iter().any(Diagnostic::is_error);
+    /// PB513 of a drawing that was named and holds no path, unless it cannot be read. `said`: what is known of it.
+    pub fn no_path(&self, drawing: &Utf8Path, said: &DrawingResult) -> Option<Diagnostic> {
+        let is_right = !said.names.is_empty() || said.diagnostics.iter().any(Diagnostic::is_error);
         (!is_right).then(|| {
             Diagnostic::new(&messages::NO_PATH)
                 .with("pattern", &*self.context.settings.general.path_pattern.value)
-                .in_file(file.path(db))
+                .in_file(drawing)
         })
     }
 }

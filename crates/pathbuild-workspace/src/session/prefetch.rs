@@ -12,10 +12,11 @@ use crate::inputs::{Input, Inputs};
 
 impl Session<'_> {
     /// Begins to list the directories that named drawings and paths need, and reads the drawings that are most likely needed.
-    pub fn prefetch(&self, inputs: &Inputs) {
+    /// Those of which something is known from an earlier run are likely to be as they were.
+    pub fn prefetch(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
         let mut known = HashSet::new();
         for input in inputs.iter() {
-            let Some((file, directory)) = self.likely_drawing(input) else { continue };
+            let Some((file, directory)) = self.likely_drawing(input, is_known) else { continue };
             let directories = search_path(&self.db, directory).iter();
             let new: Vec<Directory> =
                 directories.copied().filter(|directory| known.insert(*directory)).collect();
@@ -28,10 +29,14 @@ impl Session<'_> {
 
     /// The drawing that an argument most likely means, and the directory in which paths are looked for; `None` where no names are needed,
     /// or a walk through directories lists them.
-    fn likely_drawing(&self, input: Input<'_>) -> Option<(Option<SourceFile>, Directory)> {
+    fn likely_drawing(
+        &self,
+        input: Input<'_>,
+        is_known: &dyn Fn(SourceFile) -> bool,
+    ) -> Option<(Option<SourceFile>, Directory)> {
         match input {
             Input::Place(place) if Self::is_drawing(place) => {
-                let file = self.file(place);
+                let file = Some(self.file(place)).filter(|file| !is_known(*file))?;
                 let directory = self.db.directory(file.path(&self.db).parent().unwrap_or(Utf8Path::new("")));
                 pathbuild_db::embeds_others(&self.db, file).then_some((Some(file), directory))
             }
@@ -39,7 +44,8 @@ impl Session<'_> {
             Input::Name(_) if self.has_library() => None,
             Input::Name(name) => {
                 let directory = self.db.directory(Utf8Path::new(""));
-                Some((likely_file(&self.db, directory, name), directory))
+                let file = likely_file(&self.db, directory, name);
+                (!file.is_some_and(is_known)).then_some((file, directory))
             }
         }
     }

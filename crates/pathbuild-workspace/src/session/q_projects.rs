@@ -3,20 +3,13 @@
 use std::collections::HashMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Database, Db, SourceFile, q_project_findings};
+use pathbuild_db::{Database, SourceFile, q_project_findings};
 use pathbuild_diagnostic::Diagnostic;
 
 use super::Session;
 
 impl Session<'_> {
-    /// What drawings and the Q-projects among them say against each other.
-    pub fn q_projects(&self, drawings: &[SourceFile]) -> Vec<Diagnostic> {
-        let pairs = pairs(drawings.iter().map(|file| file.path(self.db()))).into_iter();
-        let pairs: Vec<Pair> = pairs.map(|pair| pair.map(|path| self.db().file(path))).collect();
-        self.judge_q_projects(&pairs).concat()
-    }
-
-    /// The same for each pair.
+    /// What drawings and their Q-projects say against each other, for each pair.
     pub fn judge_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
         let judge = |db: &Database, [drawing, q_project]: &Pair| {
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();

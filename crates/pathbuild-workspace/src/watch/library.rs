@@ -83,7 +83,7 @@ impl<'a> Library<'a> {
     /// Checks everything.
     pub(super) fn begin(&mut self) -> Batch {
         let wanted = self.session.wanted(self.inputs);
-        let mut drawings: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+        let mut drawings = wanted.whole(&self.session);
         drawings.extend(wanted.paths.iter().map(|path| path.file));
         let mut update = Batch { now: wanted.problems, ..Batch::default() };
         self.ask(drawings, &mut update);
@@ -201,8 +201,9 @@ impl<'a> Library<'a> {
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
         let wanted = self.session.wanted(self.inputs);
         let db = self.session.db();
-        let there: BTreeSet<&Utf8PathBuf> =
-            wanted.drawings.iter().map(|drawing| drawing.file.path(db)).collect();
+        let named = wanted.named.iter().copied().chain(wanted.paths.iter().map(|path| path.file));
+        let named = named.map(|file| file.path(db));
+        let there: BTreeSet<&Utf8PathBuf> = wanted.drawings.iter().chain(named).collect();
         for drawing in &there {
             if !self.drawings.contains_key(*drawing) {
                 concerned.insert(db.file(drawing));

@@ -55,7 +55,7 @@ fn definitions(
         let files = session.definitions(&name, &directories);
         found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, &name)?))));
     }
-    let files: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+    let files = wanted.whole(session);
     session.read_ahead(&files);
     for file in files {
         problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());

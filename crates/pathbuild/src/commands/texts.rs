@@ -45,9 +45,9 @@ fn texts(
     pattern: Option<&Regex>,
 ) -> (Vec<String>, Vec<Diagnostic>) {
     let wanted = session.wanted(&args.inputs);
-    let mut problems = wanted.problems;
-    let whole = wanted.drawings.iter().map(|drawing| (drawing.file, None));
+    let whole = wanted.whole(session).into_iter().map(|file| (file, None));
     let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
+    let mut problems = wanted.problems;
     let db = session.db();
     let mut shown = Vec::new();
     for (file, path) in whole.chain(parts) {

@@ -25,11 +25,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };
     let wanted = session.settled(|session| session.wanted(&args.inputs));
-    let drawings = wanted.drawings.iter().map(|drawing| drawing.file);
+    let named = wanted.named.iter().copied().chain(wanted.paths.iter().map(|path| path.file));
     let mut known = HashSet::new();
-    let all = drawings.chain(wanted.paths.iter().map(|path| path.file));
-    for file in all.filter(|file| known.insert(*file)) {
-        let drawing = file.path(session.db());
+    let all = wanted.drawings.iter().chain(named.map(|file| file.path(session.db())));
+    for drawing in all.filter(|drawing| known.insert(*drawing)) {
         let answer = Answer { drawing, reasons: keeper.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.printer.result_json(answer.json()),

@@ -181,16 +181,8 @@ impl Keeper {
         let is_as_it_was = made.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
         let made_now: HashSet<&str> = made.iter().map(|made| &*made.of).collect();
-        let all: Verdict;
-        let mut records = (0..self.kept.records()).map(|number| self.kept.record(number));
-        let verdict = if records.any(|record| !self.scope.holds(record.of())) {
-            all = look(session.context, &self.kept, &self.coverage, &Scope::All, Listings::new());
-            &all
-        } else {
-            &self.verdict
-        };
-        let mut writing = Writing::new(self, verdict, session, begun, made);
-        for number in (0..self.kept.records()).filter(|number| verdict.holds[*number]) {
+        let mut writing = Writing::new(self, session, begun, made);
+        for number in (0..self.kept.records()).filter(|number| self.verdict.is_sound[*number]) {
             let of = self.kept.record(number).of();
             if !made_now.contains(of) && self.scope.may_return(of, session.db().system()) {
                 writing.add_kept(number);

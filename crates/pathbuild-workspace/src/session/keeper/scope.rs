@@ -5,28 +5,31 @@ use std::collections::HashSet;
 use camino::Utf8Path;
 use pathbuild_db::system::{Kind, System};
 
-use crate::session::Found;
+use crate::session::{Found, Session};
 
 /// The drawings of a run. A result is of a drawing, or of something in it: then what follows the drawing stands behind a NUL.
 #[derive(Debug)]
 pub enum Scope {
     /// Whatever there is.
     All,
-    /// Those of some directories.
+    /// These.
     Drawings {
         /// The drawings.
         drawings: HashSet<String>,
-        /// Every directory that was looked through: there are no others in them.
+        /// Every directory that was looked through: there are no other drawings in them.
         directories: HashSet<String>,
     },
 }
 
 impl Scope {
-    /// That of drawings that were found in directories.
-    pub fn of(found: &Found) -> Self {
+    /// The drawings that arguments may mean.
+    pub fn of(session: &Session<'_>, found: &Found) -> Self {
+        let named = found.named().map(|file| file.path(session.db()).to_string());
+        let drawings = found.directories().flat_map(|directory| &directory.drawings);
+        let directories = found.directories().flat_map(|directory| &directory.directories);
         Self::Drawings {
-            drawings: found.drawings.iter().map(|drawing| drawing.as_str().to_owned()).collect(),
-            directories: found.directories.iter().map(|directory| directory.as_str().to_owned()).collect(),
+            drawings: drawings.map(ToString::to_string).chain(named).collect(),
+            directories: directories.map(ToString::to_string).collect(),
         }
     }
 
@@ -38,16 +41,18 @@ impl Scope {
         }
     }
 
-    /// Whether a result may be asked for another time: its drawing is there.
+    /// Whether a result may be asked for another time: its drawing is there. A run of single drawings does not look at others.
     pub(super) fn may_return(&self, of: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(of));
-        let was_looked_through = match self {
-            Self::All => false,
+        let is_file = || system.kind(drawing) == Kind::File;
+        match self {
+            Self::All => is_file(),
             Self::Drawings { directories, .. } => {
-                drawing.parent().is_some_and(|parent| directories.contains(parent.as_str()))
+                let is_below = |parent: &Utf8Path| directories.contains(parent.as_str());
+                let was_looked_through = drawing.parent().is_some_and(is_below);
+                self.holds(of) || directories.is_empty() || !was_looked_through && is_file()
             }
-        };
-        self.holds(of) && was_looked_through || !was_looked_through && system.kind(drawing) == Kind::File
+        }
     }
 }
 

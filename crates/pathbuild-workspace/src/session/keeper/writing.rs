@@ -1,9 +1,9 @@
 //! Putting together what is kept: results that still hold with what was known of their files, new ones with what is known now.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp, Verdict};
+use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp};
 use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
 
 use super::{Keeper, Made, MadeOutput};
@@ -12,7 +12,6 @@ use crate::session::Session;
 /// A catalogue while it is put together.
 pub(super) struct Writing<'a> {
     keeper: &'a Keeper,
-    verdict: &'a Verdict,
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
@@ -24,22 +23,21 @@ pub(super) struct Writing<'a> {
     /// The drawings that this run read, with the hash of what it read and the stamp it was read under; `None` where it could not be read,
     /// or was not always the same.
     read: HashMap<Utf8PathBuf, Option<([u8; 32], Stamp)>>,
+    /// The directories that this run asked for names.
+    asked: HashSet<&'a Utf8Path>,
+    /// The files that this run wrote or compared.
+    written: HashSet<&'a Utf8Path>,
 }
 
 impl<'a> Writing<'a> {
-    pub(super) fn new(
-        keeper: &'a Keeper,
-        verdict: &'a Verdict,
-        session: &'a Session<'a>,
-        begun: Clock,
-        made: &[Made],
-    ) -> Self {
+    pub(super) fn new(keeper: &'a Keeper, session: &'a Session<'a>, begun: Clock, made: &'a [Made]) -> Self {
         let kept = &keeper.kept;
         let db = session.db();
-        let read = made.iter().flat_map(|made| &made.traces).flat_map(|trace| &trace.files);
+        let traces = || made.iter().flat_map(|made| &made.traces);
+        let read = traces().flat_map(|trace| &trace.files);
+        let asked = traces().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories);
         Self {
             keeper,
-            verdict,
             session,
             begun,
             catalogue: Catalogue::default(),
@@ -48,6 +46,8 @@ impl<'a> Writing<'a> {
             kept_files: vec![None; kept.files()],
             kept_directories: vec![None; kept.directories()],
             read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
+            asked: asked.map(|directory| &**directory).collect(),
+            written: made.iter().flat_map(|made| &made.outputs).map(|output| &*output.path).collect(),
         }
     }
 
@@ -55,9 +55,14 @@ impl<'a> Writing<'a> {
         self.catalogue
     }
 
-    /// Takes over a record that still holds.
+    /// Takes over a record against which nothing was known, unless this run read something else in one of its drawings, or made one of
+    /// its files of something else.
     pub(super) fn add_kept(&mut self, number: usize) {
         let record = self.keeper.kept.record(number);
+        let is_written = |file: usize| self.written.contains(self.keeper.kept.file(file).path());
+        if record.files().any(|file| self.is_other(file)) || record.outputs().any(is_written) {
+            return;
+        }
         let files = record.files().map(|file| self.kept_file(file)).collect();
         let lookup = |lookup: Lookup| Lookup { directory: self.kept_directory(lookup.directory), ..lookup };
         let lookups = record.lookups().map(lookup).collect();
@@ -96,13 +101,21 @@ impl<'a> Writing<'a> {
         });
     }
 
+    /// Whether this run read other bytes than those that are known of a file at which it did not look before.
+    fn is_other(&self, number: usize) -> bool {
+        let file = self.keeper.kept.file(number);
+        let read =
+            self.read.get(file.path()).filter(|_| self.keeper.verdict.files[number] == FileState::Unlooked);
+        read.is_some_and(|content| content.map(|(hash, _)| hash) != file.hash())
+    }
+
     fn kept_file(&mut self, number: usize) -> usize {
         if let Some(new) = self.kept_files[number] {
             return new;
         }
         let file = self.keeper.kept.file(number);
         let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
-        match self.verdict.files[number] {
+        match self.keeper.verdict.files[number] {
             FileState::Resting | FileState::Unlooked => {}
             FileState::Restored(stamp) => fact.stamp = stamp.settled(self.begun),
             // An output that is not what it should be: its hash is still that of what should be there.
@@ -121,7 +134,10 @@ impl<'a> Writing<'a> {
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
         let known = self.keeper.kept.file_of(path);
-        match known.filter(|number| self.verdict.files[*number] != FileState::Changed) {
+        let is_known = |number: &usize| {
+            self.keeper.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
+        };
+        match known.filter(is_known) {
             Some(number) => self.kept_file(number),
             None => self.new_file(path, self.content(path)),
         }
@@ -167,7 +183,7 @@ impl<'a> Writing<'a> {
         if let Some(new) = self.kept_directories[number] {
             return new;
         }
-        let fact = self.verdict.directories[number].clone();
+        let fact = self.keeper.verdict.directories[number].clone();
         let new = self.push_directory(fact);
         self.kept_directories[number] = Some(new);
         new
@@ -193,8 +209,11 @@ impl<'a> Writing<'a> {
         number
     }
 
-    /// Whether the database found the same names, if it looked. That it looks now does no harm: then there is nothing that could differ.
+    /// Whether the database found the same names, if it looked.
     fn is_what_was_seen(&self, fact: &DirectoryFact) -> bool {
+        if !self.asked.contains(&*fact.path) {
+            return true;
+        }
         let db = self.session.db();
         let mut seen: Vec<&str> = drawing_names(db, db.directory(&fact.path)).iter().collect();
         seen.sort_unstable();

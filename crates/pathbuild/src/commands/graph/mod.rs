@@ -7,6 +7,8 @@ mod list;
 mod mermaid;
 mod tree;
 
+use std::collections::HashSet;
+
 use pathbuild_db::{Role, SourceFile, Target, check_file};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -84,11 +86,12 @@ struct Asked {
 impl Asked {
     fn new(session: &Session<'_>, wanted: Wanted) -> Self {
         let db = session.db();
-        let files: Vec<SourceFile> = wanted.drawings.iter().map(|drawing| drawing.file).collect();
+        let files = wanted.whole(session);
         session.read_ahead(&files);
         let mut targets: Vec<Target> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
-        let named = wanted.paths.iter().filter(|path| !files.contains(&path.file));
+        let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
+        let named = wanted.paths.iter().filter(|path| !is_whole.contains(&path.file));
         targets.extend(named.map(|path| session.target(path, Role::Checked)));
         let mut problems = wanted.problems;
         let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
@@ -101,7 +104,8 @@ impl Asked {
         let files = session.everything();
         self.problems.extend(session.library_problems());
         session.read_ahead(&files);
-        let others = files.into_iter().filter(|file| !self.files.contains(file));
+        let asked: HashSet<SourceFile> = self.files.iter().copied().collect();
+        let others = files.into_iter().filter(|file| !asked.contains(file));
         let others = others.flat_map(|file| session.targets(file, &Role::Checked));
         self.targets.iter().copied().chain(others).collect()
     }

@@ -90,10 +90,10 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     if let [path] = wanted.paths.as_slice() {
         return Ok(session.target(path, Role::Emitted));
     }
-    let [drawing] = wanted.drawings.as_slice() else {
+    let [file] = wanted.named.as_slice() else {
         return Err(Failure::Usage(format!("--against takes one path: `{name}` is a directory")));
     };
-    let file = drawing.file;
+    let file = *file;
     match path_names(db, file) {
         [path] => Ok(Target::new(db, file, path.as_str().into(), Role::Emitted)),
         names => {

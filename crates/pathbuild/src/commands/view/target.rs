@@ -55,9 +55,9 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
     }
     let db = session.db();
     let (file, names): (SourceFile, Vec<PathName>) =
-        match (wanted.directories.as_slice(), wanted.paths.as_slice(), wanted.drawings.as_slice()) {
+        match (wanted.directories.as_slice(), wanted.paths.as_slice(), wanted.named.as_slice()) {
             ([], [path], []) => (path.file, vec![path.name.clone()]),
-            ([], [], [drawing]) => (drawing.file, path_names(db, drawing.file).to_vec()),
+            ([], [], [file]) => (*file, path_names(db, *file).to_vec()),
             _ => {
                 let what = shown::line(what);
                 let reason = format!("view shows one path, drawing or program: `{what}` is a directory");

@@ -1,0 +1,275 @@
+//! What arguments may mean by the names of files alone: no drawing is read. (spec/05-command-line.md)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Listings;
+use pathbuild_db::system::Kind;
+use pathbuild_db::{Db, SourceFile, drawing_names, may_hold};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::{Session, library};
+use crate::inputs::{Input, Inputs};
+
+/// What arguments may mean.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// Each argument; without any, the directories of the library.
+    pub arguments: Vec<Argument>,
+    /// Whether there are no arguments.
+    pub is_library: bool,
+    /// What is in each directory, as far as it was looked at.
+    pub listings: Listings,
+    /// Directories of the configuration that are not there.
+    pub problems: Vec<Diagnostic>,
+    /// Where names were looked for, if there are names.
+    pub(super) name_directories: Vec<Utf8PathBuf>,
+}
+
+/// What an argument may mean.
+#[derive(Debug)]
+pub enum Argument {
+    /// A directory.
+    Directory(FoundDirectory),
+    /// A drawing, there or not.
+    Drawing(SourceFile),
+    /// The first of these that there is: a path, a drawing without its `.dxf`, a directory.
+    Name {
+        /// As it was given.
+        name: PathName,
+        /// The drawings that may define the path by their names.
+        candidates: Vec<SourceFile>,
+        /// The drawing of that name.
+        drawing: Option<SourceFile>,
+        /// The directory of that name.
+        directory: Option<FoundDirectory>,
+    },
+}
+
+/// A directory that was walked through.
+#[derive(Debug)]
+pub struct FoundDirectory {
+    /// The directory.
+    pub path: Utf8PathBuf,
+    /// Every drawing in it and below, in order.
+    pub drawings: Vec<Utf8PathBuf>,
+    /// The directory itself, and those below.
+    pub directories: Vec<Utf8PathBuf>,
+    /// Directories that cannot be listed, or hold too much.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Found {
+    /// The directories that may be meant.
+    pub fn directories(&self) -> impl Iterator<Item = &FoundDirectory> {
+        self.arguments.iter().filter_map(Argument::directory)
+    }
+
+    /// The drawings that were named, or may define a path that was named.
+    pub fn named(&self) -> impl Iterator<Item = SourceFile> {
+        let named = self.arguments.iter().filter_map(|argument| match argument {
+            Argument::Drawing(file) => Some(*file),
+            Argument::Name { drawing, .. } => *drawing,
+            Argument::Directory(_) => None,
+        });
+        named.chain(self.candidates())
+    }
+
+    /// The drawings that may define a path that was named.
+    pub fn candidates(&self) -> impl Iterator<Item = SourceFile> {
+        let candidates = self.arguments.iter().filter_map(|argument| match argument {
+            Argument::Name { candidates, .. } => Some(candidates),
+            Argument::Drawing(_) | Argument::Directory(_) => None,
+        });
+        candidates.flatten().copied()
+    }
+}
+
+impl Argument {
+    fn directory(&self) -> Option<&FoundDirectory> {
+        match self {
+            Self::Directory(directory) => Some(directory),
+            Self::Name { directory, .. } => directory.as_ref(),
+            Self::Drawing(_) => None,
+        }
+    }
+}
+
+impl Session<'_> {
+    /// What arguments may mean; without any, the library.
+    pub fn found(&self, inputs: &Inputs) -> Found {
+        let is_library = inputs.inputs.is_empty();
+        let mut found = Found { problems: self.missing_directories(), is_library, ..Found::default() };
+        if is_library {
+            let library = self.library_walked(&mut found.listings);
+            found.arguments = library.into_iter().map(Argument::Directory).collect();
+            return found;
+        }
+        if inputs.iter().any(|input| matches!(input, Input::Name(_))) {
+            found.name_directories = self.listed_name_directories(&mut found.listings);
+        }
+        for input in inputs.iter() {
+            let argument = match input {
+                Input::Place(place) => self.place(place, &mut found.listings),
+                Input::Name(name) => self.name(name, &mut found),
+            };
+            found.arguments.push(argument);
+        }
+        found
+    }
+
+    fn place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
+        if self.is_directory(place) && !library::is_drawing(place) {
+            return Argument::Directory(self.walked_in(self.normal(place), listings));
+        }
+        Argument::Drawing(self.file(place))
+    }
+
+    fn name(&self, name: &str, found: &mut Found) -> Argument {
+        let directories = &found.name_directories;
+        let drawing = self.drawing_of_name(name, directories);
+        let path = PathName::new(name);
+        let held = directories.iter().flat_map(|it| may_hold(&self.db, self.db.directory(it), &path));
+        let candidates = held.collect();
+        let place = Utf8Path::new(name);
+        let directory =
+            self.is_directory(place).then(|| self.walked_in(self.normal(place), &mut found.listings));
+        Argument::Name { name: path, candidates, drawing, directory }
+    }
+
+    /// The drawing of a name without its extension, in whatever case that is: of several the first.
+    fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
+        directories.iter().find_map(|directory| {
+            let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);
+            let names = drawing_names(&self.db, self.db.directory(directory));
+            Some(self.file(&directory.join(names.iter().filter(is_meant).min()?)))
+        })
+    }
+
+    fn walked_in(&self, directory: Utf8PathBuf, listings: &mut Listings) -> FoundDirectory {
+        self.rouse_workers();
+        let walked = self.walk().through(&directory);
+        self.found_directory(directory, walked, listings)
+    }
+
+    fn found_directory(
+        &self,
+        path: Utf8PathBuf,
+        walked: library::Walked,
+        listings: &mut Listings,
+    ) -> FoundDirectory {
+        let listed = walked.listings.into_iter();
+        listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
+        let normalised = |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|it| self.normalised(it)).collect();
+        let (drawings, directories) = (normalised(walked.drawings), normalised(walked.directories));
+        FoundDirectory { path, drawings, directories, problems: walked.problems }
+    }
+
+    fn library_walked(&self, listings: &mut Listings) -> Vec<FoundDirectory> {
+        let library = self.context.settings.general.library.value.iter();
+        let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
+        let walk = self.walk();
+        let walked: Vec<library::Walked> = if walk.is_parallel && library.len() > 1 {
+            library.par_iter().map(|directory| walk.through(directory)).collect()
+        } else {
+            library.iter().map(|directory| walk.through(directory)).collect()
+        };
+        let each = library.into_iter().zip(walked);
+        each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
+    }
+
+    /// Where names are looked for: the working directory, the search directories, the library and what is below it.
+    pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
+        self.listed_name_directories(&mut Listings::new())
+    }
+
+    fn listed_name_directories(&self, listings: &mut Listings) -> Vec<Utf8PathBuf> {
+        let searched = self.context.settings.general.search.value.iter();
+        let searched = searched.map(|directory| self.normal(directory));
+        let library = holding_drawings(&self.library_walked(listings));
+        self.know_names(listings);
+        distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(library))
+    }
+
+    /// The directories of the library that hold drawings.
+    pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
+        holding_drawings(&self.library_walked(&mut Listings::new()))
+    }
+
+    /// The drawings of the configured library.
+    pub fn library(&self) -> Vec<Utf8PathBuf> {
+        let walked = self.library_walked(&mut Listings::new()).into_iter();
+        walked.flat_map(|directory| directory.drawings).collect()
+    }
+
+    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below.
+    pub fn everything(&self) -> Vec<SourceFile> {
+        let drawings = if self.has_library() {
+            self.library()
+        } else {
+            self.drawings_below(Utf8Path::new("")).collect()
+        };
+        drawings.iter().map(|drawing| self.file(drawing)).collect()
+    }
+
+    /// The drawings in a directory and below.
+    pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
+        self.walk().through(directory).drawings.into_iter()
+    }
+
+    /// What keeps the library, or without one the working directory, from being looked through.
+    pub fn library_problems(&self) -> Vec<Diagnostic> {
+        if self.has_library() {
+            let walked = self.library_walked(&mut Listings::new()).into_iter();
+            walked.flat_map(|directory| directory.problems).collect()
+        } else {
+            self.walk().through(Utf8Path::new("")).problems
+        }
+    }
+
+    /// Directories that were just listed need not be listed once more for their names, if nothing about them is in doubt.
+    pub fn know_names(&self, listings: &Listings) {
+        for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
+            self.db.know_names(directory, listing.names.iter().collect());
+        }
+    }
+
+    /// Whether a name is a drawing's.
+    pub fn is_drawing(path: &Utf8Path) -> bool {
+        library::is_drawing(path)
+    }
+
+    /// Whether the configuration says what to do without arguments.
+    pub fn has_library(&self) -> bool {
+        !self.context.settings.general.library.value.is_empty()
+    }
+
+    /// Whether a place is a directory.
+    pub fn is_directory(&self, place: &Utf8Path) -> bool {
+        self.db.system().kind(&self.normal(place)) == Kind::Directory
+    }
+
+    fn walk(&self) -> library::Walk<'_> {
+        let limits = &self.context.settings.limits;
+        library::Walk {
+            system: &*self.context.system,
+            limit: limits.library_entries.value,
+            rules_limit: limits.ignore_file_size.value,
+            is_parallel: self.context.jobs != Some(1),
+        }
+    }
+}
+
+fn holding_drawings(walked: &[FoundDirectory]) -> Vec<Utf8PathBuf> {
+    let drawings = walked.iter().flat_map(|directory| &directory.drawings);
+    let parents = drawings.filter_map(|drawing| drawing.parent());
+    let mut seen = FxHashSet::default();
+    parents.filter(|directory| seen.insert(*directory)).map(Utf8Path::to_owned).collect()
+}
+
+/// Each of them once, in their order.
+fn distinct(directories: impl Iterator<Item = Utf8PathBuf>) -> Vec<Utf8PathBuf> {
+    let mut seen = FxHashSet::default();
+    directories.filter(|directory| seen.insert(directory.clone())).collect()
+}
