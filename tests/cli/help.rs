@@ -70,14 +70,11 @@ fn every_example_is_a_fixture_that_can_be_drawn() {
 }
 
 #[test]
-fn completions_know_every_visible_command() {
+fn completions_are_scripts_that_ask_the_program() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let run = Place::new().run(&format!("completions {shell}"));
         assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{run}");
-        for word in ["check", "emit", "explain", "--sweep-height", "--error-on-warning"] {
-            let word = if shell == "fish" { word.trim_start_matches("--") } else { word };
-            assert!(run.stdout.contains(word), "{shell} lacks {word}");
-        }
+        assert!(run.stdout.contains("PATHBUILD_COMPLETE"), "{run}");
     }
     assert_snapshot!(Place::new().run("completions tcsh"));
 }

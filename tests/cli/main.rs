@@ -25,6 +25,7 @@ mod hostile_projects;
 mod kills;
 mod library;
 mod licences;
+mod list;
 mod machines;
 mod meanwhile;
 mod nesting;

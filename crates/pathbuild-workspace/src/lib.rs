@@ -7,6 +7,7 @@ pub mod config;
 pub mod emit;
 pub mod files;
 mod inputs;
+pub mod list;
 pub mod posting;
 mod reporter;
 pub mod session;

@@ -3,13 +3,16 @@
 
 pub mod args;
 pub mod commands;
+mod completion;
 mod context;
 mod exit;
+mod numbers;
 pub mod printer;
 pub mod progress;
 pub mod render;
 pub mod report;
 mod surroundings;
+mod table;
 mod usage;
 mod watching;
 
@@ -34,6 +37,9 @@ use printer::{ColorChoice, Printer};
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if let Some(status) = completion::answer(&arguments) {
+        return status;
+    }
     match Cli::read(&arguments) {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
         Ok(cli) => execute(&cli),

@@ -99,7 +99,7 @@ fn commands() -> String {
     let mut cli = Cli::command();
     cli.build();
     let mut text = String::new();
-    let visible = cli.get_subcommands().filter(|command| !command.is_hide_set());
+    let visible = cli.get_subcommands().filter(|it| !it.is_hide_set() && it.get_name() != "help");
     for command in visible {
         command_text(&mut text, "pathbuild", command);
     }
@@ -115,7 +115,7 @@ fn command_text(text: &mut String, before: &str, command: &Command) {
     if !table.is_empty() {
         _ = writeln!(text, "{table}");
     }
-    for inner in command.get_subcommands() {
+    for inner in command.get_subcommands().filter(|inner| inner.get_name() != "help") {
         command_text(text, &name, inner);
     }
 }

@@ -15,6 +15,11 @@ messages! {
         help_en: "check the name; relative names count from the working directory",
         help_de: "den Namen prüfen; relative Namen zählen ab dem Arbeitsverzeichnis",
     }
+    /// Note: a name that is nearly the same.
+    NEAR_FILE: UnreadableFile {
+        en: "did you mean {near}?",
+        de: "ist {near} gemeint?",
+    }
     /// A directory where a drawing was expected.
     IS_DIRECTORY: UnreadableFile {
         en: "this is a directory, not a drawing",

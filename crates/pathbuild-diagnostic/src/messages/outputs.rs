@@ -57,6 +57,18 @@ messages! {
         help_en: "looked in {directories}",
         help_de: "gesucht in {directories}",
     }
+    /// A pattern of `list` that no path matches.
+    NO_PATH_LIKE: PathNotFound {
+        en: "no path matches {name}",
+        de: "kein Pfad entspricht {name}",
+        help_en: "`pathbuild list` shows all; * stands for any characters, ? for one",
+        help_de: "`pathbuild list` zeigt alle; * steht für beliebige Zeichen, ? für eines",
+    }
+    /// Note: names that are nearly the same.
+    NEAR_PATH: PathNotFound {
+        en: "did you mean {near}?",
+        de: "ist {near} gemeint?",
+    }
     /// Two outputs of one name.
     SAME_OUTPUT: SameOutput {
         en: "{name} would be written by {first} and by {second}",

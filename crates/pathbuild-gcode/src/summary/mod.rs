@@ -4,7 +4,9 @@ mod tally;
 
 use pathbuild_diagnostic::{Code, Diagnostic};
 
-use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning};
+use pathbuild_toolpath::Program;
+
+use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning, each_move_of};
 
 pub use tally::{Kind, Tally};
 
@@ -129,6 +131,15 @@ fn widen(extent: &mut Extent, it: &Move) {
             (known, more) => known.or(more),
         };
     }
+}
+
+/// Lowest and highest X, Y, Z of the cutter's tip in a drawn program's cutting moves, in mm; `None` where it cuts nothing.
+pub fn cutting_box(program: &Program) -> Extent {
+    let mut extent = Extent::default();
+    for (_, it) in each_move_of(program).filter(|(_, it)| matches!(it.pace, Pace::Feed(_))) {
+        widen(&mut extent, &it);
+    }
+    extent
 }
 
 /// Whether a diagnostic says that something was taken for granted that the program does not say.

@@ -92,7 +92,7 @@ impl Request<'_> {
         let mut found = session.timings().measure(&FINDING, || session.found(self.inputs));
         let results = Results::open(session, self, &mut found);
         let mut checked = check(session, self, &found, &results)?;
-        checked.diagnostics = session.with_elsewhere(checked.diagnostics);
+        checked.diagnostics = session.with_hints(checked.diagnostics);
         leave((results, found));
         Ok(checked)
     }

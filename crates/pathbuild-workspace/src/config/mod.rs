@@ -15,7 +15,7 @@ mod discover;
 mod kind;
 mod kinds;
 mod load;
-mod nearest;
+pub(crate) mod nearest;
 mod options;
 mod origin;
 mod reader;

@@ -16,8 +16,10 @@ mod store;
 mod write_queue;
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
 use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 
@@ -118,7 +120,7 @@ impl Request<'_> {
             store.keep(session, &Run { task, join, poster, asked, answers, jobs, delivered, refused });
         }
         delivered.extend(older);
-        Ok(Emission { delivered, removed, outdated, diagnostics: session.with_elsewhere(diagnostics) })
+        Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
     }
 
     /// What earlier runs kept about the drawings that may be meant.
@@ -149,6 +151,27 @@ fn tell_known(context: &Workspace, asked: &Asked, answers: &[Answer]) {
     for (phrase, (known, all)) in phrases.iter().zip(known) {
         context.reporter.detail(&format!("{phrase}: {known} / {all}"));
     }
+}
+
+/// Of targets whose programs lie on disk, whether these are what would be written now.
+pub(crate) fn on_disk(
+    session: &mut Session<'_>,
+    poster: Option<&Poster>,
+    targets: &[Target],
+) -> HashMap<Target, bool> {
+    let checked = session.check(targets);
+    let maker = Maker { session, poster, join: None };
+    let made = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
+    let mut jobs: Vec<_> = made.collect();
+    let system = Arc::clone(&session.workspace().system);
+    jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == Kind::File));
+    let means = Means::new(session.workspace(), poster);
+    let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &means);
+    let is_current = |delivered: &Delivered| {
+        delivered.files.iter().all(|(_, state)| matches!(state, State::Current))
+            && !delivered.files.is_empty()
+    };
+    jobs.iter().zip(&delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
 }
 
 /// Which path each file was written for, by its name without regard to case.

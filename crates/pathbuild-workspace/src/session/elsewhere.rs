@@ -12,7 +12,7 @@ use super::Session;
 
 impl Session<'_> {
     /// Adds to each PB503 of a subpath where in the library the path is. The library is looked through only where there is one.
-    pub fn with_elsewhere(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    pub(super) fn with_elsewhere(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut known: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
         let with_elsewhere = |diagnostic: Diagnostic| {

@@ -8,6 +8,7 @@ mod graph;
 mod ignoring;
 mod keeper;
 mod library;
+mod near;
 mod nothing;
 mod outputs;
 mod prefetch;

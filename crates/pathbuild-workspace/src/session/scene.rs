@@ -3,8 +3,8 @@
 use std::slice;
 
 use pathbuild_db::{
-    Db, DrawnPath, Role, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index,
-    other_layers, traced_program,
+    Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, other_layers,
+    traced_program,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{self, Header, WriteOptions};
@@ -45,7 +45,9 @@ impl Session<'_> {
     }
 
     fn scene_path(&self, file: SourceFile, name: &PathName) -> (Option<ScenePath>, Vec<Diagnostic>) {
-        let checked = self.checked_to_see(file, name);
+        let checked =
+            self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
+        let Some(checked) = checked else { return (None, Vec::new()) };
         let options = &write_options(self.context);
         let work = |db: &pathbuild_db::Database, target: &Target| {
             let traced = traced_program(db, *target);
@@ -62,20 +64,6 @@ impl Session<'_> {
         }
         let drawn = drawn_path(&self.db, file, name);
         (drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn))), diagnostics)
-    }
-
-    /// A path as it is emitted, or where that asks for more than is known, as it is checked.
-    fn checked_to_see(&self, file: SourceFile, name: &PathName) -> super::CheckedTarget {
-        let index = file_index(&self.db, file).path(name);
-        let has_variables = index.is_some_and(|path| !path.header.definitions.is_empty());
-        let target = |role| [self.target_in(file, name, role)];
-        if !has_variables {
-            let emitted = self.check(&target(Role::Emitted)).pop();
-            if let Some(emitted) = emitted.filter(|emitted| emitted.missing_options.is_empty()) {
-                return emitted;
-            }
-        }
-        self.check(&target(Role::Checked)).pop().expect("one for each target")
     }
 }
 

@@ -188,6 +188,20 @@ impl Asking<'_> {
         self.is_traced
     }
 
+    /// Checks a path as it is emitted; where that asks for more than is known, with variables or without options, as it is embedded: with
+    /// example values, and S above what it embeds.
+    pub fn check_as_known(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
+        let target = |role| self.db.target(file, name.as_str(), role);
+        let index = file_index(self.db, file).path(name);
+        if index.is_some_and(|path| path.header.definitions.is_empty()) {
+            let emitted = self.check(target(Role::Emitted));
+            if emitted.missing_options.is_empty() {
+                return emitted;
+            }
+        }
+        self.check(target(Role::Checked))
+    }
+
     /// Checks a target. If it takes too long or shows a bug, that is what is found.
     pub fn check(&self, target: Target) -> CheckedTarget {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));

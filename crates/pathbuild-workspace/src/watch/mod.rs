@@ -150,7 +150,7 @@ impl Watching<'_> {
         let written = self.writer.begin(self.library.session_mut(), &found.asked);
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
-        let diagnostics = self.library.session().with_elsewhere([found.now, written].concat());
+        let diagnostics = self.library.session().with_hints([found.now, written].concat());
         self.listener.begun(Beginning { drawings, paths, diagnostics, time });
     }
 
@@ -182,8 +182,8 @@ impl Watching<'_> {
             removed,
             checked: asked.len(),
             open,
-            before: session.with_elsewhere(before),
-            now: session.with_elsewhere([now, written].concat()),
+            before: session.with_hints(before),
+            now: session.with_hints([now, written].concat()),
             time,
         });
     }

@@ -2,6 +2,7 @@ use camino::Utf8PathBuf;
 use clap::Args;
 
 use super::InputArgs;
+use crate::completion;
 
 /// `pathbuild emit`
 #[derive(Clone, Debug, Default, Args)]
@@ -20,7 +21,7 @@ pub struct EmitArgs {
     #[arg(long)]
     pub force: bool,
     /// Write for this post-processor: a built-in name or a file
-    #[arg(long, value_name = "POST")]
+    #[arg(long, value_name = "POST", add = completion::posts())]
     pub post: Option<String>,
     /// Make one program of several paths, in their order, with tool changes where O differs
     #[arg(long, value_name = "NAME")]
@@ -36,7 +37,7 @@ pub struct EmitArgs {
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
     /// Dialect in which the post's output is checked and read back, where the post names none
-    #[arg(long, value_name = "DIALECT")]
+    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
     pub dialect: Option<String>,
     /// Date that the post may write
     #[arg(long, value_name = "DATE")]

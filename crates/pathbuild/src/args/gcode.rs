@@ -3,6 +3,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
 use pathbuild_gcode::dialect::Dialect;
 
+use crate::completion;
+
 /// How programs are read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ReadingArgs {
@@ -52,7 +54,7 @@ pub struct VerifyArgs {
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
     /// Compare with what this path's drawing says, which also tells cutter and material
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", add = completion::paths())]
     pub against: Option<String>,
     /// Diameter of the cutter; else by T and `[tool.NAME]`
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
@@ -76,7 +78,7 @@ pub struct PostArgs {
     #[arg(value_name = "FILE", required = true)]
     pub file: Option<Utf8PathBuf>,
     /// A built-in name or a file
-    #[arg(long, value_name = "POST", required = true)]
+    #[arg(long, value_name = "POST", required = true, add = completion::posts())]
     pub post: Option<String>,
     /// File to write; else standard output
     #[arg(short, long, value_name = "FILE")]
@@ -85,7 +87,7 @@ pub struct PostArgs {
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
     /// Dialect in which the post's output is checked and read back, where the post names none
-    #[arg(long, value_name = "DIALECT")]
+    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
     pub target: Option<String>,
     /// Date that the post may write
     #[arg(long, value_name = "DATE")]
@@ -106,6 +108,7 @@ pub enum PostCommand {
     /// Print a built-in post's definition
     Show {
         /// Name of a built-in post
+        #[arg(add = completion::posts())]
         name: String,
     },
 }

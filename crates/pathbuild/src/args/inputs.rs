@@ -5,6 +5,8 @@ use std::ops::Deref;
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches};
 use pathbuild_workspace::Inputs;
 
+use crate::completion;
+
 /// Drawings, paths and directories as arguments.
 #[derive(Clone, Debug, Default)]
 pub struct InputArgs(Inputs);
@@ -12,7 +14,7 @@ pub struct InputArgs(Inputs);
 #[derive(Args)]
 struct Declared {
     /// Drawings (.dxf), names of paths, directories
-    #[arg(value_name = "DRAWING|PATH|DIRECTORY")]
+    #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completion::paths())]
     inputs: Vec<String>,
 }
 

@@ -1,8 +1,9 @@
 use camino::Utf8PathBuf;
 use clap::{Args, Subcommand};
-use clap_complete::Shell;
+use clap_complete::env::Shells;
 
 use super::{InputArgs, ReadingArgs};
+use crate::completion;
 
 /// `pathbuild texts`
 #[derive(Clone, Debug, Default, Args)]
@@ -19,7 +20,7 @@ pub struct TextsArgs {
 #[derive(Clone, Debug, Args)]
 pub struct ViewArgs {
     /// Name of a path, drawing (.dxf), or G-code program
-    #[arg(value_name = "PATH|DRAWING|FILE")]
+    #[arg(value_name = "PATH|DRAWING|FILE", add = completion::paths())]
     pub what: String,
     /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); else the browser shows it
     #[arg(short, long, value_name = "FILE")]
@@ -78,7 +79,7 @@ pub enum CacheCommand {
 #[derive(Clone, Debug, Default, Args)]
 pub struct ExplainArgs {
     /// Code or name of a diagnostic: PB203, parameter-out-of-range
-    #[arg(value_name = "CODE")]
+    #[arg(value_name = "CODE", add = completion::codes())]
     pub codes: Vec<String>,
 }
 
@@ -115,11 +116,11 @@ pub enum ConfigCommand {
 }
 
 /// `pathbuild completions`
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct CompletionsArgs {
     /// For which shell
-    #[arg(value_name = "SHELL", value_enum)]
-    pub shell: Shell,
+    #[arg(value_name = "SHELL", value_parser = Shells::builtins().names().collect::<Vec<_>>())]
+    pub shell: String,
 }
 
 /// `pathbuild compat`

@@ -22,7 +22,7 @@ pub use deferred::Deferred;
 pub use emit::{AdjustArgs, EmitArgs};
 pub use format::{Format, ReportFile};
 pub use gcode::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
-pub use graph::GraphArgs;
+pub use graph::{GraphArgs, ListArgs};
 pub use inputs::InputArgs;
 pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
@@ -47,7 +47,6 @@ pub struct Cli {
 
 /// The commands. What is hidden is not built yet and is refused.
 #[derive(Debug, Subcommand)]
-#[command(disable_help_subcommand = true)]
 pub enum Command {
     /// Check every path of the given drawings, paths or directories; without arguments the library. Writes nothing
     Check(Deferred<CheckArgs>),
@@ -76,6 +75,10 @@ pub enum Command {
     Deps(Deferred<GraphArgs>),
     /// Show what embeds a path
     Rdeps(Deferred<GraphArgs>),
+    /// List paths with drawing, M, T, O, size, length, minutes and state; without arguments those of the library
+    List(Deferred<ListArgs>),
+    /// Show how many paths there are, of which material and cutter, in which state
+    Stats(Deferred<ListArgs>),
     /// Show where a path is defined
     Where(Deferred<GraphArgs>),
     /// Show why drawings would be compiled again: what has changed since the last `check` of the library
@@ -113,6 +116,7 @@ impl Command {
             | Self::Rdeps(args)
             | Self::Where(args)
             | Self::Why(args) => (*args.inputs).clone(),
+            Self::List(args) | Self::Stats(args) => args.inputs(),
             Self::QProject(args) => Inputs::places([&args.drawing]),
             Self::Adjust(args) => Inputs::places(&args.files),
             Self::Import(args) => Inputs::places(&args.files),
@@ -147,6 +151,8 @@ impl Command {
             Self::Graph(_) => "graph",
             Self::Deps(_) => "deps",
             Self::Rdeps(_) => "rdeps",
+            Self::List(_) => "list",
+            Self::Stats(_) => "stats",
             Self::Where(_) => "where",
             Self::Why(_) => "why",
             Self::QProject(_) => "q-project",

@@ -1,15 +1,19 @@
-//! `pathbuild completions`: a script that lets a shell complete commands and options.
+//! `pathbuild completions`: a script that lets a shell complete commands, options, and names of paths, posts and codes.
 
-use clap::CommandFactory;
+use clap_complete::env::Shells;
 
-use crate::args::{Cli, CompletionsArgs};
+use crate::args::CompletionsArgs;
+use crate::completion::VARIABLE;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
 /// Prints the script.
 pub fn run(context: &Context, args: &CompletionsArgs) -> ExitStatus {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "pathbuild", &mut script);
+    let shell = Shells::builtins();
+    let Some(shell) = shell.completer(&args.shell) else { return ExitStatus::Usage };
+    // Writing into memory cannot fail.
+    _ = shell.write_registration(VARIABLE, "pathbuild", "pathbuild", "pathbuild", &mut script);
     context.printer.result_bytes(&script);
     ExitStatus::Success
 }

@@ -23,7 +23,8 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let (found, problems) = session.settled(|session| {
         let wanted = session.wanted(&args.inputs);
         let mut problems = wanted.problems.clone();
-        (definitions(session, args, &wanted, &mut problems), problems)
+        let found = definitions(session, args, &wanted, &mut problems);
+        (found, session.with_hints(problems))
     });
     for (file, place) in found {
         let file = file.path(session.db()).as_str();

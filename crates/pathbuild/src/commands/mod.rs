@@ -11,6 +11,7 @@ pub mod explain;
 pub mod graph;
 pub mod import;
 pub mod init;
+pub mod list;
 pub mod locate;
 pub mod man;
 pub mod post;
@@ -49,6 +50,8 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Graph(args) => graph::graph(context, args),
         Command::Deps(args) => graph::deps(context, args),
         Command::Rdeps(args) => graph::rdeps(context, args),
+        Command::List(args) => list::list(context, args),
+        Command::Stats(args) => list::stats(context, args),
         Command::Where(args) => locate::run(context, args),
         Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),

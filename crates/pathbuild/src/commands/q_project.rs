@@ -28,7 +28,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     match session.settled(|session| drawn(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
         Err(problems) => {
-            let findings = context.findings(session.with_elsewhere(problems));
+            let findings = context.findings(session.with_hints(problems));
             context.show(&findings);
             ExitStatus::Errors
         }

@@ -35,7 +35,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             _ => context.printer.result(answer.text(context)),
         }
     }
-    let findings = context.findings(wanted.problems);
+    let findings = context.findings(session.with_hints(wanted.problems));
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }

@@ -4,6 +4,7 @@ use std::time::Duration;
 use pathbuild_diagnostic::Lang;
 
 use super::Findings;
+use crate::numbers;
 
 /// The line that a check ends with: `2,014 paths in 812 drawings: 3 errors in 2 of them, 14 warnings (0.4 s)`. The second number of
 /// errors is that of drawings with errors; `known` is how many findings a baseline held back.
@@ -20,7 +21,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
             "{} {} {} {}",
             words.count(errors, words.errors),
             words.within,
-            words.number(erroneous(findings)),
+            numbers::count(erroneous(findings), lang),
             words.of_them
         ),
     };
@@ -28,8 +29,13 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
         0 => words.no_warnings.to_owned(),
         warnings => words.count(warnings, words.warnings),
     };
-    let known = if known == 0 { String::new() } else { format!(", {} {}", words.number(known), words.known) };
-    let seconds = format!("{:.1}", time.as_secs_f64()).replace('.', words.point);
+    let known =
+        if known == 0 { String::new() } else { format!(", {} {}", numbers::count(known, lang), words.known) };
+    let seconds = format!("{:.1}", time.as_secs_f64());
+    let seconds = match lang {
+        Lang::En => seconds,
+        Lang::De => seconds.replace('.', ","),
+    };
     let [paths, drawings] = [words.count(paths, words.paths), words.count(drawings, words.drawings)];
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
@@ -50,8 +56,7 @@ struct Words {
     within: &'static str,
     of_them: &'static str,
     known: &'static str,
-    thousands: &'static str,
-    point: &'static str,
+    lang: Lang,
 }
 
 const EN: Words = Words {
@@ -64,8 +69,7 @@ const EN: Words = Words {
     within: "in",
     of_them: "of them",
     known: "known",
-    thousands: ",",
-    point: ".",
+    lang: Lang::En,
 };
 
 const DE: Words = Words {
@@ -78,24 +82,11 @@ const DE: Words = Words {
     within: "in",
     of_them: "davon",
     known: "bekannt",
-    thousands: ".",
-    point: ",",
+    lang: Lang::De,
 };
 
 impl Words {
     fn count(&self, count: usize, [one, many]: [&str; 2]) -> String {
-        format!("{} {}", self.number(count), if count == 1 { one } else { many })
-    }
-
-    fn number(&self, number: usize) -> String {
-        let digits = number.to_string();
-        let mut grouped = String::new();
-        for (index, digit) in digits.chars().enumerate() {
-            if index > 0 && (digits.len() - index).is_multiple_of(3) {
-                grouped.push_str(self.thousands);
-            }
-            grouped.push(digit);
-        }
-        grouped
+        format!("{} {}", numbers::count(count, self.lang), if count == 1 { one } else { many })
     }
 }

@@ -96,6 +96,7 @@ impl Asked {
         let mut problems = wanted.problems;
         let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
         problems.extend(broken.cloned());
+        let problems = session.with_hints(problems);
         Self { targets, files, problems }
     }
 

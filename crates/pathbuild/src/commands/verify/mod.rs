@@ -100,7 +100,7 @@ fn is_unsaid(doubt: &Diagnostic) -> bool {
 }
 
 fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {
-    let findings = context.findings(session.with_elsewhere(diagnostics));
+    let findings = context.findings(session.with_hints(diagnostics));
     context.show(&findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);

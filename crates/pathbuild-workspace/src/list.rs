@@ -1,0 +1,257 @@
+//! The paths of a library, with what a workshop asks of each. (`list` and `stats`)
+
+use std::collections::HashMap;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_gcode::summary::{Extent, cutting_box};
+use pathbuild_path::{PathName, PathSignature};
+use pathbuild_toolpath::Statistics;
+
+use crate::Inputs;
+use crate::check::kept_results;
+use crate::config::types::Pattern;
+use crate::emit;
+use crate::inputs::Input;
+use crate::posting::Poster;
+use crate::session::{CheckedTarget, DrawingResult, Session};
+
+/// What is to be listed.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Drawings, directories, and patterns of path names; without drawings or directories, all paths there are.
+    pub inputs: &'a Inputs,
+    /// The post that programs are written through; `None`: natively.
+    pub poster: Option<&'a Poster>,
+}
+
+/// What there is.
+#[derive(Clone, Debug, Default)]
+pub struct Listed {
+    /// In order of drawing, then as the drawing has them.
+    pub paths: Vec<ListedPath>,
+    /// How many drawings were looked at.
+    pub drawings: usize,
+    /// What is wrong with directories and drawings themselves.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A path. Lengths in mm.
+#[derive(Clone, Debug)]
+pub struct ListedPath {
+    /// As its layer spells it.
+    pub name: PathName,
+    /// The drawing that defines it.
+    pub drawing: Utf8PathBuf,
+    /// What is wrong with it, and with what it embeds.
+    pub diagnostics: Vec<Diagnostic>,
+    /// M.
+    pub material: Option<Box<str>>,
+    /// T and O; `None` where the drawing does not say them rightly.
+    pub thickness: Option<f64>,
+    #[expect(missing_docs, reason = "see above")]
+    pub tool: Option<f64>,
+    /// The box of the cutter's tip while it cuts.
+    pub cutting_box: Extent,
+    /// How long the program is; `None` where there is none.
+    pub length: Option<f64>,
+    /// How long it takes; `None` where there is no program, or nobody gives `rapid`.
+    pub minutes: Option<f64>,
+    /// What lies on disk.
+    pub program: ProgramState,
+}
+
+/// What lies on disk of a path's program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ProgramState {
+    /// Nothing, or the path has no program of its own.
+    #[default]
+    None,
+    /// What would be written now.
+    Current,
+    /// Something else.
+    Stale,
+}
+
+impl Session<'_> {
+    /// The names of all paths of the library, or below the working directory where there is none, each once, in order. Of a drawing that
+    /// the last `check` of the library knows it is not read again; drawings of a large library that it does not know are left out.
+    pub fn names_of_library(&self) -> Vec<PathName> {
+        let files = self.everything();
+        let keeper = kept_results(self.workspace());
+        let kept = |file: &SourceFile| {
+            let payload = keeper.as_ref()?.payload(file.path(self.db()).as_str())?;
+            Some(DrawingResult::decode(payload).ok()?.names)
+        };
+        let (mut names, mut open) = (Vec::new(), Vec::new());
+        for file in files {
+            match kept(&file) {
+                Some(kept) => names.extend(kept),
+                None => open.push(file),
+            }
+        }
+        open.truncate(MOST_UNKNOWN);
+        self.read_ahead(&open);
+        names.extend(open.iter().flat_map(|file| path_names(self.db(), *file).iter().cloned()));
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+/// So many drawings are read at most for the names of their paths: half a second.
+const MOST_UNKNOWN: usize = 2000;
+
+/// So many paths are looked at before what was read for them is dropped.
+const BATCH: usize = 256;
+
+impl Request<'_> {
+    /// Lists, in a session of its own.
+    ///
+    /// # Errors
+    /// What is wrong with a pattern.
+    pub fn run(&self, session: &mut Session<'_>) -> Result<Listed, String> {
+        let asked = Asked::new(session, self.inputs)?;
+        Ok(session.settled(|session| self.list(session, &asked)))
+    }
+
+    fn list(&self, session: &mut Session<'_>, asked: &Asked) -> Listed {
+        let mut listed = Listed::default();
+        let files = asked.files(session, &mut listed.diagnostics);
+        session.read_ahead(&files);
+        let mut paths: Vec<(SourceFile, PathName)> = Vec::new();
+        for file in &files {
+            let found = check_file(session.db(), *file);
+            listed.diagnostics.extend(found.iter().filter(|found| found.is_error()).cloned());
+            let names = path_names(session.db(), *file).iter().filter(|name| asked.means(name));
+            paths.extend(names.map(|name| (*file, name.clone())));
+        }
+        listed.drawings = files.len();
+        listed.paths = session.in_batches(&paths, BATCH, |session, paths| known(session, paths));
+        self.compare(session, &paths, &mut listed.paths);
+        let unmet = asked
+            .unmet(&listed.paths)
+            .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).with("name", text));
+        listed.diagnostics.extend(unmet);
+        listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
+        listed
+    }
+
+    /// Holds the programs on disk against the paths.
+    fn compare(
+        &self,
+        session: &mut Session<'_>,
+        paths: &[(SourceFile, PathName)],
+        listed: &mut [ListedPath],
+    ) {
+        let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
+        let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
+        let targets: Vec<Target> = targets.collect();
+        let states: HashMap<Target, bool> = emit::on_disk(session, self.poster, &targets);
+        for ((file, name), listed) in paths.iter().zip(listed) {
+            listed.program = match states.get(&session.target_in(*file, name, Role::Emitted)) {
+                None => ProgramState::None,
+                Some(true) => ProgramState::Current,
+                Some(false) => ProgramState::Stale,
+            };
+        }
+    }
+}
+
+/// What arguments come to.
+struct Asked {
+    places: Inputs,
+    patterns: Vec<Pattern>,
+}
+
+impl Asked {
+    fn new(session: &Session<'_>, inputs: &Inputs) -> Result<Self, String> {
+        let (mut places, mut patterns) = (Inputs::default(), Vec::new());
+        for (input, text) in inputs.iter().zip(&inputs.inputs) {
+            match input {
+                Input::Name(name) if !session.is_directory(name.into()) => {
+                    patterns.push(Pattern::new(name).map_err(|reason| format!("{name}: {reason}"))?);
+                }
+                Input::Name(name) => places.inputs.push(format!("./{name}")),
+                Input::Place(_) => places.inputs.push(text.clone()),
+            }
+        }
+        Ok(Self { places, patterns })
+    }
+
+    /// The drawings of directories; without any, of the library, or below the working directory where there is none.
+    fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
+        if self.places.inputs.is_empty() {
+            problems.extend(session.library_problems());
+            return session.everything();
+        }
+        let wanted = session.wanted(&self.places);
+        problems.extend_from_slice(&wanted.problems);
+        wanted.whole(session)
+    }
+
+    /// The patterns that no path matches.
+    fn unmet<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
+        let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
+        self.patterns.iter().filter(is_unmet).map(Pattern::text)
+    }
+
+    fn means(&self, name: &PathName) -> bool {
+        self.patterns.is_empty() || self.patterns.iter().any(|pattern| pattern.matches(name.as_str()))
+    }
+}
+
+/// What is known of some paths, without what lies on disk.
+fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
+    let checked = session.each(paths, |asking, (file, name)| asking.check_as_known(*file, name));
+    let rapid = session.workspace().settings.general.rapid.value;
+    let figures = session.guarded(&checked, |db, checked| Figures::of(db, checked, rapid));
+    let listed = |((checked, figures), (file, name)): (Known, &(SourceFile, PathName))| {
+        let db = session.db();
+        let mut diagnostics = checked.diagnostics;
+        let figures = figures.unwrap_or_else(|problem| {
+            diagnostics.push(problem.in_file(file.path(db)).in_path(name.as_str()));
+            Figures::default()
+        });
+        let signature =
+            closure(db, checked.target).root.and_then(|root| summary(db, root).signature.as_ref());
+        ListedPath {
+            name: name.clone(),
+            drawing: file.path(db).clone(),
+            diagnostics,
+            material: signature.and_then(|path| path.material.as_deref()).map(Into::into),
+            thickness: signature.map(|path: &PathSignature| path.thickness),
+            tool: signature.map(|path| path.tool),
+            cutting_box: figures.cutting_box,
+            length: figures.length,
+            minutes: figures.minutes,
+            program: ProgramState::None,
+        }
+    };
+    checked.into_iter().zip(figures).zip(paths).map(listed).collect()
+}
+
+/// A path that was checked, and its program's figures, or why they are not known.
+type Known = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
+
+/// What a program adds up to.
+#[derive(Default)]
+struct Figures {
+    cutting_box: Extent,
+    length: Option<f64>,
+    minutes: Option<f64>,
+}
+
+impl Figures {
+    fn of(db: &Database, checked: &CheckedTarget, rapid: Option<f64>) -> Self {
+        let Some(program) = program(db, checked.target) else { return Self::default() };
+        let sum = Statistics::of(program, rapid.unwrap_or_default()).sum();
+        Self {
+            cutting_box: cutting_box(program),
+            length: Some(sum.length),
+            minutes: rapid.map(|_| sum.minutes()).filter(|minutes| minutes.is_finite()),
+        }
+    }
+}

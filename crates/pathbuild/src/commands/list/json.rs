@@ -1,0 +1,59 @@
+//! Paths and totals in JSON. Lengths are mm.
+
+use serde_json::{Value, json};
+
+use super::row::{Row, State};
+use super::stats::{Stats, Total};
+use pathbuild_workspace::list::ProgramState;
+
+/// A path, as one object.
+pub(super) fn path(row: &Row) -> Value {
+    let path = &row.path;
+    let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
+    let [x, y, z] = path.cutting_box.map(axis);
+    json!({
+        "path": path.name.as_str(),
+        "file": path.drawing.as_str(),
+        "material": path.material,
+        "thickness": path.thickness,
+        "tool": path.tool,
+        "size": row.size(),
+        "cutting_box": { "x": x, "y": y, "z": z },
+        "length": path.length,
+        "minutes": path.minutes,
+        "state": row.state().key(),
+        "errors": row.errors,
+        "warnings": row.warnings,
+        "program": match path.program {
+            ProgramState::None => None,
+            ProgramState::Current => Some("current"),
+            ProgramState::Stale => Some("stale"),
+        },
+    })
+}
+
+/// What paths add up to, as one object.
+pub(super) fn stats(stats: &Stats) -> Value {
+    let states =
+        stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));
+    let materials = stats.materials.iter().map(|(name, total)| with(total, "material", json!(name)));
+    #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
+    let tool = |tool: &Option<u64>| tool.map(|tool| tool as f64 / 1000.0);
+    let cutters = stats.cutters.iter().map(|(tool_, total)| with(total, "tool", json!(tool(tool_))));
+    json!({
+        "drawings": stats.drawings,
+        "paths": stats.all.paths,
+        "length": stats.all.length,
+        "minutes": stats.all.minutes,
+        "states": states.collect::<serde_json::Map<_, _>>(),
+        "with_warnings": stats.warnings,
+        "materials": materials.collect::<Vec<_>>(),
+        "cutters": cutters.collect::<Vec<_>>(),
+    })
+}
+
+fn with(total: &Total, key: &str, value: Value) -> Value {
+    let mut object = json!({ "paths": total.paths, "length": total.length, "minutes": total.minutes });
+    object[key] = value;
+    object
+}

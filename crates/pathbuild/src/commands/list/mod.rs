@@ -1,0 +1,61 @@
+//! `pathbuild list` and `stats`: the paths of a library, and what they add up to. (spec/05-command-line.md)
+
+mod json;
+mod row;
+mod stats;
+
+use pathbuild_workspace::list::{Listed, Request};
+use pathbuild_workspace::posting::{Poster, Wishes};
+use pathbuild_workspace::session::Session;
+
+use crate::args::{Format, ListArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::table::table;
+use row::Row;
+use stats::Stats;
+
+/// Prints a line for each path.
+pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
+    show(context, args, |context, rows, _| match context.format {
+        Format::Json => rows.iter().for_each(|row| context.printer.result_json(json::path(row))),
+        _ if rows.is_empty() => {}
+        _ => {
+            let cells = rows.iter().map(|row| row.cells(context));
+            context.printer.result(table(&Row::columns(context), cells));
+        }
+    })
+}
+
+/// Prints what the paths add up to.
+pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
+    show(context, args, |context, rows, drawings| {
+        let stats = Stats::of(rows, drawings);
+        match context.format {
+            Format::Json => context.printer.result_json(json::stats(&stats)),
+            _ => context.printer.result(stats.text(context)),
+        }
+    })
+}
+
+/// Lists, and shows the paths; findings are those of directories and drawings, since errors of paths are a part of what is shown.
+fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
+    let inputs = args.inputs();
+    let poster = match Poster::of_run(context, args.post.as_deref(), Wishes::default()) {
+        Ok(poster) => poster,
+        Err(problems) => return context.fail(problems),
+    };
+    let mut session = Session::new(context);
+    let listed = Request { inputs: &inputs, poster: poster.as_ref() }.run(&mut session);
+    // The run is over: what it looked at is not taken apart.
+    std::mem::forget(session);
+    let Listed { paths, drawings, diagnostics } = match listed {
+        Ok(listed) => listed,
+        Err(reason) => return context.usage(&reason),
+    };
+    let rows: Vec<Row> = paths.into_iter().map(|path| Row::new(context, path)).collect();
+    print(context, &rows, drawings);
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}

@@ -1,0 +1,79 @@
+//! What a shell offers to complete: names of paths, posts, dialects and codes. The script of `completions` asks the program itself, by an
+//! environment variable, whenever somebody presses the tab key.
+
+use std::ffi::{OsStr, OsString};
+
+use clap::CommandFactory;
+use clap_complete::engine::ValueCompleter;
+use clap_complete::env::CompleteEnv;
+use clap_complete::{ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter};
+use pathbuild_diagnostic::{Code, shown};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_post::BUILT_IN;
+use pathbuild_workspace::session::Session;
+
+use crate::args::{Cli, Command, CommonArgs};
+use crate::context_of;
+use crate::exit::ExitStatus;
+
+/// The variable by which a shell asks.
+pub(crate) const VARIABLE: &str = "PATHBUILD_COMPLETE";
+
+/// Answers a shell that wants to complete a command line; `None`: this is a run of its own.
+pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
+    match CompleteEnv::with_factory(Cli::command).var(VARIABLE).try_complete(arguments, None) {
+        Ok(false) => None,
+        Ok(true) => Some(ExitStatus::Success),
+        Err(_) => Some(ExitStatus::Usage),
+    }
+}
+
+/// Names of paths, drawings and directories.
+pub(crate) fn paths() -> ArgValueCompleter {
+    ArgValueCompleter::new(|current: &OsStr| {
+        let files = PathCompleter::any().filter(|path| {
+            path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
+        });
+        let mut candidates = path_names(current);
+        candidates.extend(files.complete(current));
+        candidates
+    })
+}
+
+/// Built-in posts, and files.
+pub(crate) fn posts() -> ArgValueCompleter {
+    ArgValueCompleter::new(|current: &OsStr| {
+        let begins = |name: &str| name.starts_with(&*current.to_string_lossy());
+        let built_in = BUILT_IN.iter().filter(|post| begins(post.name));
+        let built_in =
+            built_in.map(|post| CompletionCandidate::new(post.name).help(Some(post.description.into())));
+        built_in.chain(PathCompleter::file().complete(current)).collect()
+    })
+}
+
+/// Names of dialects.
+pub(crate) fn dialects() -> ArgValueCandidates {
+    ArgValueCandidates::new(|| {
+        Dialect::ALL.iter().map(|dialect| CompletionCandidate::new(dialect.name())).collect()
+    })
+}
+
+/// Codes of diagnostics.
+pub(crate) fn codes() -> ArgValueCandidates {
+    let candidate = |code: &Code| CompletionCandidate::new(code.to_string()).help(Some(code.name().into()));
+    ArgValueCandidates::new(move || Code::ALL.iter().map(candidate).collect())
+}
+
+/// The paths of the working directory's library that begin so. A name with anything in it that acts on a terminal is not offered.
+fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
+    let cli = Cli { command: Command::Man, common: CommonArgs { quiet: 2, ..CommonArgs::default() } };
+    let (context, faults) = context_of(&cli);
+    if !faults.is_empty() {
+        return Vec::new();
+    }
+    let begin = current.to_string_lossy().to_lowercase();
+    let names = Session::new(&context).names_of_library().into_iter();
+    let meant = names.filter(|name| name.as_str().to_lowercase().starts_with(&begin));
+    let harmless = meant.filter(|name| !name.as_str().chars().any(shown::acts));
+    harmless.map(|name| CompletionCandidate::new(name.as_str())).collect()
+}

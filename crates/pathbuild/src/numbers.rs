@@ -1,0 +1,32 @@
+//! Numbers as people of a language write them.
+
+use pathbuild_diagnostic::Lang;
+
+/// A count with its thousands set apart: `2,014`, in German `2.014`.
+pub(crate) fn count(number: usize, lang: Lang) -> String {
+    let separator = match lang {
+        Lang::En => ',',
+        Lang::De => '.',
+    };
+    let digits = number.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(separator);
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A number with so many decimals, without zeros at its end: `12.5`, in German `12,5`.
+pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {
+    let text = format!("{number:.places$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    // A small negative number is rounded to -0.
+    let text = if text == "-0" { "0" } else { text };
+    match lang {
+        Lang::En => text.to_owned(),
+        Lang::De => text.replace('.', ","),
+    }
+}

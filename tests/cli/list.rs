@@ -1,0 +1,144 @@
+//! `list` and `stats`, what a shell completes, and names that are nearly right. (spec/05-command-line.md)
+
+use std::fs;
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::support::{Place, program, runs};
+
+const LIBRARY: &str = r#"
+== pathbuild.toml ==
+feed = 100
+rapid = 1000
+sweep-height = 20
+library = ["components", "projects"]
+search = ["components"]
+== components/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I5 B0 MPlate"
+mill 0,0 40,0
+end 40,0
+layer 1234.2P
+start 0,20 "T5 O3,5 I5 B0 MPlate"
+mill 0,20 40,50
+end 40,50
+== components/2051.dxf ==
+layer 2051.1P
+start 0,0 "T5 O2 I5 :B0~1"
+mill 0,0 40,0 "B=B"
+end 40,0
+== projects/8001.dxf ==
+layer 8001.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+subpath 40,0 80,0 ">2051.1P :B0,5"
+end 80,0
+== projects/8900.dxf ==
+layer 8900.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">9999.1P"
+end 40,0
+"#;
+
+#[test]
+fn paths_are_listed_with_what_a_workshop_asks_of_them() {
+    let place = Place::of(LIBRARY);
+    assert_snapshot!(runs(
+        &place,
+        ["list", "list --lang de", "list 1234.* 8900.1p --format json", "list projects 8001*"]
+    ));
+    assert_snapshot!(runs(&place, ["stats", "stats --lang de", "stats 1234.* --format json"]));
+}
+
+#[test]
+fn a_state_tells_whether_the_program_on_disk_is_that_of_the_drawing() {
+    let place = Place::of(LIBRARY);
+    let state = |name: &str| {
+        let run = place.run(&format!("list {name} --format json"));
+        let row = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let row = row.filter(|row| row["path"] == name).next_back().unwrap_or_else(|| panic!("{run}"));
+        (row["state"].as_str().unwrap().to_owned(), row["program"].as_str().map(str::to_owned))
+    };
+    let is = |state: &str, program: Option<&str>| (state.to_owned(), program.map(str::to_owned));
+    assert_eq!(state("1234.1P"), is("ok", None));
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    assert_eq!(state("1234.1P"), is("current", Some("current")));
+    let program = "components/1234.1P_Milling.gcode";
+    let by_hand = place.read(program).replace("X40.000", "X41.000");
+    fs::write(place.path().join(program), by_hand).unwrap();
+    assert_eq!(state("1234.1P"), is("stale", Some("stale")));
+    assert_eq!(state("8900.1P"), is("errors", None));
+}
+
+#[test]
+fn a_pattern_that_nothing_matches_is_an_error() {
+    let place = Place::of(LIBRARY);
+    let run = place.run("list 7*");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert_eq!(place.run("list [").status, Some(2));
+}
+
+#[test]
+fn names_that_are_nearly_right_are_named() {
+    let place = Place::of(LIBRARY);
+    let lines = [
+        "check 1234.3P --format concise",
+        "check 1234.3P",
+        "check conponents/1234.dxf",
+        "check components/124.dxf",
+        "emit projekts/8001.dxf",
+        "check conponents",
+        "check somewhere/else",
+        "list 8002.1P",
+    ];
+    assert_snapshot!(runs(&place, lines));
+}
+
+#[test]
+fn a_drawing_alone_is_checked() {
+    let place = Place::of(LIBRARY);
+    let drawing = "components/1234.dxf";
+    for line in
+        [drawing.to_owned(), format!("--lang de {drawing}"), format!("{drawing} components/2051.dxf -q")]
+    {
+        let (alone, check) =
+            (place.run(&line), place.run(&line.replacen(drawing, &format!("check {drawing}"), 1)));
+        assert_eq!(
+            (alone.status, &alone.stdout, &alone.stderr),
+            (Some(0), &check.stdout, &check.stderr),
+            "{line}"
+        );
+    }
+    assert_eq!(place.run("components").status, Some(2), "a directory is no command");
+}
+
+#[test]
+fn help_of_a_command_is_shown_by_the_command_help() {
+    let place = Place::new();
+    assert!(place.run("help").stdout.contains("Commands:"));
+    assert_eq!(place.run("help check").stdout, place.run("check --help").stdout);
+}
+
+/// What a shell is offered for the last word.
+fn completed(place: &Place, words: &[&str]) -> Vec<String> {
+    let mut program = program();
+    program.env("PATHBUILD_COMPLETE", "bash").env("_CLAP_COMPLETE_INDEX", words.len().to_string());
+    program.env("_CLAP_IFS", "\n").args(["--", "pathbuild"]).args(words).current_dir(place.path());
+    let output = program.output().unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_shell_completes_names_of_paths_posts_dialects_and_codes() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(completed(&place, &["check", "12"]), ["1234.1P", "1234.2P"]);
+    assert_eq!(completed(&place, &["check", "comp"]), ["components/"]);
+    assert_eq!(completed(&place, &["emit", "--post", "linux"]), ["linuxcnc"]);
+    assert_eq!(completed(&place, &["verify", "--dialect", "gr"]), ["grbl"]);
+    assert_eq!(completed(&place, &["explain", "PB51"]).first().map(String::as_str), Some("PB510"));
+    assert_eq!(completed(&place, &["li"]), ["list"]);
+    let broken = place.file("pathbuild.toml", "library = 1");
+    assert_eq!(completed(&broken, &["check", "12"]), [""; 0], "a configuration with faults has no names");
+}
