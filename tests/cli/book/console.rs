@@ -2,7 +2,7 @@
 //! page's name (its last part), else an empty directory. Remarks in the page, invisible to readers, say more:
 //!
 //! - `<!-- place: FOLDER -->`: from here on in a new copy of this folder. `empty`, `example` (what `init --example` writes) and
-//!   `fixtures` (fixtures/library) are known too;
+//!   `fixtures` (fixtures/library) and `recorded` (a drawing with the program that PathDxf2GCode made of it) are known too;
 //! - `<!-- put: DRAWING as FILE -->`: what somebody draws meanwhile: DRAWING is in text form, below docs/drawings;
 //! - `<!-- file: FILE -->`: the next block is written into this file.
 //!

@@ -25,6 +25,13 @@ pub(super) fn place(name: &str, lang: Lang) -> Place {
             place
         }
         "fixtures" => copied(place, &project().join("fixtures/library"), "fixtures/library/"),
+        "recorded" => {
+            let case = project().join("fixtures/conformance/cases/support_line_four");
+            let program = fs::read(case.join("expected/0/1234.1P_Milling.gcode")).unwrap();
+            place
+                .file("1234.1P.dxf", fs::read(case.join("1234.1P.dxf")).unwrap())
+                .file("1234.1P_Milling.gcode", program)
+        }
         _ => {
             let folder = drawings().join(name);
             assert!(folder.is_dir(), "docs/drawings/{name} is missing");
