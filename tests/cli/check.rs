@@ -1,5 +1,5 @@
 //! How `check` says what it found: streams, formats, reports, baseline, summary, exit status. What is found is tested elsewhere.
-//! (spec/05-command-line.md)
+//! (book: reference/commands)
 
 use crate::support::{Place, Run};
 use insta::assert_snapshot;

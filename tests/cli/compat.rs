@@ -1,4 +1,4 @@
-//! Command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`. (spec/05-command-line.md, last paragraph)
+//! Command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`. (book: howto/from-pathdxf2gcode)
 
 use crate::support::{Place, Run};
 use insta::assert_snapshot;

@@ -1,4 +1,4 @@
-//! The configuration: finding it, reading it strictly, the command line over it. (spec/06-configuration.md)
+//! The configuration: finding it, reading it strictly, the command line over it. (book: reference/configuration)
 
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;

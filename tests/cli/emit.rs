@@ -1,4 +1,4 @@
-//! What `emit` writes, compares and removes. (spec/05-command-line.md, spec/60-gcode.md "Files")
+//! What `emit` writes, compares and removes. (book: reference/commands, book: program/gcode)
 
 use std::collections::BTreeSet;
 use std::fs;

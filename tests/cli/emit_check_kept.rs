@@ -1,5 +1,5 @@
 //! `emit --check` with kept results: the same answers as without, whatever changed in between, and no drawing read where nothing did.
-//! (spec/05-command-line.md, `emit --check`)
+//! (book: reference/commands, `emit --check`)
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! `import`, `verify` and `post`: programs of any origin. (spec/85-post-processors.md, spec/90-gcode-import.md)
+//! `import`, `verify` and `post`: programs of any origin. (book: program/posts, book: program/reading)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;

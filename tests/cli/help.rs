@@ -1,4 +1,4 @@
-//! What the program says about itself: pages on codes, completions, the manual. (spec/05-command-line.md)
+//! What the program says about itself: pages on codes, completions, the manual. (book: reference/commands)
 
 use crate::support::{Place, runs};
 use clap::CommandFactory;

@@ -1,4 +1,4 @@
-//! Files that are no drawings: an error each that says so, and nothing written. (spec/80-diagnostics.md, "Rules")
+//! Files that are no drawings: an error each that says so, and nothing written. (book: reference/diagnostics)
 //! What a release build takes for 200 MB of each noise stands in benches/README.md.
 
 use std::fs;

@@ -1,5 +1,5 @@
 //! Projects that embed beyond all measure: a clear limit or the right result, in bounded time and memory.
-//! (spec/50-path-building.md, "Subpaths"; spec/06-configuration.md, [limits])
+//! (book: language/embedding; book: reference/configuration, [limits])
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};

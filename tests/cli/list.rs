@@ -1,4 +1,4 @@
-//! `list` and `stats`, what a shell completes, and names that are nearly right. (spec/05-command-line.md)
+//! `list` and `stats`, what a shell completes, and names that are nearly right. (book: reference/commands)
 
 use std::fs;
 

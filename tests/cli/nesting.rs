@@ -1,4 +1,4 @@
-//! Paths embedded in embedded paths, turned and raised at every level. (spec/50-path-building.md, "Subpaths")
+//! Paths embedded in embedded paths, turned and raised at every level. (book: language/embedding)
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Looking at nothing is not right. (spec/80-diagnostics.md, PB513, PB518)
+//! Looking at nothing is not right. (book: reference/diagnostics, PB513, PB518)
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! `emit` through a post: names, tools, joined programs, what it is refused for. (spec/85-post-processors.md)
+//! `emit` through a post: names, tools, joined programs, what it is refused for. (book: program/posts)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;

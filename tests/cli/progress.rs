@@ -1,4 +1,4 @@
-//! The progress bar: after half a second, and gone when the work is done. (spec/05-command-line.md)
+//! The progress bar: after half a second, and gone when the work is done. (book: reference/commands)
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};

@@ -1,4 +1,4 @@
-//! Commands around projects: what embeds what, where paths are. (spec/05-command-line.md, spec/20-paths-and-files.md)
+//! Commands around projects: what embeds what, where paths are. (book: reference/commands, book: language/layers-and-names)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;

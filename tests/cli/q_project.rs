@@ -1,4 +1,4 @@
-//! Q-projects: `pathbuild q-project`, and what `check` says of them. (spec/20-paths-and-files.md, "Q-projects")
+//! Q-projects: `pathbuild q-project`, and what `check` says of them. (book: language/q-projects)
 
 use crate::support::{Place, fixture};
 

@@ -1,4 +1,4 @@
-//! Diagnostics in every format: the same findings, shown by the library. (spec/05-command-line.md)
+//! Diagnostics in every format: the same findings, shown by the library. (book: reference/commands)
 
 use camino::Utf8Path;
 use insta::assert_snapshot;

@@ -1,5 +1,5 @@
 //! What is done with findings before they are shown: once each, in order, judged, compared with a baseline, counted.
-//! (spec/05-command-line.md, spec/80-diagnostics.md)
+//! (book: reference/commands, book: reference/diagnostics)
 
 use std::time::Duration;
 

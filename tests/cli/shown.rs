@@ -1,5 +1,5 @@
 //! Names, layers and texts of strangers, in every command and format: nothing that is printed acts on a terminal, or begins a command of
-//! a CI runner. (spec/05-command-line.md)
+//! a CI runner. (book: reference/commands)
 #![cfg(unix)]
 
 use crate::support::{Place, Run};

@@ -1,4 +1,4 @@
-//! What lies in a tree of strangers and is no regular file, or has no end: it is told, not waited for. (spec/06-configuration.md)
+//! What lies in a tree of strangers and is no regular file, or has no end: it is told, not waited for. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::os::unix::fs::symlink;

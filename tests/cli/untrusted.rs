@@ -1,5 +1,5 @@
 //! `--untrusted`, and the user's own configuration: what a stranger's tree may say, read and write. Each rule with one case just inside and
-//! one just outside. (spec/06-configuration.md, "The user's own configuration")
+//! one just outside. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::fs;

@@ -1,4 +1,4 @@
-//! Wrong usage: what is said, that nothing is done, exit status 2. (spec/05-command-line.md)
+//! Wrong usage: what is said, that nothing is done, exit status 2. (book: reference/commands)
 
 use std::ffi::OsString;
 

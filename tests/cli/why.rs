@@ -1,4 +1,4 @@
-//! `pathbuild why`: what keeps the results of the last check from holding. (spec/05-command-line.md)
+//! `pathbuild why`: what keeps the results of the last check from holding. (book: reference/commands)
 
 use crate::support::Place;
 

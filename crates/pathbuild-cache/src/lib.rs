@@ -3,7 +3,7 @@
 //! otherwise. Whether a file is as it was is told by its stamp, as Git does it; only where that is in doubt is the file read and hashed.
 //!
 //! Rules: a kept result may be missing, but never wrong. What is damaged, of another build or of another format is not used, and replaced. A run
-//! never fails because of the cache. Everything in it can be deleted at any time. (spec/06-configuration.md: no configuration, no cache)
+//! never fails because of the cache. Everything in it can be deleted at any time. (book: reference/configuration: no configuration, no cache)
 
 mod codec;
 mod facts;

@@ -1,6 +1,6 @@
 //! Where results lie: in the user's cache directory, under the tree's real path, so that no repository brings its own; or in a directory that
 //! the user named. Any number of processes may read and write there: files are written beside and renamed, so that a file is always one that
-//! somebody finished, and the last one counts. (spec/06-configuration.md, "The user's own configuration")
+//! somebody finished, and the last one counts. (book: reference/configuration)
 
 use std::io;
 

@@ -1,5 +1,5 @@
 //! What the configuration and the options say, one field for each consumer, so that a changed feed does not read drawings again.
-//! (spec/06-configuration.md)
+//! (book: reference/configuration)
 
 use std::sync::Arc;
 

@@ -12,7 +12,7 @@ pub enum Severity {
 
 macro_rules! codes {
     ($($number:literal $variant:ident $name:literal $severity:ident $when:literal;)*) => {
-        /// The code of a diagnostic. Codes are stable: a number is never used again for something else. (spec/80-diagnostics.md)
+        /// The code of a diagnostic. Codes are stable: a number is never used again for something else. (book: reference/diagnostics)
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Code {
             $(#[doc = $when] $variant,)*
@@ -185,7 +185,7 @@ codes! {
 }
 
 impl Code {
-    /// Whether the configuration may lower it: errors that stop a program from being right cannot be. (spec/06-configuration.md)
+    /// Whether the configuration may lower it: errors that stop a program from being right cannot be. (book: reference/configuration)
     pub fn can_be_lowered(self) -> bool {
         self.severity() == Severity::Warning || self.number() >= 600
     }

@@ -3,7 +3,7 @@
 //! A [`Diagnostic`] is what a stage found wrong: which [`Message`], the values in it, and where. It holds no text of its own, so it
 //! is cheap to compare (query results are compared after every edit) and can be shown in any language and format. Everything that
 //! is *said* stands in [`messages`] and in the pages of `explain`; everything that is *shown* (colours, underlining, JSON) is the
-//! program's business. This crate prints nothing and does not know miette. (spec/80-diagnostics.md)
+//! program's business. This crate prints nothing and does not know miette. (book: reference/diagnostics)
 
 mod code;
 mod diagnostic;

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 /// A finite or non-finite `f64` that can be compared exactly and hashed, so that values holding it are `Eq`.
 ///
 /// Equality is that of the bits, except that -0 equals 0. It is exact on purpose: whether two coordinates of a drawing coincide is
-/// decided by the approximate comparisons of spec/00-overview.md, never by this type.
+/// decided by the approximate comparisons of book: reference/glossary, never by this type.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Number(pub f64);
 

@@ -1,4 +1,4 @@
-//! Names of things that messages put in, in every language. (Glossary in spec/00-overview.md)
+//! Names of things that messages put in, in every language. (Glossary in book: reference/glossary)
 
 use crate::message::Word;
 

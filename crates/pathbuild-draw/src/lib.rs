@@ -2,7 +2,7 @@
 //!
 //! A [`Draft`] collects entities; finished, it is a [`Sheet`], in which each parameter text has a place where it belongs to its
 //! element. `Sheet::to_dxf` writes it through the crate `dxf`, always as the same bytes. Nothing here is shared with the reader in
-//! pathbuild-dxf, so that neither hides the other's mistakes. (spec/10-drawing.md)
+//! pathbuild-dxf, so that neither hides the other's mistakes. (book: reference/dxf)
 
 mod draft;
 mod error;

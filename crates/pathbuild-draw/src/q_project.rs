@@ -1,4 +1,4 @@
-//! Q-projects: a row of subpath segments, each with its text. (spec/20-paths-and-files.md, "Q-projects")
+//! Q-projects: a row of subpath segments, each with its text. (book: language/q-projects)
 
 use crate::draft::Draft;
 use crate::error::DrawError;

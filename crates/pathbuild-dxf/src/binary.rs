@@ -1,4 +1,4 @@
-//! Binary DXF, rewritten as ASCII. (reference/dxf.md section 1: 24 of 3306 files)
+//! Binary DXF, rewritten as ASCII. (book: reference/dxf; 24 of 3306 files from the wild)
 //!
 //! Binary files are rare, so they get no reader of their own: pair by pair they become lines, which also gives each pair the line
 //! number that diagnostics name it by. Numbers are written with as many digits as they need to be read back exactly. Only what comes

@@ -19,7 +19,7 @@ pub struct Options<'a> {
     pub compatible: bool,
 }
 
-/// What $INSUNITS means. (spec/06-configuration.md, `units`)
+/// What $INSUNITS means. (book: reference/configuration, `units`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Units {
     /// Millimetres (4), none (0) or missing are fine, else PB113.
@@ -191,7 +191,7 @@ pub struct Text {
 /// A text of several lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MText {
-    /// Plain text as spec/10-drawing.md defines it: line breaks as `\n`, `%%c` and the like not yet replaced.
+    /// Plain text as `docs/en/src/reference/dxf.md` defines it: line breaks as `\n`, `%%c` and the like not yet replaced.
     pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,

@@ -1,4 +1,4 @@
-//! The LAYER table: the line types of layers, and which of them are frozen or off. (spec/10-drawing.md)
+//! The LAYER table: the line types of layers, and which of them are frozen or off. (book: reference/dxf)
 
 use std::borrow::Cow;
 use std::cell::OnceCell;

@@ -1,4 +1,4 @@
-//! The layers that entities are on. (spec/10-drawing.md; spec/20-paths-and-files.md)
+//! The layers that entities are on. (book: reference/dxf; book: language/layers-and-names)
 //!
 //! Each spelling of a layer's name is looked at once a file; entities only hold its number.
 

@@ -3,7 +3,7 @@
 //! [`read`] takes the bytes of a drawing and gives back the few kinds of entities that the drawing language knows, in file order
 //! and world coordinates, with resolved line types, decoded texts and whatever was wrong. It does no IO. Lines and handles stand
 //! beside the entities, not in them, so that later stages are not disturbed by edits that only shift them.
-//! (spec/10-drawing.md; reference/dxf.md section 4)
+//! (book: reference/dxf)
 
 mod angle;
 mod binary;

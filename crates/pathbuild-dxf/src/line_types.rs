@@ -1,4 +1,4 @@
-//! The line types of entities. (spec/10-drawing.md, "Line types")
+//! The line types of entities. (book: language/line-types)
 
 use smol_str::SmolStr;
 

@@ -1,4 +1,4 @@
-//! The plain text of an MTEXT. (spec/10-drawing.md, "Parameter texts")
+//! The plain text of an MTEXT. (book: language/parameter-texts)
 
 use smol_str::{SmolStr, SmolStrBuilder};
 

@@ -1,4 +1,4 @@
-//! Names of layers, line types and blocks: how they are compared. (spec/10-drawing.md)
+//! Names of layers, line types and blocks: how they are compared. (book: reference/dxf)
 
 use std::borrow::Cow;
 use std::cmp::Ordering;

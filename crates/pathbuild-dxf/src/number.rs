@@ -1,4 +1,4 @@
-//! Numbers as CADs write them. (spec/10-drawing.md: "numbers")
+//! Numbers as CADs write them. (book: reference/dxf: "numbers")
 
 use crate::decimal::{LARGEST_EXACT, plain_decimal};
 

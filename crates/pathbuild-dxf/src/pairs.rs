@@ -1,5 +1,4 @@
-//! Bytes to pairs of group code and value, one by one and with care; [`crate::groups`] goes through many. (reference/dxf.md section 4,
-//! point 1)
+//! Bytes to pairs of group code and value, one by one and with care; [`crate::groups`] goes through many. (book: reference/dxf)
 //!
 //! A line ends with LF, CRLF, CRCRLF, or, in files of old Macs, with CR alone; which of the two bytes ends lines is decided once a
 //! file. Codes may be padded, values are given as they stand.

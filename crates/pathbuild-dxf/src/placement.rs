@@ -1,4 +1,4 @@
-//! Similarities of the plane: object coordinates, insertions of blocks, units. (reference/dxf.md section 4, points 8 and 9)
+//! Similarities of the plane: object coordinates, insertions of blocks, units. (book: reference/dxf)
 
 use crate::angle::cos_sin;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};

@@ -1,4 +1,4 @@
-//! `$INSUNITS` to millimetres. (spec/10-drawing.md; spec/06-configuration.md, `units`)
+//! `$INSUNITS` to millimetres. (book: reference/dxf; book: reference/configuration, `units`)
 
 use pathbuild_diagnostic::messages::files::WRONG_UNITS;
 use pathbuild_diagnostic::{Diagnostic, Word};

@@ -1,5 +1,4 @@
-//! Whatever the bytes: no panic, no hang, no number that is not finite, nothing beside the layers and the limit. (spec/80-diagnostics.md,
-//! "Rules")
+//! Whatever the bytes: no panic, no hang, no number that is not finite, nothing beside the layers and the limit. (book: reference/reliability)
 
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,5 @@
-//! G-code text: writing, reading, checking and post-processing programs. (spec/60-gcode.md, spec/85-post-processors.md,
-//! spec/90-gcode-import.md)
+//! G-code text: writing, reading, checking and post-processing programs. (book: program/gcode, book: program/posts,
+//! book: program/reading)
 
 pub mod adjust;
 pub mod dialect;

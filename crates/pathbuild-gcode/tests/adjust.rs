@@ -1,4 +1,4 @@
-//! Adjusting: what is put where, and everything that must not be. (spec/70-z-probes.md, "Adjusting")
+//! Adjusting: what is put where, and everything that must not be. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,

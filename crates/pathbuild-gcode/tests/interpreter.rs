@@ -1,4 +1,4 @@
-//! The interpreter: what words do, in which order. (`reference/cad6_xpertmill_gcode.md`, section 5)
+//! The interpreter: what words do, in which order. (book: program/reading)
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Numbers with three decimals: the exact binary value, ties to even, as `{:.3}` does. (spec/00-overview.md)
+//! Numbers with three decimals: the exact binary value, ties to even, as `{:.3}` does. (book: reference/glossary)
 
 use pathbuild_gcode::native::f3;
 use proptest::prelude::*;

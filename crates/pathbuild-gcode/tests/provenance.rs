@@ -1,4 +1,4 @@
-//! The header line by which programs are traced. (spec/60-gcode.md, "The program")
+//! The header line by which programs are traced. (book: program/gcode)
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::Provenance;

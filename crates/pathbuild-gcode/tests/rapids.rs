@@ -1,4 +1,4 @@
-//! Rapid moves into material, in programs that drawings become. (spec/90-gcode-import.md, "verify")
+//! Rapid moves into material, in programs that drawings become. (book: program/reading)
 
 use pathbuild_gcode::verify::rapids_into_material;
 use pathbuild_toolpath::{Class, Comment, Count, ElementKind, Height, Move, Program, Step, Xy};

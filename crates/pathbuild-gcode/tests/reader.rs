@@ -1,4 +1,4 @@
-//! The reader: how lines become words in each dialect. (`reference/cad6_xpertmill_gcode.md`, section 5.1)
+//! The reader: how lines become words in each dialect. (book: program/reading)
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! How heights between probes are found, where moves are corrected and how they are cut for it. (spec/70-z-probes.md, "Better models")
+//! How heights between probes are found, where moves are corrected and how they are cut for it. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,

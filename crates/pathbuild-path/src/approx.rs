@@ -1,4 +1,4 @@
-//! The approximate comparisons of spec/00-overview.md, "Numeric comparison".
+//! The approximate comparisons of book: language/markers.
 //!
 //! Coordinates come from CAD exports, so equality is approximate. It is not transitive: take minima in one scan with these, and
 //! never sort by them.

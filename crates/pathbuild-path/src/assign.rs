@@ -1,4 +1,4 @@
-//! Which element a parameter text belongs to. (spec/10-drawing.md, "The element a text belongs to")
+//! Which element a parameter text belongs to. (book: language/parameter-texts)
 
 mod boxes;
 #[cfg(test)]

@@ -1,5 +1,5 @@
 //! From a raw path and values of its variables to a [`Path`]: every parameter found, inherited and checked.
-//! (spec/30-parameters.md, spec/40-variables.md)
+//! (book: language/letters, book: language/variables)
 
 mod circles;
 mod cuts;

@@ -1,4 +1,4 @@
-//! What is done along a path, in order, with consecutive cuts grouped into milling chains. (spec/50-path-building.md, "Chains")
+//! What is done along a path, in order, with consecutive cuts grouped into milling chains. (book: language/chains-and-passes)
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::walk::{Passage, Walked, curve};
 
 /// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
+#[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum Item {
     Chain(Chain),
     /// The hole as an index into [`Path::holes`].

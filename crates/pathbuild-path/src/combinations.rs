@@ -1,4 +1,4 @@
-//! The combinations of values that a path's variables can have. (spec/40-variables.md, `check --all-bindings`)
+//! The combinations of values that a path's variables can have. (book: language/variables, `check --all-bindings`)
 
 use std::collections::HashSet;
 

@@ -1,5 +1,5 @@
 //! The default patterns of path names and file names, read by hand: they say what the regular expressions say, and take a tenth of
-//! the time, which is most of the time of listing a directory of ten thousand drawings. (spec/20-paths-and-files.md)
+//! the time, which is most of the time of listing a directory of ten thousand drawings. (book: language/layers-and-names)
 
 use std::ops::Range;
 

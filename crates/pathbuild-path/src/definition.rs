@@ -1,4 +1,4 @@
-//! Formal variables: what values they may have, and which are used for checking. (spec/40-variables.md)
+//! Formal variables: what values they may have, and which are used for checking. (book: language/variables)
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Values that are allowed, and that a machinist would look at twice: PB211. (spec/30-parameters.md)
+//! Values that are allowed, and that a machinist would look at twice: PB211. (book: language/letters)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;

@@ -1,4 +1,4 @@
-//! Elements of a path: what is drawn, and what it means. (spec/10-drawing.md, "Line types", "Special circles")
+//! Elements of a path: what is drawn, and what it means. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::words;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};

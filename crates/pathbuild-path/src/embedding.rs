@@ -1,5 +1,5 @@
 //! Embedding: what a path shows to the paths that embed it, and whether a path may stand where a subpath segment names it. Values in,
-//! diagnostics out: where the paths come from is the caller's business. (spec/50-path-building.md, "Subpaths")
+//! diagnostics out: where the paths come from is the caller's business. (book: language/embedding)
 
 mod judge;
 mod near;

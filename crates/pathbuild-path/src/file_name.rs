@@ -1,4 +1,4 @@
-//! What a drawing's file name says of its paths, against the paths that it holds. (spec/20-paths-and-files.md)
+//! What a drawing's file name says of its paths, against the paths that it holds. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;

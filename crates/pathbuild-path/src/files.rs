@@ -1,4 +1,4 @@
-//! Which files may hold a path, by the path names and ranges in the file's name. (spec/20-paths-and-files.md)
+//! Which files may hold a path, by the path names and ranges in the file's name. (book: language/layers-and-names)
 
 use std::borrow::Cow;
 use std::cmp::Ordering;

@@ -1,4 +1,4 @@
-//! The groups of names, by which paths and files are compared. (spec/20-paths-and-files.md)
+//! The groups of names, by which paths and files are compared. (book: language/layers-and-names)
 
 use std::borrow::Cow;
 use std::cmp::Ordering;

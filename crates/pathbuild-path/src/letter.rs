@@ -1,8 +1,8 @@
-//! The parameter letters. (spec/30-parameters.md)
+//! The parameter letters. (book: language/letters)
 
 /// A parameter's letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the letters are the names; spec/30-parameters.md has the table")]
+#[expect(missing_docs, reason = "the letters are the names; book: language/letters has the table")]
 pub enum Letter {
     A,
     B,

@@ -2,7 +2,7 @@
 //!
 //! [`raw_file`] finds the paths of a drawing; [`bind`] gives a raw path the values of its variables and checks every parameter;
 //! [`walk`] orders its segments from the start to the end and groups them into milling chains. Nothing here knows salsa, files or
-//! G-code. (spec/10-drawing.md to spec/50-path-building.md)
+//! G-code. (book: language/layers-and-names to language/q-projects)
 
 pub mod approx;
 mod assign;

@@ -1,4 +1,4 @@
-//! Values against their limits: PB203. (spec/30-parameters.md, "Checks")
+//! Values against their limits: PB203. (book: language/letters)
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message};

@@ -1,10 +1,10 @@
-//! Line types: what happens along a line, arc or circle. (spec/10-drawing.md, "Line types")
+//! Line types: what happens along a line, arc or circle. (book: language/line-types)
 
 use std::collections::BTreeMap;
 
 /// The eight line types that mean something, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the meaning depends on the entity: spec/10-drawing.md has the table")]
+#[expect(missing_docs, reason = "the meaning depends on the entity: book: language/line-types")]
 pub enum LineType {
     Continuous,
     Divide,
@@ -98,7 +98,7 @@ fn named(name: &str) -> Option<LineType> {
     LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
 }
 
-/// Names of other programs and languages for the same line types (reference/dxf.md section 4). ISO types are mapped as LibreCAD's
+/// Names of other programs and languages for the same line types (book: reference/dxf). ISO types are mapped as LibreCAD's
 /// import does; AutoCAD Mechanical's are ISO types by number.
 const ALIASES: &[(&str, LineType)] = &[
     ("SOLID", LineType::Continuous),

@@ -1,10 +1,10 @@
-//! Which letter is allowed on which element: the one table of spec/30-parameters.md, from which binding, messages and the manual take it.
+//! Which letter is allowed on which element: the one table of book: language/letters, from which binding, messages and the manual take it.
 
 use crate::letter::Letter;
 
 /// What an element is, as far as parameters are concerned: a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
+#[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum ElementClass {
     PathStart,
     Mill,

@@ -1,4 +1,4 @@
-//! Path names, and the layers they are on. (spec/20-paths-and-files.md)
+//! Path names, and the layers they are on. (book: language/layers-and-names)
 
 use std::borrow::Cow;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Numbers in parameter texts. (spec/30-parameters.md)
+//! Numbers in parameter texts. (book: language/letters)
 
 /// A number: an optional sign, digits, at most one decimal point or comma. `None` for anything else, exponents included, and for what
 /// is too large to be finite.

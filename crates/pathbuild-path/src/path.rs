@@ -1,4 +1,4 @@
-//! Paths: raw paths with their variables bound and every parameter known. (spec/30-parameters.md, spec/50-path-building.md)
+//! Paths: raw paths with their variables bound and every parameter known. (book: language/letters, book: language/chains-and-passes)
 
 use std::sync::Arc;
 
@@ -80,7 +80,7 @@ pub struct Turn {
     pub at: Xy,
 }
 
-/// A Z-probe. (spec/70-z-probes.md)
+/// A Z-probe. (book: language/probes)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
     /// The circle.
@@ -110,7 +110,7 @@ pub struct Segment {
 
 /// The kinds of segments.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "glossary in spec/00-overview.md")]
+#[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum SegmentKind {
     /// Member of a milling chain: index into [`Path::cuts`].
     Cut(u32),
@@ -155,7 +155,7 @@ pub struct ChainParameters {
     pub first_depth: Option<f64>,
 }
 
-/// Support bars of 45 degree slopes, cut to their number along a segment. (spec/60-gcode.md, "Support bars")
+/// Support bars of 45 degree slopes, cut to their number along a segment. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
     /// D: Z of their top.

@@ -1,4 +1,4 @@
-//! Raw paths: what is drawn on a path's layers, with the texts found, whatever the variables are. (spec/10-drawing.md)
+//! Raw paths: what is drawn on a path's layers, with the texts found, whatever the variables are. (book: reference/dxf)
 
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ pub struct RawPath {
 /// What is drawn on a path's layers. Shared by the stages, which know elements and texts by number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// All circles, then all lines, then all arcs, each in file order. (spec/50-path-building.md)
+    /// All circles, then all lines, then all arcs, each in file order. (book: language/chains-and-passes)
     pub elements: Vec<Element>,
     /// The texts that elements have.
     pub texts: ParameterTexts,

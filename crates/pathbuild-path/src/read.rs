@@ -1,4 +1,4 @@
-//! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (spec/10-drawing.md)
+//! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (book: reference/dxf)
 
 mod checked;
 mod collect;

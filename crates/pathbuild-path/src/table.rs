@@ -1,4 +1,4 @@
-//! The name ranges of a directory's files: which files may hold a path. (spec/20-paths-and-files.md)
+//! The name ranges of a directory's files: which files may hold a path. (book: language/layers-and-names)
 
 use crate::files::{NameRange, PathKey};
 use crate::group::Group;

@@ -1,4 +1,4 @@
-//! Parameter texts: letters and values. (spec/10-drawing.md, "Inside a text")
+//! Parameter texts: letters and values. (book: language/parameter-texts)
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! The circle by which a text finds its element, and what it overlaps. (spec/10-drawing.md, "The text circle")
+//! The circle by which a text finds its element, and what it overlaps. (book: language/parameter-texts)
 
 use nalgebra::Vector2;
 use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};

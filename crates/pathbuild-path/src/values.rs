@@ -1,4 +1,4 @@
-//! The values in a parameter text, with variables put in. (spec/30-parameters.md)
+//! The values in a parameter text, with variables put in. (book: language/letters)
 
 use std::borrow::Cow;
 

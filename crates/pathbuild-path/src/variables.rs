@@ -1,4 +1,4 @@
-//! Values of variables, and putting them into texts. (spec/40-variables.md)
+//! Values of variables, and putting them into texts. (book: language/variables)
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! The walk: from loose segments to one order from the start to the end. (spec/50-path-building.md, "The walk")
+//! The walk: from loose segments to one order from the start to the end. (book: language/chains-and-passes)
 
 mod ends;
 mod failure;
@@ -231,7 +231,7 @@ impl<'a> Walk<'a> {
         Some(found)
     }
 
-    /// Goes back over the way until something is found; an error when the way back is used up. (spec/50-path-building.md, "Turn markers")
+    /// Goes back over the way until something is found; an error when the way back is used up. (book: language/order-and-turns)
     fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;

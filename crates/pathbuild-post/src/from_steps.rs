@@ -1,4 +1,4 @@
-//! A program that was read as a job, to be written for another machine. (spec/90-gcode-import.md, `post FILE --post X`)
+//! A program that was read as a job, to be written for another machine. (book: program/reading, `post FILE --post X`)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 

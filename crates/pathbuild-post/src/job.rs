@@ -1,7 +1,7 @@
 //! The program as a post-processor reads it: operations in order, each with its tool, spindle, feeds, heights and moves.
 //!
 //! Lengths are millimetres and feeds mm/min throughout; a post converts when [`Job::units`] or its own definition says inches.
-//! (spec/85-post-processors.md)
+//! (book: program/posts)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 

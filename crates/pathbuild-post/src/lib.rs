@@ -1,4 +1,4 @@
-//! Post-processors: programs in the words of another machine. (spec/85-post-processors.md)
+//! Post-processors: programs in the words of another machine. (book: program/posts)
 //!
 //! A [`Job`] is what a post reads, made from finished programs or from a program that was read. A [`Post`] is a definition in one
 //! of two languages, CamBam's or CAD6's; [`Post::write`] makes the text. Nothing here does IO.

@@ -1,4 +1,4 @@
-//! Reading a post's text back, and comparing its moves with those of the job. (spec/85-post-processors.md, last paragraph)
+//! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::{Diagnostic, Note, messages::posts};
 

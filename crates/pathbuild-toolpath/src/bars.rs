@@ -1,4 +1,4 @@
-//! Support bars along a segment. (spec/60-gcode.md, "Support bars")
+//! Support bars along a segment. (book: program/gcode)
 
 use pathbuild_path::{Bars, Curve};
 

@@ -1,4 +1,4 @@
-//! Milling chains, pass by pass. (spec/60-gcode.md, "Chains")
+//! Milling chains, pass by pass. (book: program/gcode)
 
 use pathbuild_path::approx::{above, at_least, coincide, near};
 use pathbuild_path::{Chain, ChainSegment, Curve, Cut};

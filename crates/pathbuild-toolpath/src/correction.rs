@@ -1,4 +1,4 @@
-//! Where moves are corrected, and how they are cut for it. (spec/70-z-probes.md, "Better models")
+//! Where moves are corrected, and how they are cut for it. (book: language/probes)
 
 use std::borrow::Cow;
 

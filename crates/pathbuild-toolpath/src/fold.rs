@@ -36,7 +36,7 @@ pub struct FoldOptions {
     pub sweep_height: Option<f64>,
     /// --probe-feed: Z in mm/min. Probes without it fall back on feeds.
     pub probe_feed: Option<f64>,
-    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (spec/60-gcode.md, "Compatible")
+    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (book: program/compatible)
     pub compatible: bool,
 }
 

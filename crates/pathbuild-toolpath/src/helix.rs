@@ -1,4 +1,4 @@
-//! Helical circles. (spec/60-gcode.md, "Helical circle")
+//! Helical circles. (book: program/gcode)
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! The moves of a path, and the fold that places, joins and merges them into a program.
 //!
 //! [`fold`] goes through a path and all that it embeds and writes down every step of the machine, each with its numbers. What is known
-//! of the embedded paths it asks of a [`Parts`]. Nothing here formats text. (spec/60-gcode.md, spec/70-z-probes.md)
+//! of the embedded paths it asks of a [`Parts`]. Nothing here formats text. (book: program/gcode, book: language/probes)
 
 mod bars;
 mod chain;

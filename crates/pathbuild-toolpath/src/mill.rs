@@ -1,4 +1,4 @@
-//! Milling along a curve. (spec/60-gcode.md, "Elementary moves")
+//! Milling along a curve. (book: program/gcode)
 
 use pathbuild_path::Curve;
 

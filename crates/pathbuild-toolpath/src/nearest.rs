@@ -1,4 +1,4 @@
-//! The edge that is nearest to the tool tip. (spec/60-gcode.md, "Chains, ordinary milling")
+//! The edge that is nearest to the tool tip. (book: program/gcode)
 //!
 //! Distances are compared approximately, which is not transitive: the choice is that of one scan in segment order. Only edges near the
 //! tip can matter to that scan, and an R-tree finds them, so that a chain of many thousand segments does not take the square of it.

@@ -1,4 +1,4 @@
-//! The order in which Z-probes are measured. (spec/70-z-probes.md, "Order and names")
+//! The order in which Z-probes are measured. (book: language/probes)
 
 use pathbuild_path::Xy;
 

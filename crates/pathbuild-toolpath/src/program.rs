@@ -1,4 +1,4 @@
-//! The finished program. (spec/60-gcode.md)
+//! The finished program. (book: program/gcode)
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use pathbuild_path::Xy;
 
 /// A finished program: what the machine does, step by step, before any dialect writes it down.
 ///
-/// It begins at (0, 0, `start_height`); the frame around it (spec/60-gcode.md, "The program") is the writer's.
+/// It begins at (0, 0, `start_height`); the frame around it (book: program/gcode) is the writer's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// The emitted path's name, as the drawing spells its layer, with points.
@@ -21,7 +21,7 @@ pub struct Program {
     pub sweep_height: f64,
     /// Upper face T of the material in mm.
     pub thickness: f64,
-    /// Whether it is the program of `PathDxf2GCode`, to be written in its form. (spec/60-gcode.md, "Compatible")
+    /// Whether it is the program of `PathDxf2GCode`, to be written in its form. (book: program/compatible)
     pub compatible: bool,
     /// Texts that steps refer to.
     pub names: Names,
@@ -31,7 +31,7 @@ pub struct Program {
     pub probes: Vec<ProbePoint>,
 }
 
-/// A point whose real height is measured before milling. (spec/70-z-probes.md)
+/// A point whose real height is measured before milling. (book: language/probes)
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbePoint {
     /// In the program.
@@ -99,7 +99,7 @@ pub enum Move {
     Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
-/// A height, and the point whose measured material height corrects it in programs with probes. (spec/60-gcode.md, `Z<expr(z, xy)>`)
+/// A height, and the point whose measured material height corrects it in programs with probes. (book: program/gcode, `Z<expr(z, xy)>`)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
     /// Z in mm.
@@ -108,7 +108,7 @@ pub struct Height {
     pub at: Xy,
 }
 
-/// What a move adds to the statistics. (spec/60-gcode.md, "Statistics")
+/// What a move adds to the statistics. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
     /// Under which label.
@@ -161,7 +161,7 @@ pub enum Comment {
     },
 }
 
-/// The elements that a machinist tells apart in a program. (Glossary in spec/00-overview.md)
+/// The elements that a machinist tells apart in a program. (Glossary in book: reference/glossary)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum ElementKind {

@@ -1,4 +1,4 @@
-//! Lengths and times of a program. (spec/60-gcode.md, "Statistics")
+//! Lengths and times of a program. (book: program/gcode)
 
 use crate::program::{Class, Count, Move, Program, Step};
 

@@ -1,6 +1,6 @@
 //! What a `pathbuild.toml` describes: the configuration, finding drawings, sessions over the database, results kept between runs, the jobs
 //! of `check` and `emit`, the watch loop. It parses no arguments and prints nothing: what somebody who waits may want to hear goes to a
-//! [`Reporter`] or a [`watch::Listener`]. (spec/06-configuration.md)
+//! [`Reporter`] or a [`watch::Listener`]. (book: reference/configuration)
 
 pub mod check;
 pub mod config;

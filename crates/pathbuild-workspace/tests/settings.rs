@@ -1,5 +1,5 @@
 //! Which settings ask another question: each is changed alone, and the key of checks and that of programs must change, or not.
-//! (spec/06-configuration.md)
+//! (book: reference/configuration)
 
 #![expect(
     clippy::unwrap_used,

@@ -1,4 +1,4 @@
-//! What a run tells the shell. The numbers are part of the interface and never change. (spec/80-diagnostics.md)
+//! What a run tells the shell. The numbers are part of the interface and never change. (book: reference/diagnostics)
 
 use std::process::ExitCode;
 

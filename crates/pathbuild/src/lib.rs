@@ -1,5 +1,5 @@
 //! The program `pathbuild`: arguments, configuration, how results are shown, exit status. What drawings mean is decided in the
-//! crates below; this one holds no logic of theirs. (spec/05-command-line.md, spec/06-configuration.md)
+//! crates below; this one holds no logic of theirs. (book: reference/commands, book: reference/configuration)
 
 pub mod args;
 pub mod commands;

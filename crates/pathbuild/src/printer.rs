@@ -1,4 +1,4 @@
-//! The only place of the program that prints. (spec/05-command-line.md)
+//! The only place of the program that prints. (book: reference/commands)
 //!
 //! | what | stream | at |
 //! | --- | --- | --- |

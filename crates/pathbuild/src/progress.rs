@@ -1,4 +1,4 @@
-//! A progress bar on a terminal, for work that takes longer than half a second. (spec/05-command-line.md)
+//! A progress bar on a terminal, for work that takes longer than half a second. (book: reference/commands)
 
 use std::io::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};

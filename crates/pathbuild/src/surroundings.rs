@@ -1,4 +1,4 @@
-//! Where a person's configuration is, and where results are kept for later runs. (spec/06-configuration.md, "The user's own configuration")
+//! Where a person's configuration is, and where results are kept for later runs. (book: reference/configuration)
 #![expect(
     clippy::disallowed_methods,
     reason = "the environment is asked where a person's own files are, which no result depends on"

@@ -2,6 +2,7 @@
 //! scratch copy of the book's drawings, pictures are drawn by `view`, tables come from the code, links are followed.
 //! `PATHBUILD_UPDATE=1` writes anew what differs. (CONTRIBUTING.md, "The books")
 
+mod citations;
 mod console;
 mod drawings;
 mod generated;

@@ -1,4 +1,4 @@
-//! `verify --against` finds every dangerous change of a program, and nothing in one that nobody changed. (spec/90-gcode-import.md, "verify")
+//! `verify --against` finds every dangerous change of a program, and nothing in one that nobody changed. (book: program/reading)
 //!
 //! Programs of all cases are written by every post, then changed: words are put in before the first move and between moves, numbers are
 //! changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster, at another

@@ -1,5 +1,5 @@
 //! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, readers that
-//! are not ours (`independent`) see the same, and no rule of `verify` finds an error. (spec/85-post-processors.md)
+//! are not ours (`independent`) see the same, and no rule of `verify` finds an error. (book: program/posts)
 
 mod changes;
 mod independent;

@@ -1,4 +1,4 @@
-//! Programs that are of the drawing as it was: found by their provenance. (spec/60-gcode.md, spec/70-z-probes.md "Adjusting")
+//! Programs that are of the drawing as it was: found by their provenance. (book: program/gcode, book: language/probes)
 
 use super::{OPTIONS, drawing, emit, measure, succeed, write};
 use crate::support::Place;

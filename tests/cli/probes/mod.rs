@@ -1,4 +1,4 @@
-//! Z-probes from the drawing to the adjusted program. (spec/70-z-probes.md)
+//! Z-probes from the drawing to the adjusted program. (book: language/probes)
 
 mod current;
 mod machine;

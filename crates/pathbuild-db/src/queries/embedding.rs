@@ -1,5 +1,5 @@
 //! What a path embeds: every subpath segment with the path it names, checked against each other.
-//! (spec/50-path-building.md, "Subpaths"; the order of errors: spec/80-diagnostics.md)
+//! (book: language/embedding; the order of errors: book: reference/diagnostics)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{Judge, Origin, PathName, PathSignature, SubpathCall, SubpathName};

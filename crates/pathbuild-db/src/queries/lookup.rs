@@ -1,4 +1,4 @@
-//! Where paths are: file names to files. (spec/20-paths-and-files.md)
+//! Where paths are: file names to files. (book: language/layers-and-names)
 
 use camino::Utf8Path;
 use pathbuild_path::{PathKey, PathName};

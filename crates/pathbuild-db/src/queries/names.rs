@@ -1,4 +1,4 @@
-//! What file names say about paths: the drawings of a directory by the name ranges in theirs. (spec/20-paths-and-files.md)
+//! What file names say about paths: the drawings of a directory by the name ranges in theirs. (book: language/layers-and-names)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{FilePattern, PathKey, RangeTable};

@@ -1,4 +1,4 @@
-//! A system in which nothing leads out of one directory: for trees of strangers. (spec/06-configuration.md, `--untrusted`)
+//! A system in which nothing leads out of one directory: for trees of strangers. (book: reference/configuration, `--untrusted`)
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

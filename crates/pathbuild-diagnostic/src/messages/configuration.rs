@@ -1,4 +1,4 @@
-//! pathbuild.toml and the values of options. (PB003; spec/06-configuration.md)
+//! pathbuild.toml and the values of options. (PB003; book: reference/configuration)
 
 use crate::message::Word;
 

@@ -1,4 +1,4 @@
-//! Reading, interpreting and checking G-code. (PB701 to PB749; spec/90-gcode-import.md)
+//! Reading, interpreting and checking G-code. (PB701 to PB749; book: program/reading)
 //!
 //! `{dialect}` is the name of the dialect that the file is read as.
 

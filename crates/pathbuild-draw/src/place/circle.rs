@@ -9,7 +9,7 @@ pub struct TextCircle {
     pub radius: f64,
 }
 
-/// The circle of a TEXT or MTEXT; `None` for other entities. (spec/10-drawing.md, "The text circle")
+/// The circle of a TEXT or MTEXT; `None` for other entities. (book: language/parameter-texts)
 pub fn text_circle(entity: &Entity) -> Option<TextCircle> {
     match &entity.shape {
         Shape::Text(text) => Some(of_text(text, entity.orientation == Orientation::Mirrored)),

@@ -1,4 +1,4 @@
-//! Where the text of an element goes, so that by the rules of spec/10-drawing.md it belongs to that element.
+//! Where the text of an element goes, so that by the rules of book: language/parameter-texts it belongs to that element.
 
 mod candidate;
 mod circle;

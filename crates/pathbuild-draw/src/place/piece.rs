@@ -12,7 +12,7 @@ pub(crate) enum Piece {
 pub(crate) type Rank = u8;
 
 impl Piece {
-    /// Rank and distance when a text circle overlaps this piece. (spec/10-drawing.md, "The element a text belongs to")
+    /// Rank and distance when a text circle overlaps this piece. (book: language/parameter-texts)
     pub(crate) fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
         match self {
             Self::Circle(circle) => {

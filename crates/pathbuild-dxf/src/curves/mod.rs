@@ -1,4 +1,4 @@
-//! Curves that are no arcs, approximated by arcs. (spec/06-configuration.md, `approximate-curves`)
+//! Curves that are no arcs, approximated by arcs. (book: reference/configuration, `approximate-curves`)
 
 mod approximate;
 mod biarc;

@@ -1,4 +1,4 @@
-//! `$DWGCODEPAGE`: which encoding its value names. (reference/dxf.md section 4, point 2)
+//! `$DWGCODEPAGE`: which encoding its value names. (book: reference/dxf)
 
 use encoding_rs::{
     BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5, ISO_8859_6,

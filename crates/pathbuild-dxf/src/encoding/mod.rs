@@ -1,4 +1,4 @@
-//! Bytes of strings to characters. (spec/10-drawing.md: "encoding")
+//! Bytes of strings to characters. (book: reference/dxf: "encoding")
 //!
 //! Strings are decoded one by one, never the file as a whole: in the double-byte code pages a byte of a character may look like a
 //! backslash, but never like a line end. ASCII, nearly all there is, is borrowed as it stands.

@@ -1,4 +1,4 @@
-//! INSERT: a block, or rows and columns of it, at another place. (reference/dxf.md section 4, point 9)
+//! INSERT: a block, or rows and columns of it, at another place. (book: reference/dxf)
 
 use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::reading::INSERT_SCALED;

@@ -1,4 +1,4 @@
-//! TEXT and MTEXT. (spec/10-drawing.md, "Parameter texts" and "The text circle")
+//! TEXT and MTEXT. (book: language/parameter-texts)
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! Files of many CADs from the wild, compared with what ezdxf 1.4.5 reads from them. (reference/dxf.md section 1)
+//! Files of many CADs from the wild, compared with what ezdxf 1.4.5 reads from them. (book: reference/dxf)
 //!
 //! The files belong to others and are no part of the project: without them the test is skipped, unless `PATHBUILD_REQUIRE` names
 //! `shared`.
@@ -49,7 +49,7 @@ const KNOWN: &[(&str, usize, &str)] = &[
 ];
 
 const UTF_8: &str = "R12 with UTF-8, which ezdxf takes for ANSI_1252";
-const STACKED: &str = "`^ ` in a stacked text is dropped (spec/10-drawing.md)";
+const STACKED: &str = "`^ ` in a stacked text is dropped (book: reference/dxf)";
 
 #[test]
 fn every_file_is_read_as_ezdxf_reads_it() {

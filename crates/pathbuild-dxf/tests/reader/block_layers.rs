@@ -1,5 +1,4 @@
-//! Which insertions matter: those that put something on a wanted layer. Of all others nothing is said. (spec/10-drawing.md, "More
-//! entities")
+//! Which insertions matter: those that put something on a wanted layer. Of all others nothing is said. (book: language/layers-and-names)
 
 use std::time::{Duration, Instant};
 

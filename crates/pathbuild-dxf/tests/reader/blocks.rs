@@ -1,4 +1,4 @@
-//! INSERT: blocks in the place of their insertions. (spec/10-drawing.md, "More entities"; reference/dxf.md section 4, point 9)
+//! INSERT: blocks in the place of their insertions. (book: language/layers-and-names; book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
 use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, Options, Origin, Point3, read};

@@ -1,4 +1,4 @@
-//! ELLIPSE and SPLINE as arcs within a tolerance. (spec/06-configuration.md, `approximate-curves`)
+//! ELLIPSE and SPLINE as arcs within a tolerance. (book: reference/configuration, `approximate-curves`)
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Bytes of strings to characters. (spec/10-drawing.md: "encoding"; reference/dxf.md section 4, point 2)
+//! Bytes of strings to characters. (book: reference/dxf, "encoding")
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Drawing, Geometry};

@@ -1,4 +1,4 @@
-//! LINE, ARC and CIRCLE: what is read of them, and what is wrong with them. (spec/10-drawing.md)
+//! LINE, ARC and CIRCLE: what is read of them, and what is wrong with them. (book: reference/dxf)
 
 use crate::support::{entities, faults, file, only, only_geometry, options, read_all};
 use pathbuild_diagnostic::Handle;

@@ -1,5 +1,5 @@
 //! Entities on layers that are not wanted are passed over, most of all where many of one kind and layer follow each other. What is between
-//! them is read nevertheless, and what is wrong with the file is said. (spec/10-drawing.md: "lines")
+//! them is read nevertheless, and what is wrong with the file is said. (book: reference/dxf: "lines")
 
 use pathbuild_dxf::{Options, Origin, read};
 

@@ -1,4 +1,4 @@
-//! Which records of LAYER are read: those that a wanted layer may be found by. Of all others nothing is said. (spec/10-drawing.md)
+//! Which records of LAYER are read: those that a wanted layer may be found by. Of all others nothing is said. (book: reference/dxf)
 
 use std::time::{Duration, Instant};
 

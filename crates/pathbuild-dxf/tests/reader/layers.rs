@@ -1,4 +1,4 @@
-//! Layers and line types: names, tables, what hides a layer. (spec/10-drawing.md; reference/dxf.md section 4, points 3 and 5)
+//! Layers and line types: names, tables, what hides a layer. (book: reference/dxf)
 
 use std::cell::RefCell;
 

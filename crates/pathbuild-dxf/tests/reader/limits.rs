@@ -1,4 +1,4 @@
-//! PB005: limits of entities and texts. (spec/06-configuration.md, `[limits]`)
+//! PB005: limits of entities and texts. (book: reference/configuration, `[limits]`)
 
 use pathbuild_dxf::{Drawing, Options, read};
 

@@ -1,4 +1,4 @@
-//! Bytes to pairs: line ends, padding, remarks, codes. (reference/dxf.md section 4, point 1)
+//! Bytes to pairs: line ends, padding, remarks, codes. (book: reference/dxf)
 
 use crate::support::{entities, faults, file_faults, only, read_all};
 

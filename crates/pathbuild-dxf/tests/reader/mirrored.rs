@@ -1,4 +1,4 @@
-//! Object coordinates: extrusions. (spec/10-drawing.md; reference/dxf.md section 4, point 8)
+//! Object coordinates: extrusions. (book: reference/dxf)
 
 use pathbuild_dxf::{Arc, Circle, Geometry, HorizontalAlign, Line, Point3};
 

@@ -1,4 +1,4 @@
-//! LWPOLYLINE and POLYLINE as lines and arcs. (spec/10-drawing.md, "More entities")
+//! LWPOLYLINE and POLYLINE as lines and arcs. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle};
 use pathbuild_dxf::{Arc, Drawing, Geometry, Line, Point3};

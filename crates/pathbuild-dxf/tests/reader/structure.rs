@@ -1,4 +1,4 @@
-//! Sections, the end of the file, and files that are none. (spec/10-drawing.md; spec/80-diagnostics.md, PB002 and PB007)
+//! Sections, the end of the file, and files that are none. (book: reference/dxf; book: reference/diagnostics, PB002 and PB007)
 
 use crate::support::{entities, file_faults, only, read_all, section};
 

@@ -1,4 +1,4 @@
-//! TEXT and MTEXT: where they are and how they are aligned. (spec/10-drawing.md, "The text circle")
+//! TEXT and MTEXT: where they are and how they are aligned. (book: language/parameter-texts)
 
 use HorizontalAlign::{Centre, Left, Right};
 use VerticalAlign::{Baseline, Bottom, Middle, Top};

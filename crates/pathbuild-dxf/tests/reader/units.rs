@@ -1,4 +1,4 @@
-//! $INSUNITS. (spec/10-drawing.md; spec/06-configuration.md, `units`)
+//! $INSUNITS. (book: reference/dxf; book: reference/configuration, `units`)
 
 use pathbuild_dxf::{Drawing, Geometry, Options, Units, read};
 

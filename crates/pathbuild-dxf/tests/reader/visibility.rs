@@ -1,4 +1,4 @@
-//! What counts although it is not seen, and what does not. (spec/10-drawing.md; reference/dxf.md section 4, point 8)
+//! What counts although it is not seen, and what does not. (book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, Severity};
 

@@ -1,4 +1,4 @@
-//! Measured heights put into a program. (spec/70-z-probes.md, "Adjusting")
+//! Measured heights put into a program. (book: language/probes)
 //!
 //! The program is read twice, line by line: first every formula is checked and what it uses is noted, then each is worked out. So a
 //! program of any size takes no memory but its own, and nothing comes out of one with an error in it.

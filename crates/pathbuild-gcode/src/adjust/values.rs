@@ -1,4 +1,4 @@
-//! The file that a person writes the measured values into. (spec/70-z-probes.md, "The value file")
+//! The file that a person writes the measured values into. (book: language/probes)
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! Which words a dialect takes. (`reference/cad6_xpertmill_gcode.md`, section 5.6)
+//! Which words a dialect takes. (book: program/reading)
 
 /// The words of a dialect. G and M codes are ten times their number: `G38.2` is 382.
 #[derive(Debug)]

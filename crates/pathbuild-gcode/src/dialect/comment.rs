@@ -1,5 +1,5 @@
 //! Texts of others in comments: names, remarks, dates. Whatever comes from a drawing, a file's name or an option passes here.
-//! (spec/60-gcode.md, "The program"; `reference/cad6_xpertmill_gcode.md`, section 5.1)
+//! (book: program/gcode; book: program/reading)
 
 use super::{Dialect, Percent, Style};
 use crate::native::{Charset, transliterated};

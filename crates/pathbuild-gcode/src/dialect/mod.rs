@@ -1,4 +1,4 @@
-//! What the controls differ in: spelling, words, arcs, order. (spec/90-gcode-import.md; `reference/cad6_xpertmill_gcode.md`, sections 3 and 5)
+//! What the controls differ in: spelling, words, arcs, order. (book: program/reading)
 //!
 //! A dialect is data, one [`Rules`] each; reader and interpreter ask the rules and never which dialect it is.
 
@@ -34,7 +34,7 @@ pub enum Dialect {
     Haas,
     /// Marlin 2 on a mill.
     Marlin,
-    /// What pathbuild and its predecessor write (spec/60-gcode.md), with correction formulas as data (spec/70-z-probes.md).
+    /// What pathbuild and its predecessor write (book: program/gcode), with correction formulas as data (book: language/probes).
     Native,
 }
 

@@ -62,7 +62,7 @@ pub enum DwellUnit {
     BySetting,
 }
 
-/// How a dialect reads arcs. (`reference/cad6_xpertmill_gcode.md`, section 5.4)
+/// How a dialect reads arcs. (book: program/reading)
 #[derive(Debug)]
 pub struct ArcRules {
     /// How much the radius at the end may differ from that at the start.

@@ -30,7 +30,7 @@ pub struct Spelling {
     pub grammar: Option<Grammar>,
     /// A number may have a decimal comma (with a warning).
     pub decimal_comma: bool,
-    /// `(=...)` behind a number is its correction formula. (spec/70-z-probes.md)
+    /// `(=...)` behind a number is its correction formula. (book: language/probes)
     pub formulas: bool,
     /// A number without a letter behind M6 is the tool's.
     pub bare_tool_number: bool,

@@ -1,4 +1,4 @@
-//! How long a program takes on a machine that has to gather speed. (spec/90-gcode-import.md; `reference/peers.md`, section 5)
+//! How long a program takes on a machine that has to gather speed. (book: program/reading)
 //!
 //! A planner as GRBL has it: along each move the tool speeds up, keeps its feed and slows down; how fast it may take a corner follows from
 //! the junction deviation. It looks ahead as far as it is of use, where a control sees a few moves only.

@@ -1,4 +1,4 @@
-//! Arcs, from I J K or R. (`reference/cad6_xpertmill_gcode.md`, section 5.4)
+//! Arcs, from I J K or R. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 

@@ -1,4 +1,4 @@
-//! Parameters, and the values of expressions. (`reference/cad6_xpertmill_gcode.md`, section 5.2)
+//! Parameters, and the values of expressions. (book: program/reading)
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
 //! Block by block, in the order of execution that the standard gives the words of a block, whatever their order in the text.
-//! (`reference/cad6_xpertmill_gcode.md`, section 5.3)
+//! (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};

@@ -1,4 +1,4 @@
-//! Which dialect a file is in, and why that is thought. (spec/90-gcode-import.md: "else guessed and said")
+//! Which dialect a file is in, and why that is thought. (book: program/reading, "Dialects")
 
 use memchr::memmem;
 use pathbuild_diagnostic::{Code, Word};

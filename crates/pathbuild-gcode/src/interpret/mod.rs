@@ -1,4 +1,4 @@
-//! What a program in G-code makes the machine do. (spec/90-gcode-import.md, "Interpreter"; `reference/cad6_xpertmill_gcode.md`, section 5)
+//! What a program in G-code makes the machine do. (book: program/reading)
 //!
 //! The result is a list of canonical [`Step`]s: everything in millimetres, absolute, with the position before and after, whatever the
 //! program's units, distance mode, coordinate system or cycles were. Every problem is a diagnostic with its line; a line that cannot

@@ -1,4 +1,4 @@
-//! Coordinate systems, G92, G52, G28, G30: from the program's numbers to places. (spec/90-gcode-import.md, "as named offsets")
+//! Coordinate systems, G92, G52, G28, G30: from the program's numbers to places. (book: program/reading)
 //!
 //! Places are given in the coordinates that the program has at its first move. Where its zero lies on the machine is in no file, so
 //! the machine's own coordinates are known only where they are configured.

@@ -27,7 +27,7 @@ pub enum Heights {
     Nominal,
 }
 
-/// What G70 and G71 mean. (`reference/cad6_xpertmill_gcode.md`, section 3.2)
+/// What G70 and G71 mean. (book: program/reading)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitCodes {
     /// As DIN has it, and the filter's own examples: G70 inches, G71 millimetres.

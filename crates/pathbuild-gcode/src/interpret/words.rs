@@ -1,4 +1,4 @@
-//! Reading the words of a block: what each is, and whether the dialect knows it. (`reference/cad6_xpertmill_gcode.md`, section 5.6)
+//! Reading the words of a block: what each is, and whether the dialect knows it. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 

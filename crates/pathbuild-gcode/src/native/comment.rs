@@ -1,6 +1,6 @@
 //! Comments, and the characters that may stand in them.
 
-/// The characters that are written. (spec/06-configuration.md, `charset`)
+/// The characters that are written. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Charset {
     /// Umlauts and the like are transliterated, the rest becomes `?`: some controllers take bytes above 127 for commands.

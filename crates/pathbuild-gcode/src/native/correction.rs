@@ -1,4 +1,4 @@
-//! The formula by which measured probes correct a height. (spec/70-z-probes.md, "The formula")
+//! The formula by which measured probes correct a height. (book: language/probes)
 
 use pathbuild_toolpath::{Correction, Height, ProbePoint, Program, Surface};
 

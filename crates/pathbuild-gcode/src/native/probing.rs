@@ -1,4 +1,4 @@
-//! The probing run, and the file that a person writes the measured values into. (spec/70-z-probes.md)
+//! The probing run, and the file that a person writes the measured values into. (book: language/probes)
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The program itself. (spec/60-gcode.md)
+//! The program itself. (book: program/gcode)
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};

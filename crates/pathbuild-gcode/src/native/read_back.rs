@@ -1,4 +1,4 @@
-//! Reading a native text back, and comparing its moves with the program it was made from. (spec/90-gcode-import.md, "verify")
+//! Reading a native text back, and comparing its moves with the program it was made from. (book: program/reading)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;

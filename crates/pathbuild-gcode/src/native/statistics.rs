@@ -1,4 +1,4 @@
-//! The statistics at a program's end, which tools read. (spec/60-gcode.md, "Statistics")
+//! The statistics at a program's end, which tools read. (book: program/gcode)
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Statistics, Total};

@@ -1,4 +1,4 @@
-//! The header line by which a program can be traced. (spec/60-gcode.md, "The program")
+//! The header line by which a program can be traced. (book: program/gcode)
 //!
 //! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5`: the version, a hash of the moves and formulas, a hash of the options, the
 //! dialect, the cutter O and the material's height T in mm. O and T are left out where a program has several.

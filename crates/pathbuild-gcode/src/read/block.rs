@@ -99,7 +99,7 @@ pub enum CommentStyle {
     Message,
 }
 
-/// The correction formula behind a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (spec/70-z-probes.md)
+/// The correction formula behind a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (book: language/probes)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     /// Index of the word it belongs to.

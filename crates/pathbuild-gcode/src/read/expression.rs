@@ -1,5 +1,5 @@
 //! Expressions, compiled as they are read: operands first, then the operator, so that their value needs a stack and no recursion.
-//! (`reference/cad6_xpertmill_gcode.md`, section 5.2)
+//! (book: program/reading)
 
 use std::ops::Range;
 
@@ -120,7 +120,7 @@ const WORDS: [(&[u8], Binary); 10] = [
 pub(super) enum Syntax {
     /// That of a dialect.
     Dialect { operators: Operators, names: bool, signs: bool },
-    /// That of correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (spec/70-z-probes.md)
+    /// That of correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (book: language/probes)
     Formula,
 }
 

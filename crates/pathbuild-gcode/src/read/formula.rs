@@ -1,4 +1,4 @@
-//! Correction formulas as pathbuild and its predecessor write them, read without looking twice. (spec/70-z-probes.md, "The formula")
+//! Correction formulas as pathbuild and its predecessor write them, read without looking twice. (book: language/probes)
 
 use super::block::{Formula, Span};
 use super::expression::{Binary, Code, Op};

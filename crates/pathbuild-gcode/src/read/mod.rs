@@ -1,4 +1,4 @@
-//! G-code text to blocks of words, line by line. (spec/90-gcode-import.md; `reference/cad6_xpertmill_gcode.md`, section 5.1)
+//! G-code text to blocks of words, line by line. (book: program/reading)
 //!
 //! Purely lexical: which letters and codes there are, and what they do, is the interpreter's business. A line that cannot be read is
 //! reported and left out; reading goes on with the next one.

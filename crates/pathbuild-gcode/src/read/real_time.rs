@@ -1,4 +1,4 @@
-//! Bytes that GRBL obeys the moment they arrive, whatever they stand in. (`reference/cad6_xpertmill_gcode.md`, section 5.1)
+//! Bytes that GRBL obeys the moment they arrive, whatever they stand in. (book: program/reading)
 
 use pathbuild_diagnostic::Word;
 

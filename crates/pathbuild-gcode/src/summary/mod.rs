@@ -1,4 +1,4 @@
-//! What a program is, in numbers: moves, lengths, times, the box it needs, tools, feeds. (spec/90-gcode-import.md, `import`)
+//! What a program is, in numbers: moves, lengths, times, the box it needs, tools, feeds. (book: program/reading, `import`)
 
 mod tally;
 

@@ -1,4 +1,4 @@
-//! What a machine can do. (spec/06-configuration.md, `[machine]`)
+//! What a machine can do. (book: reference/configuration, `[machine]`)
 
 use pathbuild_diagnostic::messages::gcode as say;
 

@@ -1,4 +1,4 @@
-//! Rapid moves through material that is still there. (spec/90-gcode-import.md, "verify")
+//! Rapid moves through material that is still there. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};

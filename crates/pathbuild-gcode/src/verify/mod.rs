@@ -1,4 +1,4 @@
-//! Whether a program is what it should be: the same as another, and safe to run. (spec/90-gcode-import.md, "verify")
+//! Whether a program is what it should be: the same as another, and safe to run. (book: program/reading)
 //!
 //! The words of a program are judged when it is interpreted in the dialect of the machine; the rules here judge what it does. None of
 //! them guesses: what is not known of stock and machine is not checked, because a false alarm that stops a good program is worse

@@ -1,4 +1,4 @@
-//! Rapid moves into material, looked for in every program that is about to be written. (spec/90-gcode-import.md, "verify")
+//! Rapid moves into material, looked for in every program that is about to be written. (book: program/reading)
 //!
 //! What it costs grows with the moves: only a rapid move below a surface is looked at, and is fine where the last cuts before it have made
 //! room. Where they have not, the map of the whole material decides.

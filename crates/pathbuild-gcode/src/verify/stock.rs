@@ -1,4 +1,4 @@
-//! What is known of the material. (spec/90-gcode-import.md, "verify")
+//! What is known of the material. (book: program/reading)
 //!
 //! Its extent is in no drawing. Material is known only within O of where a program cuts, up to the surface T that holds there;
 //! elsewhere nothing is known, and nothing is said.
@@ -67,7 +67,7 @@ impl Stock {
     }
 
     /// The material of a program in the native dialect that comes without its drawing: where a rapid move down hands over to a cutting one
-    /// is T (spec/60-gcode.md, "plunge"), one for each embedded path. `None` if there is no such place.
+    /// is T (book: program/gcode), one for each embedded path. `None` if there is no such place.
     pub fn of_native_text(program: &(impl Steps + ?Sized), cutter: f64) -> Option<Self> {
         let mut pieces = Vec::new();
         let mut section = Section { line: 0, surface: None };

@@ -13,7 +13,7 @@ use crate::matrix::ElementClass;
 use crate::path::{Helix, Hole, SegmentKind};
 use crate::values::Given;
 
-/// Orders at a star: holes come first, then circles, small ones before large ones. (spec/50-path-building.md, "Segments")
+/// Orders at a star: holes come first, then circles, small ones before large ones. (book: language/chains-and-passes)
 const BEFORE_ALL: f64 = -1_000_000.0;
 
 impl Binder<'_> {

@@ -13,7 +13,7 @@ use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{ParameterText, Piece};
 use crate::values::{Given, Values};
 
-/// Order of what does not say N. (spec/50-path-building.md, "Segments")
+/// Order of what does not say N. (book: language/chains-and-passes)
 pub(super) const UNNUMBERED: f64 = 9998.0;
 
 impl Binder<'_> {

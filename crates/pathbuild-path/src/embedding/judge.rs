@@ -1,4 +1,4 @@
-//! What is wrong with what a path embeds. The order of errors: spec/80-diagnostics.md.
+//! What is wrong with what a path embeds. The order of errors: book: reference/diagnostics.
 
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
 use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TextFault, Value};

@@ -1,4 +1,4 @@
-//! Material that H raises, and the sweeps above it. (spec/30-parameters.md, "Checks")
+//! Material that H raises, and the sweeps above it. (book: language/letters)
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};

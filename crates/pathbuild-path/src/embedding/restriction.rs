@@ -1,4 +1,4 @@
-//! `--restrict PARENT:CHILD`. (spec/50-path-building.md, "Subpaths")
+//! `--restrict PARENT:CHILD`. (book: language/embedding)
 
 use regex::Regex;
 

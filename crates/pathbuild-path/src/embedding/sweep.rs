@@ -1,4 +1,4 @@
-//! What a sweep height must be above, for paths whose S depends on their role. (spec/30-parameters.md)
+//! What a sweep height must be above, for paths whose S depends on their role. (book: language/letters)
 
 use std::iter;
 

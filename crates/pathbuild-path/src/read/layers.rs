@@ -1,4 +1,4 @@
-//! Which layers belong to which path. (spec/20-paths-and-files.md)
+//! Which layers belong to which path. (book: language/layers-and-names)
 
 use pathbuild_dxf::{Drawing, Layer};
 

@@ -1,4 +1,4 @@
-//! Which element each text belongs to, for showing. (spec/10-drawing.md, "Inside a text", last paragraph)
+//! Which element each text belongs to, for showing. (book: language/parameter-texts)
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What each entity of a path means. (spec/10-drawing.md, "Line types", "Special circles")
+//! What each entity of a path means. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};

@@ -1,4 +1,4 @@
-//! Proxy lines: drawn beside a component's path, to be copied into projects. (spec/20-paths-and-files.md, "Q-projects")
+//! Proxy lines: drawn beside a component's path, to be copied into projects. (book: language/q-projects)
 
 use std::collections::BTreeMap;
 

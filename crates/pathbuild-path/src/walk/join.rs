@@ -1,4 +1,4 @@
-//! Ends that do not quite meet, joined within a tolerance. (spec/06-configuration.md, `join-tolerance`)
+//! Ends that do not quite meet, joined within a tolerance. (book: reference/configuration, `join-tolerance`)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;

@@ -1,4 +1,4 @@
-//! Milling chains. (spec/50-path-building.md, "Chains")
+//! Milling chains. (book: language/chains-and-passes)
 
 use pathbuild_path::{Chain, Item};
 

@@ -1,4 +1,4 @@
-//! Special circles, holes and helical circles; what belongs to no plane. (spec/10-drawing.md, "Special circles (PHANTOM)")
+//! Special circles, holes and helical circles; what belongs to no plane. (book: language/markers)
 
 use pathbuild_path::SegmentKind;
 

@@ -1,4 +1,4 @@
-//! Crowded points, against a walk that looks at all segments in each step. (spec/50-path-building.md, "The walk")
+//! Crowded points, against a walk that looks at all segments in each step. (book: language/chains-and-passes)
 
 use pathbuild_path::{Curve, Item, Xy};
 use proptest::prelude::*;

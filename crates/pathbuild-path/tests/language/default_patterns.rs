@@ -1,4 +1,4 @@
-//! The default patterns are read by hand: they say what the regular expressions say. (spec/20-paths-and-files.md)
+//! The default patterns are read by hand: they say what the regular expressions say. (book: language/layers-and-names)
 
 use std::sync::LazyLock;
 

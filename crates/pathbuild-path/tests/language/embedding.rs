@@ -1,4 +1,4 @@
-//! Whether a path may stand where a subpath segment names it. (spec/50-path-building.md, "Subpaths")
+//! Whether a path may stand where a subpath segment names it. (book: language/embedding)
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{

@@ -1,4 +1,4 @@
-//! What a file's name says of the paths in it. (spec/20-paths-and-files.md)
+//! What a file's name says of the paths in it. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{FilePattern, PathName, PathPattern, judge_file_name};

@@ -1,4 +1,4 @@
-//! Which files may hold a path. (spec/20-paths-and-files.md, "Which files may hold a path")
+//! Which files may hold a path. (book: language/embedding)
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern};
 

@@ -1,4 +1,4 @@
-//! Arcs that go round once. (spec/10-drawing.md, "Special circles")
+//! Arcs that go round once. (book: language/markers)
 
 use pathbuild_dxf::{Options, Units, read};
 use pathbuild_path::{Arc, Curve, Xy, raw_file};

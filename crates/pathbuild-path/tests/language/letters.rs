@@ -1,4 +1,4 @@
-//! Where each letter is allowed: every cell of the table of spec/30-parameters.md.
+//! Where each letter is allowed: every cell of the table of book: language/letters.
 
 use crate::support::{path, wrong};
 

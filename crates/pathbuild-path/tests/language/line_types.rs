@@ -1,4 +1,4 @@
-//! Line types: their names, and what they mean on lines, arcs and circles. (spec/10-drawing.md, "Line types")
+//! Line types: their names, and what they mean on lines, arcs and circles. (book: language/line-types)
 
 use pathbuild_path::{Cut, LineType, LineTypeAliases, Role};
 

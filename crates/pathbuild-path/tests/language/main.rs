@@ -1,5 +1,5 @@
-//! The rules of the drawing language, each with one drawing just inside and one just outside. (spec/10-drawing.md to
-//! spec/50-path-building.md)
+//! The rules of the drawing language, each with one drawing just inside and one just outside. (book: language/layers-and-names
+//! to language/q-projects)
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
 
 mod assignment;

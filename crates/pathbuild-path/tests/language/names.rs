@@ -1,4 +1,4 @@
-//! Path names and the layers they are on. (spec/20-paths-and-files.md, "Path names"; spec/10-drawing.md, "The tilde layer")
+//! Path names and the layers they are on. (book: language/layers-and-names)
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Which value holds: the element's own, else the path's. (spec/30-parameters.md)
+//! Which value holds: the element's own, else the path's. (book: language/letters)
 
 use pathbuild_path::{CutParameters, Path, SegmentKind};
 

@@ -1,4 +1,4 @@
-//! What comes first where several segments meet. (spec/50-path-building.md, "Segments" and "The walk")
+//! What comes first where several segments meet. (book: language/chains-and-passes)
 
 use crate::support::{items, path, wrong};
 

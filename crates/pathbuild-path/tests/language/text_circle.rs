@@ -1,4 +1,4 @@
-//! The circle by which a text finds its element. (spec/10-drawing.md, "The text circle")
+//! The circle by which a text finds its element. (book: language/parameter-texts)
 
 use pathbuild_dxf::{HorizontalAlign, MText, Point3, Text, VerticalAlign};
 use pathbuild_path::TextCircle;

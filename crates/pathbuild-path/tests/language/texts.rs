@@ -1,4 +1,4 @@
-//! What stands in a parameter text. (spec/10-drawing.md, "Inside a text")
+//! What stands in a parameter text. (book: language/parameter-texts)
 
 use pathbuild_path::{ElementClass, Letter, ParameterTexts, parse_integer, parse_number};
 

@@ -1,4 +1,4 @@
-//! Turn markers: dead ends. (spec/50-path-building.md, "Turn markers (dead ends)")
+//! Turn markers: dead ends. (book: language/order-and-turns)
 
 use crate::support::{compile, items, path, wrong};
 

@@ -1,4 +1,4 @@
-//! Variables. (spec/40-variables.md)
+//! Variables. (book: language/variables)
 
 use pathbuild_path::{Bindings, Definition};
 

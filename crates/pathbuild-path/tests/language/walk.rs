@@ -1,4 +1,4 @@
-//! The walk from the start to the end. (spec/50-path-building.md, "The walk")
+//! The walk from the start to the end. (book: language/chains-and-passes)
 
 use pathbuild_diagnostic::Lang;
 

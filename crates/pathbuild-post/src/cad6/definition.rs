@@ -1,4 +1,4 @@
-//! Reading a definition with control texts: a TOML file. (spec/85-post-processors.md, "CAD6 control texts")
+//! Reading a definition with control texts: a TOML file. (book: program/posts)
 
 use std::borrow::Cow;
 use std::ops::Range;

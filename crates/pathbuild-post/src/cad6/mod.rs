@@ -1,5 +1,5 @@
 //! Control texts as CAD6's CAM module has them: texts with variables and statements, called in a fixed order.
-//! (`reference/cad6_xpertmill_gcode.md`, section 1)
+//! (book: program/reading)
 //!
 //! A [`Definition`] is read once. `calls` turns a job into calls, `program` sets the variables of each, and a `Runner` makes it in two
 //! phases: variables are replaced by their texts, then statements by their results.

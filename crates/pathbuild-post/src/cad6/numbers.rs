@@ -1,4 +1,4 @@
-//! How statements write numbers. (`reference/cad6_xpertmill_gcode.md`, sections 1.2 and 1.7)
+//! How statements write numbers. (book: program/reading)
 
 use std::str::FromStr;
 

@@ -1,4 +1,4 @@
-//! Mathematical terms: numbers, operators, functions. (`reference/cad6_xpertmill_gcode.md`, section 1.3)
+//! Mathematical terms: numbers, operators, functions. (book: program/reading)
 //!
 //! Everything is left-associative. From loosest to tightest: `||`, `&&`, comparisons with `& | ^` (bitwise), `+ -`, `* /`, `^^` (power),
 //! signs and `!`. The order of some of these, and all functions, are pathbuild's own: the manual's page does not tell.

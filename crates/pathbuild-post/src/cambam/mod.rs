@@ -1,4 +1,4 @@
-//! CamBam post-processor definitions (.cbpp): named templates with macros, and options. (reference/cambam.md)
+//! CamBam post-processor definitions (.cbpp): named templates with macros, and options. (book: program/posts)
 //!
 //! A [`Definition`] is read once; a `Plan` brings it together with a program and checks every macro; a `Writer` expands the
 //! templates line by line and reads every line back, because what it writes next depends on what the machine knows.

@@ -1,4 +1,4 @@
-//! How an embedding is judged. (spec/50-path-building.md, "Subpaths"; the order: spec/80-diagnostics.md, "Which error hides which")
+//! How an embedding is judged. (book: language/embedding; the order: book: reference/diagnostics)
 
 use pathbuild_path::{
     Allowed, Bindings, Definition, Path, PathName, Segment, SegmentKind, Subpath, SubpathName, SweepLimits,

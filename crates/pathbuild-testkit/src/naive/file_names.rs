@@ -1,4 +1,4 @@
-//! What a file's name promises and covers. (spec/20-paths-and-files.md)
+//! What a file's name promises and covers. (book: language/layers-and-names)
 
 use std::sync::LazyLock;
 

@@ -1,7 +1,7 @@
 //! What a check of a library finds, told the plain way: every file is read, every name is looked at, and each path is gone through as
 //! often as it is embedded. No database, no index, nothing kept. Only reading, binding and walking are the program's own; how files are
 //! found and how embeddings are judged is written here once more from the specification, so that the program is not held against itself.
-//! (spec/20-paths-and-files.md, spec/40-variables.md, spec/50-path-building.md, spec/80-diagnostics.md)
+//! (book: language/layers-and-names, book: language/variables, book: language/chains-and-passes, book: reference/diagnostics)
 
 mod embedding;
 mod file_names;

@@ -1,4 +1,4 @@
-//! Where paths are: names of files against names of paths. (spec/20-paths-and-files.md)
+//! Where paths are: names of files against names of paths. (book: language/layers-and-names)
 
 use std::cmp::Ordering;
 use std::sync::LazyLock;

@@ -1,4 +1,4 @@
-//! What a Q-project and its drawing say against each other. (spec/20-paths-and-files.md, "Q-projects")
+//! What a Q-project and its drawing say against each other. (book: language/q-projects)
 
 use pathbuild_path::approx::coincide;
 use pathbuild_path::{

@@ -1,4 +1,4 @@
-//! The height of the material between probes. (spec/70-z-probes.md)
+//! The height of the material between probes. (book: language/probes)
 //!
 //! What is modelled is the correction: how much higher than drawn the material lies. At any point it is a linear combination of the
 //! corrections at the probes, so a [`Surface`] knows the probes' places only, and a program made with it holds until they move.

@@ -3,7 +3,7 @@ use pathbuild_path::Xy;
 /// How many probes count at a point.
 const HEAVIEST: usize = 4;
 
-/// The compatible model. (spec/70-z-probes.md, "The formula")
+/// The compatible model. (book: language/probes)
 #[derive(Clone, Debug)]
 pub(super) struct Nearest {
     places: Vec<Xy>,

@@ -1,4 +1,4 @@
-//! The feeds of plunges, and of probing. ("Elementary moves"; spec/30-parameters.md, Z)
+//! The feeds of plunges, and of probing. ("Elementary moves"; book: language/letters, Z)
 
 use pathbuild_toolpath::{Class, FoldOptions, Move, Program, Step};
 

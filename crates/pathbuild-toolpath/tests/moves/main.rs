@@ -1,4 +1,4 @@
-//! Every move of a program, in which order, with which numbers. (spec/60-gcode.md)
+//! Every move of a program, in which order, with which numbers. (book: program/gcode)
 //!
 //! Moves are written in short: `S x,y` sweeps (G00 X Y), `L z` lifts (G00 Z), `D z` drills (G01 Z), `M x,y z` mills a line (G01),
 //! `A x,y z` and `C x,y z` mill an arc counterclockwise or clockwise (G03, G02).

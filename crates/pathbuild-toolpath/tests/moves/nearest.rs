@@ -1,4 +1,4 @@
-//! Long chains: which edge is next, held against a scan over all of them. (spec/60-gcode.md, "Chains, ordinary milling")
+//! Long chains: which edge is next, held against a scan over all of them. (book: program/gcode)
 
 use pathbuild_path::approx::above;
 

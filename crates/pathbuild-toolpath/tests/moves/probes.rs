@@ -1,4 +1,4 @@
-//! Z-probes: their order, places and heights. (spec/70-z-probes.md, "Order and names")
+//! Z-probes: their order, places and heights. (book: language/probes)
 
 use pathbuild_toolpath::ProbePoint;
 

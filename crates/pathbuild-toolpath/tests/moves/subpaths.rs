@@ -1,4 +1,4 @@
-//! Embedded paths: where they lie, how high, what stands around them. (spec/50-path-building.md, "Subpaths")
+//! Embedded paths: where they lie, how high, what stands around them. (book: language/embedding)
 
 use crate::support::{moves, moves_and_comments, path};
 

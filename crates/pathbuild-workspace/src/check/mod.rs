@@ -1,4 +1,4 @@
-//! Checking drawings, paths and directories. Writes nothing. (spec/05-command-line.md, `check`)
+//! Checking drawings, paths and directories. Writes nothing. (book: reference/commands, `check`)
 
 mod changed;
 mod drawings;

@@ -1,4 +1,4 @@
-//! The configuration: `pathbuild.toml` and the options that say the same. (spec/06-configuration.md)
+//! The configuration: `pathbuild.toml` and the options that say the same. (book: reference/configuration)
 //!
 //! ```text
 //! file ---------> Options --\

@@ -36,7 +36,7 @@ impl Settings {
         }
     }
 
-    /// The longest piece in mm that is corrected as one; 0: moves are never split. (spec/70-z-probes.md)
+    /// The longest piece in mm that is corrected as one; 0: moves are never split. (book: language/probes)
     pub fn z_split(&self) -> f64 {
         let default = if self.general.z_model.value == ZModel::Idw4 { 0.0 } else { 20.0 };
         self.general.z_split.value.unwrap_or(default)

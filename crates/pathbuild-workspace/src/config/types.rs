@@ -55,7 +55,7 @@ choice! {
 }
 
 choice! {
-    /// How heights are interpolated between probes. (spec/70-z-probes.md)
+    /// How heights are interpolated between probes. (book: language/probes)
     ZModel {
         /// Inverse distance to the nearest four.
         Idw4 = "idw4",
@@ -198,7 +198,7 @@ impl Severities {
     }
 }
 
-/// A tool, as post-processors know it. (spec/85-post-processors.md)
+/// A tool, as post-processors know it. (book: program/posts)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// The name of its table.
@@ -217,7 +217,7 @@ pub struct Tool {
     pub coolant: Option<Coolant>,
 }
 
-/// The post-processor, and what its owner says about its programs. (spec/85-post-processors.md)
+/// The post-processor, and what its owner says about its programs. (book: program/posts)
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PostChoice {
     /// A built-in post-processor or a file.

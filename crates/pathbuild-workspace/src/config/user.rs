@@ -1,4 +1,4 @@
-//! A person's own configuration, `config.toml`: what no repository may decide. (spec/06-configuration.md, "The user's own configuration")
+//! A person's own configuration, `config.toml`: what no repository may decide. (book: reference/configuration)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::OsSystem;

@@ -1,4 +1,4 @@
-//! Is what lies on disk what would be written? (spec/05-command-line.md, `emit --check`)
+//! Is what lies on disk what would be written? (book: reference/commands, `emit --check`)
 
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;

@@ -1,4 +1,4 @@
-//! The paths that `[emit] targets` means. (spec/06-configuration.md)
+//! The paths that `[emit] targets` means. (book: reference/configuration)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;

@@ -1,4 +1,4 @@
-//! Whether a program on disk moves as its drawing says now. (spec/70-z-probes.md, "Adjusting")
+//! Whether a program on disk moves as its drawing says now. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Kind;

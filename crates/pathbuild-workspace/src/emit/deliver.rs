@@ -128,7 +128,7 @@ pub(super) struct Made {
     pub(super) outputs: Vec<Output>,
 }
 
-/// The files of a job. Native files have been read back and compared with the program. (spec/90-gcode-import.md, "verify")
+/// The files of a job. Native files have been read back and compared with the program. (book: program/reading)
 pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return Made::default() };

@@ -1,4 +1,4 @@
-//! What files were made from, as `make` and `ninja` read it. (spec/05-command-line.md, `emit --deps`)
+//! What files were made from, as `make` and `ninja` read it. (book: reference/commands, `emit --deps`)
 
 use std::fmt::Write;
 

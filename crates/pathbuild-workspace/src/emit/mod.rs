@@ -1,4 +1,4 @@
-//! Programs of paths: made, then written, compared or printed. (spec/05-command-line.md, `emit`; spec/60-gcode.md)
+//! Programs of paths: made, then written, compared or printed. (book: reference/commands, `emit`; book: program/gcode)
 
 mod asked;
 mod compare;

@@ -1,4 +1,4 @@
-//! Out of what programs are made: the line by which a sheet at the machine can be traced. (spec/60-gcode.md, "The program")
+//! Out of what programs are made: the line by which a sheet at the machine can be traced. (book: program/gcode)
 
 use std::borrow::Borrow;
 use std::fmt::Debug;

@@ -1,4 +1,4 @@
-//! G-code that was written earlier and that nothing would write now. (PB520, spec/05-command-line.md)
+//! G-code that was written earlier and that nothing would write now. (PB520, book: reference/commands)
 //!
 //! A program says itself which path of which drawing it was made from, and by which moves. Programs of paths that are gone are looked for only
 //! where the run knows everything that could have written them: beside drawings of directories that were named, or in the output directory.

@@ -1,4 +1,4 @@
-//! The command that a post wants to be run on what it wrote. (spec/85-post-processors.md: as a list of arguments, no shell)
+//! The command that a post wants to be run on what it wrote. (book: program/posts: as a list of arguments, no shell)
 
 use std::process::{Command, Stdio};
 

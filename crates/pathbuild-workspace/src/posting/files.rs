@@ -1,4 +1,4 @@
-//! The files that a definition inserts: those below its directory. (spec/85-post-processors.md, "CAD6 control texts")
+//! The files that a definition inserts: those below its directory. (book: program/posts)
 
 use camino::Utf8Path;
 use pathbuild_db::System;

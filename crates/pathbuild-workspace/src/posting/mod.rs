@@ -1,4 +1,4 @@
-//! The post-processor of a run: which one, and what the configuration tells it. (spec/85-post-processors.md)
+//! The post-processor of a run: which one, and what the configuration tells it. (book: program/posts)
 
 mod build;
 mod files;
@@ -65,7 +65,7 @@ pub struct Wishes {
     pub run_post_build: bool,
 }
 
-/// The post that writes what `spec/60-gcode.md` says.
+/// The post that writes what book: program/gcode says.
 const NATIVE: &str = "native";
 
 impl Poster {

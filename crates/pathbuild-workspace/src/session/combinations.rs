@@ -1,4 +1,4 @@
-//! Checking paths with all values of their variables. (spec/40-variables.md)
+//! Checking paths with all values of their variables. (book: language/variables)
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Help for paths that a drawing does not find, but that the library has. (spec/20-paths-and-files.md, "Search order")
+//! Help for paths that a drawing does not find, but that the library has. (book: language/embedding)
 
 use std::cell::LazyCell;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! What arguments may mean by the names of files alone: no drawing is read. (spec/05-command-line.md)
+//! What arguments may mean by the names of files alone: no drawing is read. (book: reference/commands)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;

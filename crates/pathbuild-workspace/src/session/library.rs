@@ -1,4 +1,4 @@
-//! Walking directories for drawings. (spec/20-paths-and-files.md, "The library")
+//! Walking directories for drawings. (book: howto/large-libraries)
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;

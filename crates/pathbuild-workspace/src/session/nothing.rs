@@ -1,4 +1,4 @@
-//! Looking at nothing is not right: directories that are missing or hold no drawing, drawings without paths. (spec/80-diagnostics.md)
+//! Looking at nothing is not right: directories that are missing or hold no drawing, drawings without paths. (book: reference/diagnostics)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;

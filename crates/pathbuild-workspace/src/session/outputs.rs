@@ -1,4 +1,4 @@
-//! The files that a program becomes. (spec/60-gcode.md, "Files")
+//! The files that a program becomes. (book: program/gcode)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{self, Header, WriteOptions};

@@ -1,4 +1,4 @@
-//! Drawings and their Q-projects. (spec/20-paths-and-files.md, "Q-projects")
+//! Drawings and their Q-projects. (book: language/q-projects)
 
 use std::collections::HashMap;
 

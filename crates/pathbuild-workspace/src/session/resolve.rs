@@ -1,4 +1,4 @@
-//! Which drawings and paths the arguments mean. (spec/05-command-line.md)
+//! Which drawings and paths the arguments mean. (book: reference/commands)
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, holders, path_names};

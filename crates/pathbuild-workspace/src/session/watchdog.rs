@@ -1,4 +1,4 @@
-//! Gives up paths that take longer than `seconds-per-path`. (spec/06-configuration.md, `[limits]`)
+//! Gives up paths that take longer than `seconds-per-path`. (book: reference/configuration, `[limits]`)
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;

@@ -1,4 +1,4 @@
-//! Watching: keeps checking, and writing programs, as drawings change. (spec/05-command-line.md, `watch`)
+//! Watching: keeps checking, and writing programs, as drawings change. (book: reference/commands, `watch`)
 //!
 //! One loop: wait for changes, let them come to rest, take them over into the database as one revision, and ask again only those drawings that
 //! the reverse index names. What is told carries the number of that revision. Those drawings are asked portion by portion: when more changes come

@@ -1,5 +1,5 @@
 //! Options that stand before or after any command. Values that a configuration may give as well stay text here: whether they are
-//! right is decided in one place for both. (spec/05-command-line.md, spec/06-configuration.md)
+//! right is decided in one place for both. (book: reference/commands, book: reference/configuration)
 
 use camino::Utf8PathBuf;
 use clap::{Args, ValueEnum};

@@ -1,5 +1,5 @@
 //! Commands and options as they are written on the command line, and nothing more: no defaults that depend on the configuration,
-//! no checks that need a file. (spec/05-command-line.md)
+//! no checks that need a file. (book: reference/commands)
 
 mod check;
 mod common;

@@ -1,4 +1,4 @@
-//! `pathbuild adjust`: measured heights put into programs. (spec/70-z-probes.md, "Adjusting")
+//! `pathbuild adjust`: measured heights put into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Kind, Written};

@@ -1,4 +1,4 @@
-//! `pathbuild cache`: what is kept between runs. (spec/06-configuration.md)
+//! `pathbuild cache`: what is kept between runs. (book: reference/configuration)
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! `pathbuild emit`: the files of one or more paths. (spec/05-command-line.md, spec/60-gcode.md)
+//! `pathbuild emit`: the files of one or more paths. (book: reference/commands, book: program/gcode)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Note};

@@ -1,4 +1,4 @@
-//! `pathbuild where`: where paths are defined. (spec/05-command-line.md)
+//! `pathbuild where`: where paths are defined. (book: reference/commands)
 
 use std::cell::LazyCell;
 

@@ -1,4 +1,4 @@
-//! `pathbuild post`: a program written for another machine, and the posts that come with pathbuild. (spec/85-post-processors.md)
+//! `pathbuild post`: a program written for another machine, and the posts that come with pathbuild. (book: program/posts)
 
 use camino::Utf8Path;
 use pathbuild_db::system::Written;

@@ -1,4 +1,4 @@
-//! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (spec/90-gcode-import.md)
+//! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (book: program/reading)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;

@@ -1,4 +1,4 @@
-//! `pathbuild q-project`: writes a drawing that embeds every path of another. (spec/20-paths-and-files.md, "Q-projects")
+//! `pathbuild q-project`: writes a drawing that embeds every path of another. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;

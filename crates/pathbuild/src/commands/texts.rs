@@ -1,4 +1,4 @@
-//! `pathbuild texts`: which element each parameter text belongs to. (spec/10-drawing.md, "Inside a text")
+//! `pathbuild texts`: which element each parameter text belongs to. (book: language/parameter-texts)
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! `pathbuild watch`: keeps checking, and writing with `--emit`, as drawings change. (spec/05-command-line.md)
+//! `pathbuild watch`: keeps checking, and writing with `--emit`, as drawings change. (book: reference/commands)
 
 use std::collections::HashSet;
 

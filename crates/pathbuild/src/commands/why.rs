@@ -1,4 +1,4 @@
-//! `pathbuild why`: why drawings would be compiled again. (spec/05-command-line.md)
+//! `pathbuild why`: why drawings would be compiled again. (book: reference/commands)
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! Diagnostics as text: one file for each format, none of which decides what is shown. (spec/05-command-line.md)
+//! Diagnostics as text: one file for each format, none of which decides what is shown. (book: reference/commands)
 
 mod concise;
 mod full;

@@ -1,4 +1,4 @@
-//! Whether a program does what a drawing says, from its first line to its last. (spec/90-gcode-import.md, `verify --against`)
+//! Whether a program does what a drawing says, from its first line to its last. (book: program/reading, `verify --against`)
 //!
 //! The drawing's program says where the tool goes, in one coordinate system and in XY, with one tool at one spindle speed. Whatever else a
 //! program says that could change where, how deep or how fast the tool cuts is a difference. What its header claims counts for nothing.

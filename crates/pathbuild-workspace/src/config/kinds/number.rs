@@ -114,7 +114,7 @@ fn switch(value: &Spanned<DeValue<'_>>, reader: &mut Reader<'_>) -> Option<bool>
     value.get_ref().as_bool().or_else(|| reader.expected(Value::Word(&messages::SWITCH), value))
 }
 
-/// A number as parameters of drawings are written, too: an optional sign, digits, at most one decimal point or comma. (spec/30-parameters.md)
+/// A number as parameters of drawings are written, too: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
 pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     let is_number = digits.contains(|c: char| c.is_ascii_digit())

@@ -16,7 +16,7 @@ use crate::config::reader::Table;
 use crate::config::show::Shown;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 
-/// What a path name is, unless the configuration says otherwise. (spec/20-paths-and-files.md)
+/// What a path name is, unless the configuration says otherwise. (book: language/layers-and-names)
 pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
 /// What path names in a file name are, unless the configuration says otherwise.
 pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";

@@ -1,4 +1,4 @@
-//! `[machine]`: what the machine can do, for `verify` and for times. (spec/90-gcode-import.md)
+//! `[machine]`: what the machine can do, for `verify` and for times. (book: program/reading)
 
 use std::fmt::Debug;
 

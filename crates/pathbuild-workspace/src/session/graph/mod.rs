@@ -1,4 +1,4 @@
-//! What embeds what, as values that need no database: what `graph`, `deps` and `rdeps` show. (spec/05-command-line.md)
+//! What embeds what, as values that need no database: what `graph`, `deps` and `rdeps` show. (book: reference/commands)
 
 mod collect;
 

@@ -1,4 +1,4 @@
-//! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (spec/05-command-line.md)
+//! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (book: reference/commands)
 
 mod git;
 

@@ -1,4 +1,4 @@
-//! `pathbuild graph`, `deps` and `rdeps`: what embeds what. (spec/05-command-line.md)
+//! `pathbuild graph`, `deps` and `rdeps`: what embeds what. (book: reference/commands)
 
 mod dot;
 mod json;

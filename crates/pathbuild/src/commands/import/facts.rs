@@ -32,7 +32,7 @@ impl<'a> Facts<'a> {
         }
     }
 
-    /// The compatible time in whole minutes; of cutting moves only where the rapid feed is not known. (spec/60-gcode.md, "Statistics")
+    /// The compatible time in whole minutes; of cutting moves only where the rapid feed is not known. (book: program/gcode)
     pub(super) fn minutes(&self) -> f64 {
         let total = &self.summary.total;
         self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes()

@@ -1,4 +1,4 @@
-//! `pathbuild import`: what a G-code program is. (spec/90-gcode-import.md)
+//! `pathbuild import`: what a G-code program is. (book: program/reading)
 
 mod facts;
 mod json;

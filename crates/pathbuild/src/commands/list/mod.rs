@@ -1,4 +1,4 @@
-//! `pathbuild list` and `stats`: the paths of a library, and what they add up to. (spec/05-command-line.md)
+//! `pathbuild list` and `stats`: the paths of a library, and what they add up to. (book: reference/commands)
 
 mod json;
 mod row;

@@ -1,4 +1,4 @@
-//! What a path's drawing says. (spec/90-gcode-import.md, `verify --against`)
+//! What a path's drawing says. (book: program/reading, `verify --against`)
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! `pathbuild verify`: whether a G-code program is safe to run, and is what a drawing says. (spec/90-gcode-import.md, "verify")
+//! `pathbuild verify`: whether a G-code program is safe to run, and is what a drawing says. (book: program/reading)
 
 mod against;
 mod machine;

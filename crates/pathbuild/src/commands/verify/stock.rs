@@ -1,4 +1,4 @@
-//! What is known of cutter and material. (spec/90-gcode-import.md: the stock's extent is in no drawing)
+//! What is known of cutter and material. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
