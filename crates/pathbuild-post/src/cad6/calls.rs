@@ -345,12 +345,24 @@ impl<'a> Builder<'a> {
             self.walk(self.sideways())?;
             let height = self.height();
             self.end_contour(if height.is_finite() { height } else { self.present().clearance });
+        } else if !self.ways.is_empty() {
+            self.raise_hole();
         }
         self.finish_contour();
         self.at = end;
         self.ways.clear();
         self.flush_asides();
         Ok(())
+    }
+
+    /// The text of a hole ends at its safety height, from where the way goes on: it is as high as that way.
+    fn raise_hole(&mut self) {
+        let height = self.height();
+        let is_aside = |what: &What<'_>| matches!(what, What::Comment(_) | What::Dwell(_) | What::Stop);
+        let last = self.calls.iter_mut().rev().find(|call| !is_aside(&call.what));
+        if let Some(Call { what: What::Hole { clearance, .. }, .. }) = last {
+            *clearance = clearance.max(height);
+        }
     }
 
     fn flush_asides(&mut self) {

@@ -46,7 +46,11 @@ impl Definition {
             return Err(diagnostics);
         }
         diagnostics.extend(lints::of(&definition, file));
-        Ok((definition, diagnostics))
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            Err(diagnostics)
+        } else {
+            Ok((definition, diagnostics))
+        }
     }
 
     /// Extension of the files it writes.

@@ -137,6 +137,7 @@ impl<'a> Reader<'a> {
         let name = element.tag_name().name();
         let (text, line) = text_of(element);
         self.notice_repetition(name, line);
+        self.notice_nested(element);
         if let Some(&section) = Section::ALL.iter().find(|section| section.name() == name) {
             let template = self.template(section, &text, line);
             self.definition.sections[section as usize] = template;
@@ -152,6 +153,15 @@ impl<'a> Reader<'a> {
             self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).with("element", name), line);
         } else {
             self.seen.push(name.to_owned());
+        }
+    }
+
+    /// Elements within one that holds a text mean nothing.
+    fn notice_nested(&mut self, element: Node<'_, '_>) {
+        for nested in element.children().filter(Node::is_element) {
+            let line = element.document().text_pos_at(nested.range().start).row;
+            let name = nested.tag_name().name();
+            self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);
         }
     }
 

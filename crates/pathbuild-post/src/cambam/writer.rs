@@ -51,6 +51,8 @@ pub(super) struct Writer<'a> {
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
     /// Sections that contain each other at this moment, and user macros.
     depth: [usize; 2],
+    /// `{$mops}` and `{$blocks}`, where they are being written.
+    open: Vec<Block>,
     fuel: usize,
 }
 
@@ -74,6 +76,7 @@ impl<'a> Writer<'a> {
             turned: [None; 3],
             own: [None, None, None],
             depth: [0; 2],
+            open: Vec::new(),
             fuel: fuel(plan),
         };
         writer.marks = CommentMarks {
@@ -153,6 +156,7 @@ impl<'a> Writer<'a> {
             Macro::Code { code, modal } => self.code(*code, *modal),
             Macro::Choice(choice) => self.section(self.chosen(*choice)),
             Macro::State(state) => self.state(*state),
+            Macro::Block(block @ (Block::Mops | Block::Blocks)) => self.program(*block, section, line),
             Macro::Block(block) => self.block(*block),
             Macro::Check(target) => self.check_macro(*target),
             Macro::Set(register, value) => {
@@ -169,6 +173,19 @@ impl<'a> Writer<'a> {
                 None => Ok(()),
             },
         }
+    }
+
+    /// All operations, or the moves of one: not within themselves.
+    fn program(&mut self, block: Block, section: Section, line: u32) -> Written {
+        if self.open.contains(&block) {
+            let name = if block == Block::Mops { "mops" } else { "blocks" };
+            let diagnostic = Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).with("macro", framed(name));
+            return Err(Box::new(self.plan.locate(diagnostic, section, line)));
+        }
+        self.open.push(block);
+        let written = self.block(block);
+        self.open.pop();
+        written
     }
 
     fn block(&mut self, block: Block) -> Written {

@@ -335,6 +335,25 @@ fn what_is_wrong_in_a_text_is_an_error() {
 }
 
 #[test]
+fn texts_that_no_program_calls_are_read_too() {
+    let read = |text: &str| {
+        let definition = format!("[text]\nprogram-start = 'a'\n{text}\n");
+        Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).map(drop).map_err(|errors| texts(&errors))
+    };
+    for (text, expected) in [
+        ("bezier = '{{{'", "3: PB759 bezier, line 1, column 3: a statement is not closed"),
+        ("subprogram-start = 'a}'", "3: PB759 subprogram-start, line 1, column 2: this brace closes nothing"),
+        ("subprogram-end = '~X1'", "3: PB759 subprogram-end, line 1, column 1: \"~\" begins no variable"),
+    ] {
+        let errors = read(text).unwrap_err();
+        assert!(errors.iter().any(|error| error.starts_with(expected)), "{text}: {errors:?}");
+    }
+    for text in ["bezier = '{{1}}'", r"subprogram-end = '\{ a \\\}'", "subprogram-start = '{.~X1~}'"] {
+        assert_eq!(read(text), Ok(()), "{text}");
+    }
+}
+
+#[test]
 fn nesting_and_growth_have_an_end() {
     let nested = |depth: usize| format!("{}a{}", "{$".repeat(depth), "}".repeat(depth));
     assert_eq!(text(&nested(64), &[]), "a\n");

@@ -183,6 +183,44 @@ fn macros_may_contain_each_other_sixteen_deep() {
 }
 
 #[test]
+fn the_program_is_no_part_of_itself() {
+    let within = "this section is itself a part of what";
+    let found = errors(&definition("<MOP>{$mops}</MOP>"), &job(vec![]));
+    assert!(
+        found[0].contains(&format!("PB753 {{$mops}} in MOP: {within} {{$mops}} stands for")),
+        "{found:?}"
+    );
+    let text = "<PostFile>{$mops}</PostFile><MOP>{$blocks}</MOP><FeedMove>{$blocks}</FeedMove>";
+    let found = errors(&definition(text), &job(vec![feed(1.0, 0.0, -1.0)]));
+    assert!(found[0].contains(&format!("PB753 {{$blocks}} in FeedMove: {within}")), "{found:?}");
+}
+
+#[test]
+fn lathes_are_refused() {
+    let values = [
+        ("ClearancePlaneAxis", "X", "Z"),
+        ("LatheXMode", "Diameter", "Radius"),
+        ("LatheToolRadiusOffset", "true", "false"),
+    ];
+    for (option, lathe, mill) in values {
+        let element = |value: &str| definition(&format!("<{option}>{value}</{option}>"));
+        let errors = read(&element(lathe)).map(drop).unwrap_err();
+        assert!(texts(&errors)[0].contains("PB750") && texts(&errors)[0].contains(option), "{errors:?}");
+        assert!(read(&element(mill)).is_ok(), "{option}");
+    }
+}
+
+#[test]
+fn an_element_within_a_text_is_a_warning() {
+    let text = definition("<PostFile>{$mops}<b>x</b></PostFile><Notes><i>y</i></Notes>");
+    let post = read(&text).unwrap();
+    let options = PostOptions { unchecked: true, ..PostOptions::default() };
+    let warnings = texts(&post.write(&job(vec![]), &options).unwrap().warnings);
+    let expected = ["3: PB752 <b> is not known and left out", "3: PB752 <i> is not known and left out"];
+    assert_eq!(warnings[..2], expected, "{warnings:?}");
+}
+
+#[test]
 fn sections_that_contain_themselves_are_an_error() {
     let text = definition("<PostFile>{$header}</PostFile><Header>{$header}</Header>");
     assert_eq!(

@@ -2,7 +2,7 @@
 
 use pathbuild_post::{Arc, Entry, Hole, HoleKind, Job, Plane, PostOptions, Step, Units};
 
-use crate::support::{bare, errors, feed, job, lines, lines_with, operation, output, rapid, texts};
+use crate::support::{bare, errors, feed, job, lines, lines_with, operation, output, rapid, read, texts};
 
 /// The lines behind the way to (0, 0, 5).
 #[track_caller]
@@ -51,6 +51,42 @@ fn codes_are_modal_where_the_template_says_so() {
 fn registers_have_other_signs_on_demand() {
     let signs = "<FeedMove>{$g1} {$x} {$-x} {$+x} {$move.x}</FeedMove><SuppressParserErrors>true</SuppressParserErrors>";
     assert_eq!(moves(signs, vec![feed(-1.5, 0.0, 5.0)]), ["G1 X-1.5 X1.5 X1.5 -1.5"]);
+}
+
+/// An axis that a definition turns round is turned in every line, also where a move does not name it, after a tool change and at clearance.
+#[test]
+fn a_reversed_axis_has_one_sign() {
+    let round = |axis: &str| {
+        let register =
+            |name: &str| if name == axis { format!("{{$-{name}}}") } else { format!("{{$_{name}}}") };
+        let all = ["x", "y", "z"].map(register).join(" ");
+        bare(&format!(
+            "<Rapid>{{$g0}} {all}</Rapid><FeedMove>{{$g1}} {{$f}} {all}</FeedMove><MOP>{{$toolchange}}\n{{$blocks}}\n{{$clearance}}</MOP>"
+        ))
+        .replacen("<MOP>{$blocks}</MOP>", "", 1)
+    };
+    let steps = |x: f64| {
+        let way = |z| Step::Rapid { to: [None, None, Some(z)].into() };
+        let across = Step::Rapid { to: [Some(x), Some(3.0), None].into() };
+        vec![across, way(2.0), feed(x, 3.0, -1.0), feed(x + 10.0, 4.0, -1.0), way(5.0)]
+    };
+    let operations = vec![operation("a", 1, steps(10.0)), operation("b", 2, steps(40.0))];
+    let job = Job { operations, ..job(vec![]) };
+    for (axis, sign) in [("x", "X-"), ("y", "Y-"), ("z", "Z")] {
+        let options = PostOptions::default();
+        let written = read(&round(axis)).unwrap().write(&job, &options);
+        let text =
+            String::from_utf8(written.unwrap_or_else(|it| panic!("{axis}: {:?}", texts(&it))).text).unwrap();
+        let letter = &sign[..1];
+        let words: Vec<&str> = text.split_whitespace().filter(|word| word.starts_with(letter)).collect();
+        let wrong = |word: &&&str| match axis {
+            "z" => word.starts_with("Z-") == word.ends_with("1.0"),
+            _ => !word.starts_with(sign) && !word.ends_with("0.0"),
+        };
+        assert!(words.len() > 8 && !words.iter().any(|word| wrong(&word)), "{axis}: {text}");
+    }
+    let mixed = bare("<Rapid>{$g0} {$_x} {$_y} {$-z}</Rapid>");
+    assert!(read(&mixed).unwrap().write(&job, &PostOptions::default()).is_err(), "to both sides of 0");
 }
 
 #[test]

@@ -93,6 +93,25 @@ fn the_way_between_holes_is_as_high_as_the_program_s() {
 }
 
 #[test]
+fn a_hole_is_left_as_high_as_the_way_behind_it() {
+    let first = [rapid(20.0, 10.0, 25.0), rapid(20.0, 10.0, 4.0), hole(20.0, 4.0, HoleKind::Plain)];
+    let holes = || {
+        let near = [rapid(40.0, 10.0, 4.0), hole(40.0, 4.0, HoleKind::Plain)];
+        first.iter().cloned().chain(near).collect::<Vec<_>>()
+    };
+    let mut steps = holes();
+    steps.extend([rapid(40.0, 10.0, 25.0), rapid(110.0, 10.0, 25.0), rapid(110.0, 10.0, 4.0)]);
+    steps.extend([hole(110.0, 4.0, HoleKind::Plain), rapid(110.0, 10.0, 25.0)]);
+    let lines = written(&with_point(), &high(steps));
+    let third = lines.iter().position(|line| line == "G00 X+110 Y+10").expect("the third hole");
+    assert_eq!(lines[third - 1], "G00 Z+25", "{lines:?}");
+    let mut steps = holes();
+    steps.push(rapid(40.0, 10.0, 25.0));
+    let lines = written(&with_point(), &high(steps));
+    assert_eq!(lifts(&lines).last(), Some(&"+25"), "at the end too: {lines:?}");
+}
+
+#[test]
 fn pecks_and_dwells_that_the_text_does_not_name_are_moves_or_errors() {
     let at = || rapid(20.0, 10.0, 25.0);
     let pecked = written(&with_point(), &high(vec![at(), hole(20.0, 25.0, HoleKind::Peck { depth: 0.8 })]));
@@ -149,6 +168,12 @@ fn a_tool_is_changed_above_where_the_tool_is() {
     let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
     assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
     assert_eq!(lifts(&lines[..change]).last(), Some(&"+25"), "{lines:?}");
+    // Where the program itself goes down again before, the text still begins where the contour's text ended.
+    let mut job = job;
+    job.operations[0].steps.push(rapid(1.0, 0.0, 4.0));
+    let lines = written(DIN, &job);
+    let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
+    assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
 }
 
 #[test]
