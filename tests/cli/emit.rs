@@ -293,6 +293,24 @@ fn a_changed_drawing_is_not_current() {
     assert_snapshot!(check_moves(&place, arguments));
 }
 
+/// Without `--compatible` such a program moves otherwise: that this is why is said, and only where it is.
+#[test]
+fn a_program_as_the_original_tool_writes_it_is_named_so() {
+    let cases = support::project().join("fixtures/conformance/cases");
+    let runs = recorded::runs(&[cases]);
+    let is_meant = |run: &&Run| run.case.ends_with("support_line_two") && run.number == 0;
+    let run = runs.iter().find(is_meant).unwrap();
+    let What::Compile(arguments) = &run.what else { panic!("{run} compiles nothing") };
+    let place = with_expected_files(run);
+    let arguments: Vec<&str> = arguments[1..].iter().map(String::as_str).collect();
+    let check = |place: &Place| place.run_with(&[&["emit", "--check", "--moves"], &*arguments].concat());
+    assert_snapshot!(check(&place));
+    let program = place.read("1234.1P_Milling.gcode");
+    let place = place.file("1234.1P_Milling.gcode", program.replacen("Y0.000 Z", "Y1.000 Z", 1));
+    let changed = check(&place);
+    assert!(changed.status == Some(1) && !changed.stderr.contains("--compatible"), "{changed}");
+}
+
 /// What the original tool wrote in a run that ended well.
 fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     let folder = run.case.join("expected").join(run.number.to_string());

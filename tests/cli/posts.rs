@@ -116,6 +116,64 @@ fn tools_come_from_the_configuration() {
 }
 
 #[test]
+fn what_the_machine_cannot_do_is_not_written() {
+    let place = |machine: &str| {
+        Place::of(&LIBRARY.replace("[tool.2mm]", &format!("[machine]\n{machine}\n[tool.2mm]")))
+    };
+    for (machine, post, status) in [
+        ("travel = [40, 200, 60]", "native", 0),
+        ("travel = [39, 200, 60]", "native", 1),
+        ("x = [0, 40]", "grbl", 0),
+        ("x = [1, 40]", "grbl", 1),
+        ("spindle-speeds = [3000, 12000]", "linuxcnc", 0),
+        ("spindle-speeds = [3000, 11999]", "linuxcnc", 1),
+    ] {
+        let run = place(machine).run(&format!("emit 1234.1P --post {post} --out-dir out"));
+        assert_eq!(run.status, Some(status), "{machine}, {post}: {run}");
+    }
+    assert_snapshot!(runs(
+        &place("travel = [39, 200, 60]\nspindle-speeds = [3000, 11999]"),
+        ["emit 1234.1P", "emit 1234.1P --post fanuc", "emit 1300.1P --post fanuc --format concise"]
+    ));
+}
+
+/// A program that `post` writes from one of ours says of itself what dialect it is in.
+#[test]
+fn a_rewritten_program_names_its_own_dialect() {
+    let place = library("spindle = \"manual\"\nprobe-feed = 40");
+    assert_eq!(place.run("emit 1600.1P 1234.1P").status, Some(0));
+    for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin"] {
+        for program in ["1600_Probing.gcode", "1234_Milling.gcode"] {
+            let run = place.run(&format!("post {program} --post {post} -o 1234.{post}"));
+            assert_eq!(run.status, Some(0), "{run}");
+            let text = place.read(&format!("1234.{post}"));
+            assert!(text.to_lowercase().contains(&format!(" {post} o2 t5")), "{text}");
+            assert!(!text.to_lowercase().contains(" native "), "{text}");
+            let verified = place.run(&format!("verify 1234.{post}"));
+            assert!(verified.status == Some(0), "{verified}");
+        }
+    }
+    let again = place.run("post 1234.linuxcnc --post haas -o again.nc");
+    assert_eq!(again.status, Some(0), "{again}");
+    let text = place.read("again.nc").to_lowercase();
+    assert!(text.contains(" haas o2 t5") && !text.contains(" linuxcnc "), "{text}");
+}
+
+#[test]
+fn the_feed_of_paths_without_f_is_held_against_the_machine_s() {
+    let place = Place::of(&LIBRARY.replace("[tool.2mm]", "[machine]\nmaximum-feed = 150\n[tool.2mm]"));
+    assert_snapshot!(runs(
+        &place,
+        [
+            "emit 1234.1P --format concise --out-dir out",
+            "emit 1234.1P --feed 151 --format concise --out-dir out",
+            "emit 1234.1P --feed 151 --post grbl --out-dir out",
+            "check 1234.1P --feed 151"
+        ]
+    ));
+}
+
+#[test]
 fn paths_are_joined_with_tool_changes_in_the_order_of_the_arguments() {
     let place = library("");
     assert_snapshot!(runs(

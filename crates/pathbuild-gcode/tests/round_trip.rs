@@ -5,10 +5,11 @@ mod common;
 use common::spelled_out;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
+use pathbuild_gcode::dialect::is_active_comment;
 use pathbuild_gcode::interpret::{Options, Path, guess, interpret, moves_of};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
-use pathbuild_toolpath::{Class, Count, Height, Move, Program, Step, Xy};
+use pathbuild_toolpath::{Class, Comment, Count, Height, Move, ProbePoint, Program, Step, Xy};
 use proptest::prelude::*;
 
 /// A move, as numbers that are independent of where the tool is.
@@ -92,14 +93,17 @@ fn program(sketches: &[Sketch]) -> Program {
     }
 }
 
-fn text_of(program: &Program) -> String {
-    let options = WriteOptions {
+fn options() -> WriteOptions {
+    WriteOptions {
         lang: Lang::En,
         charset: Charset::Ascii,
         rapid: 1000.0,
         correction: pathbuild_toolpath::Correction::default(),
-    };
-    native::program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options)
+    }
+}
+
+fn text_of(program: &Program) -> String {
+    native::program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options())
 }
 
 proptest! {
@@ -113,6 +117,66 @@ proptest! {
         prop_assert!(!read.problems.iter().any(Diagnostic::is_error), "{}", spelled_out(&read.problems));
         let difference = compare(&read.moves(), &moves_of(&program), &Tolerance::of_decimals(3));
         prop_assert_eq!(difference, None, "{}", text);
+    }
+}
+
+/// The lines of a text without what stands in comments, of which none is active, nested or open.
+fn code_of(text: &str, compatible: bool) -> Vec<String> {
+    let code = |line: &str| {
+        let (mut code, mut rest) = (String::new(), line);
+        while let Some((before, inside)) = rest.split_once('(') {
+            let (comment, after) = inside.split_once(')').unwrap_or_else(|| panic!("open: {line:?}"));
+            assert!(compatible || !comment.contains('('), "nested: {line:?}");
+            assert!(!is_active_comment(comment), "active: {line:?}");
+            code.push_str(before);
+            rest = after;
+        }
+        code + rest
+    };
+    text.lines().map(code).collect()
+}
+
+/// Every byte and every known way to be heard in each text that a drawing, a file's name or an option gives.
+#[test]
+fn no_text_of_others_leaves_its_comment() {
+    let hostile = [
+        "LOGOPEN,x",
+        "MSG,x",
+        "M S G,x",
+        "DEBUG,#1",
+        "PY,x",
+        ") G1 Z-99 (",
+        "(",
+        ")",
+        "a\r\nG1 Z-99",
+        "; G1 Z-99",
+        "% G1 Z-99",
+        "\u{2028}G1 Z-99",
+        "\u{202e}G1",
+        "\u{c4}\u{d6}(\u{dc}",
+        "\\",
+    ];
+    let bytes = (0..=255_u8).map(|byte| format!("a{}G1 Z-99", char::from(byte)));
+    let texts: Vec<String> = bytes.chain(hostile.map(str::to_owned)).collect();
+    for compatible in [false, true] {
+        let all_of = |text: &str| {
+            let mut program = program(&[Sketch::Line(1.0, 2.0, -1.0, 100.0)]);
+            let name = program.names.intern(text);
+            let comments = [Comment::Question(name), Comment::StartSubpath(name), Comment::EndSubpath(name)];
+            program.steps.splice(0..0, comments.map(Step::Comment));
+            (program.path, program.drawing, program.compatible) = (text.into(), text.into(), compatible);
+            let (at, label) = (Xy::new(3.0, 4.0), Some(text.into()));
+            program.probes = vec![ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label }];
+            let (header, options) = (Header { provenance: format!("pathbuild {text}") }, options());
+            let milling = native::program(&program, &header, &options);
+            milling + &native::probing_program(&program, &header, &options)
+        };
+        let expected = code_of(&all_of("x"), compatible);
+        for text in &texts {
+            let found = all_of(text);
+            assert!(found.is_ascii() && !found.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
+            assert_eq!(code_of(&found, compatible), expected, "{text:?}");
+        }
     }
 }
 

@@ -27,6 +27,15 @@ impl Default for Doubts {
     }
 }
 
+impl Doubts {
+    /// What is doubtful about the feed in mm/min that holds for a path without F.
+    pub fn fallback_feed(&self, feed: f64) -> Option<Diagnostic> {
+        let maximum = self.maximum_feed.filter(|maximum| above(feed, *maximum))?;
+        let problem = Diagnostic::new(&messages::FALLBACK_FEED_ABOVE_MACHINE).with("value", feed);
+        Some(problem.with("limit", maximum))
+    }
+}
+
 /// What is doubtful about the values that `own` gives and that have an effect on the element. `path`: the path's.
 pub(crate) fn check(
     own: &Values<'_>,

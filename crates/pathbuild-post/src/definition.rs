@@ -6,9 +6,10 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 use super::built_in::Language;
 use super::job::{Coolant, Job, Operation, Spindle};
 use super::options::PostOptions;
+use super::read_back::{self, Expected};
 use super::suggest::nearest;
 use super::target::{self, Target};
-use super::{cad6, cambam, read_back};
+use super::{cad6, cambam};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 
@@ -140,20 +141,20 @@ impl Post {
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {
             Some(errors) => Err(errors),
-            None if options.unchecked => {
-                output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
-                Ok(())
-            }
-            None => self.read_back(&output.text, &shadow, job, target),
+            None => self.read_back(&output.text, &shadow, job, target, options),
         };
+        if options.unchecked {
+            output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
+        }
         let placed = |errors: Vec<Diagnostic>| {
-            errors.into_iter().map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
+            let errors = errors.into_iter().map(|error| read_back::in_output(error, &output.text));
+            errors.map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
         };
         found.map_err(placed)?;
         Ok(output)
     }
 
-    /// Whether the text makes the machine do what the job says. Where no dialect says what its words mean, or where axes are the
+    /// Whether the text makes the machine do what the job says, and nothing that it must not. Where no dialect says what its words mean, or where axes are the
     /// definition's own, its shadow is read.
     fn read_back(
         &self,
@@ -161,6 +162,7 @@ impl Post {
         shadow: &str,
         job: &Job,
         target: Option<&Target>,
+        options: &PostOptions<'_>,
     ) -> Result<(), Vec<Diagnostic>> {
         let (decimals, chord) = match &self.engine {
             Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
@@ -170,10 +172,10 @@ impl Post {
         // Some definitions write whole feeds.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let has_own_axes = matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes());
-        match target.filter(|_| !has_own_axes) {
-            Some(target) => read_back::check(text, job, Some(target), &tolerance),
-            None => read_back::check(shadow.as_bytes(), job, None, &tolerance),
-        }
+        let target = target.filter(|_| !has_own_axes);
+        let text = if target.is_some() { text } else { shadow.as_bytes() };
+        let tolerance = (!options.unchecked).then_some(tolerance);
+        read_back::check(text, job, &Expected { target, tolerance, machine: options.machine.as_ref() })
     }
 
     /// The unit that is written, in mm.

@@ -1,12 +1,14 @@
 //! Finished programs as a job: embedded paths become operations, drilled holes become holes.
 
 use std::borrow::Borrow;
+use std::f64::consts::PI;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::approx::{at_least, near};
 use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep};
 
-use super::job::{Entry, Job, Operation, describe};
+use super::arcs::Polar;
+use super::job::{Entry, Job, Operation, Plane, describe};
 use super::step::{Arc, Hole, HoleKind, Step};
 use super::tools::{Fitted, Fitter, ToolTable};
 
@@ -163,7 +165,10 @@ impl<'a> Builder<'a> {
             Move::Arc { feed, clockwise, centre, to, z, .. } => {
                 self.at = [to.x, to.y, z.z];
                 let centre = [from[0] + centre.x, from[1] + centre.y, 0.0];
-                Step::Arc(Arc { clockwise, from, centre, to: self.at, feed: Some(feed) })
+                let arc = Arc { clockwise, from, centre, to: self.at, feed: Some(feed) };
+                let arc = whole(arc, length);
+                self.at = arc.to;
+                Step::Arc(arc)
             }
         };
         self.operation_from(from).steps.push(step);
@@ -209,6 +214,14 @@ impl<'a> Builder<'a> {
             ..Operation::new(name, tool)
         }
     }
+}
+
+/// An arc that is so long in mm. A full circle ends where it begins, also where the numbers of both come from two drawn elements and differ
+/// by next to nothing: its angle would be nothing.
+fn whole(arc: Arc, length: f64) -> Arc {
+    let polar = Polar::of(&arc, Plane::Xy);
+    let is_whole = length > (polar.sweep + PI) * polar.radius;
+    if is_whole { Arc { to: [arc.from[0], arc.from[1], arc.to[2]], ..arc } } else { arc }
 }
 
 /// The comments at the beginning of some steps, and the steps after them.

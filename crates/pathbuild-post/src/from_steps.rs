@@ -6,6 +6,8 @@ use super::job::{Coolant, Entry, Job, Operation, Plane, Spindle, Tool, describe}
 use super::recognise;
 use super::step::{Arc, Hole, Position, Step};
 use pathbuild_gcode::interpret::{self, Action, Axes, Move, Pace, Path, Turning};
+use pathbuild_gcode::native::path_of_title;
+use pathbuild_gcode::provenance::Provenance;
 
 /// What a remark of the program that was read means for the job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +28,14 @@ pub fn native_remark(text: &str) -> Remark<'_> {
     match text.strip_prefix("START Subpath ") {
         Some(name) => Remark::Operation(name),
         None if text.starts_with("END Subpath ") => Remark::End,
+        None if is_of_head(text) => Remark::Goes,
         None => Remark::Stays,
     }
+}
+
+/// Whether a remark says what the program was made from, as the head of each program of ours does: the job's own remarks say it again.
+pub fn is_of_head(text: &str) -> bool {
+    text.parse::<Provenance>().is_ok() || path_of_title(text).is_some()
 }
 
 impl Job {
@@ -279,6 +287,7 @@ impl Builder {
             self.job.operations.pop();
         }
         self.job.set_surface(0.0);
+        self.job.has_no_surface = true;
         Ok(self.job)
     }
 }
@@ -286,6 +295,7 @@ impl Builder {
 impl Job {
     /// Puts the upper face of the material of a program that was read at a height in mm.
     pub fn set_surface(&mut self, surface: f64) {
+        self.has_no_surface = false;
         for operation in &mut self.operations {
             operation.surface = surface;
             describe(operation, surface);

@@ -24,6 +24,8 @@ pub struct Job {
     pub texts: Texts,
     /// The raw material, where it is known.
     pub stock: Option<Stock>,
+    /// Nobody says where the upper face of the material is: it is taken to be at Z 0.
+    pub has_no_surface: bool,
 }
 
 impl Job {
@@ -53,6 +55,12 @@ impl Job {
     fn any_feed(&self, operation: &Operation) -> Option<f64> {
         let own = operation.steps.iter().find_map(Step::feed);
         own.or_else(|| self.operations.iter().flat_map(|operation| &operation.steps).find_map(Step::feed))
+    }
+
+    /// The lowest upper face of the material, mm, where it is known.
+    pub(super) fn lowest_surface(&self) -> Option<f64> {
+        let surfaces = self.operations.iter().map(|operation| operation.surface);
+        surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
     }
 
     /// The tools in order of first use, each once.

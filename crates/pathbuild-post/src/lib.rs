@@ -27,7 +27,7 @@ mod words;
 
 pub use built_in::{BUILT_IN, BuiltIn, Language, load};
 pub use definition::{Output, Post};
-pub use from_steps::{Remark, native_remark};
+pub use from_steps::{Remark, is_of_head, native_remark};
 pub use job::{Coolant, Entry, Job, Operation, Plane, Spindle, Stock, Texts, Tool, Units, VelocityMode};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
 pub use step::{Arc, Hole, HoleKind, Position, Step};

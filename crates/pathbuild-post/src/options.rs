@@ -5,6 +5,7 @@ use std::fmt;
 use camino::Utf8Path;
 
 use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::verify::Machine;
 
 /// How a program is written through a post.
 #[derive(Clone, Debug)]
@@ -36,6 +37,8 @@ pub struct PostOptions<'a> {
     pub milliseconds: bool,
     /// The time in seconds that the spindle takes to reach its speed.
     pub spin_up: f64,
+    /// What the machine can do, where that is known.
+    pub machine: Option<Machine>,
     /// Where files are that the definition inserts.
     pub files: &'a dyn PostFiles,
 }
@@ -56,6 +59,7 @@ impl Default for PostOptions<'_> {
             needs_speed: false,
             milliseconds: false,
             spin_up: 0.0,
+            machine: None,
             files: &NoFiles,
         }
     }

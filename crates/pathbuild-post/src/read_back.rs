@@ -1,6 +1,6 @@
 //! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
 
-use pathbuild_diagnostic::{Diagnostic, Note, messages::posts};
+use pathbuild_diagnostic::{Diagnostic, Note, TextFault, messages::posts};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
@@ -9,28 +9,69 @@ use super::target::Target;
 use super::ways;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Axes, Move, Named, Options, Pace, Path};
-use pathbuild_gcode::verify::Tolerance;
+use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
 
-/// What is wrong with a text: what the target's reader says, else the first place where it moves otherwise than the job. Without a target
-/// the text is one in RS274's words, which may have others.
-pub(super) fn check(
-    text: &[u8],
-    job: &Job,
-    target: Option<&Target>,
-    tolerance: &Tolerance,
-) -> Result<(), Vec<Diagnostic>> {
+/// What a text is held against.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Expected<'a> {
+    /// Whom it is for. Without a target the text is one in RS274's words, which may have others.
+    pub(super) target: Option<&'a Target>,
+    /// How far it may be from the job. `None`: somebody answers for its moves.
+    pub(super) tolerance: Option<Tolerance>,
+    /// What the machine can do.
+    pub(super) machine: Option<&'a Machine>,
+}
+
+/// What is wrong with a text, by line: what the target's reader says, else the first place where it moves otherwise than the job and the
+/// rules of `verify` that it breaks.
+pub(super) fn check(text: &[u8], job: &Job, expected: &Expected<'_>) -> Result<(), Vec<Diagnostic>> {
+    let Expected { target, tolerance, machine } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let read = interpret::interpret(text, reader, &Options::default());
-    let problems: Vec<Diagnostic> =
-        read.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
-    if target.is_some() && !problems.is_empty() {
-        return Err(problems.into_iter().map(as_post_s).collect());
+    let mut problems: Vec<Diagnostic> =
+        read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_post_s).collect();
+    if !problems.is_empty() && target.is_some() {
+        return if tolerance.is_some() { Err(problems) } else { Ok(()) };
     }
-    let expected = moves(job).map_err(|error| vec![*error])?;
-    let clearance =
-        job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
-    let found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
-    ways::check(&found, &expected, clearance, tolerance).map_err(|problem| vec![as_post_s(*problem)])
+    problems.clear();
+    if let Some(tolerance) = tolerance {
+        let wanted = moves(job).map_err(|error| vec![*error])?;
+        let clearance =
+            job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
+        let found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
+        problems.extend(ways::check(&found, &wanted, clearance, tolerance).err().map(|it| as_post_s(*it)));
+    }
+    problems.extend(broken_rules(&read.steps, job, *machine));
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// The rules of `verify` that need no map of the material. (book: program/reading)
+fn broken_rules(steps: &[interpret::Step], job: &Job, machine: Option<&Machine>) -> Vec<Diagnostic> {
+    let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
+    let mut rules = Rules::new(&Checks { stock: stock.as_ref(), machine });
+    for step in steps {
+        rules.step(step);
+    }
+    let mut broken = rules.finish();
+    broken.retain(Diagnostic::is_error);
+    broken
+}
+
+/// Shows the line of the output that a problem is about: it is no line of the definition, and there will be no file.
+pub(super) fn in_output(mut problem: Diagnostic, output: &[u8]) -> Diagnostic {
+    let Some(number) = problem.place.line.take() else { return problem };
+    let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
+    if problem.text.is_none()
+        && let Some(line) = output.split(|byte| *byte == b'\n').nth(index)
+    {
+        let line = String::from_utf8_lossy(line.trim_ascii_end());
+        problem.text = Some(TextFault::new(&line, 0..line.len()));
+    }
+    if problem.message.code != posts::POST_DIFFERS.code {
+        let arguments = vec![("line", u64::from(number).into())];
+        problem.notes.push(Note { message: &posts::IN_OUTPUT, arguments });
+    }
+    problem
 }
 
 /// Each control has its own word for probing, which complains where nothing is met or does not: the way is the same.
@@ -41,10 +82,10 @@ fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
     (line, it)
 }
 
-/// A line of the output is no line of the definition.
 fn as_post_s(found: Diagnostic) -> Diagnostic {
     let line = u64::from(found.place.line.unwrap_or(0));
     let mut diagnostic = Diagnostic::new(&posts::POST_DIFFERS).with("line", line);
+    diagnostic.place.line = found.place.line;
     diagnostic.text = found.text;
     diagnostic.notes.push(Note { message: found.message, arguments: found.arguments });
     diagnostic

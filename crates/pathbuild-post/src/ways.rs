@@ -1,6 +1,6 @@
 //! Whether a text that was read makes the cuts of a job, move for move, and between them only ways that touch nothing else.
 //!
-//! Rapid moves of a post need not be those of the job: it may lift the tool higher, or leave out what is done in the air. A place is free
+//! Rapid moves of a post need not be those of the job, as they must where a program is held against its drawing (`verify --against`): it may lift the tool higher, or leave out what is done in the air. A place is free
 //! of material above every place where the job itself goes by rapid, and above the clearance plane.
 
 use pathbuild_diagnostic::Diagnostic;

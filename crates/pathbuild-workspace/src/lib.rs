@@ -8,6 +8,7 @@ pub mod emit;
 pub mod files;
 mod inputs;
 pub mod list;
+pub mod machine;
 pub mod posting;
 mod reporter;
 pub mod session;

@@ -1,6 +1,7 @@
 //! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, readers that
 //! are not ours (`independent`) see the same, and no rule of `verify` finds an error. (book: program/posts)
 
+mod chains;
 mod changes;
 mod independent;
 mod programs;
@@ -69,7 +70,9 @@ fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
 fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
     let programs = std::slice::from_ref(program);
     let (job, _) = Job::from_programs(&program.path, programs, &ToolTable::default(), false);
-    definition.write(&job, &PostOptions::default()).map(|output| output.text)
+    // Nobody says how fast cutters turn.
+    let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
+    definition.write(&job, &options).map(|output| output.text)
 }
 
 /// Half a unit of the last digit; `XpertMILL` knows no helices, so they become lines. The head and foot are the post's.

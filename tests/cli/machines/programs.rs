@@ -11,6 +11,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_db::{Role, program};
 use pathbuild_gcode::interpret::{Action, Step, moves_of};
 use pathbuild_toolpath::Program;
+use pathbuild_workspace::config::Settings;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Silent, Workspace, config};
 use rayon::prelude::*;
@@ -58,6 +59,12 @@ fn of_run(run: &Run) -> Vec<Named> {
     for value in [&mut general.feed.value, &mut general.rapid.value, &mut general.sweep_height.value] {
         value.get_or_insert(100.0);
     }
+    let inputs = cli.command.inputs().inputs.into_iter().map(|input| absolute(&case, input)).collect();
+    of_inputs(settings, inputs, &run.name())
+}
+
+/// The programs of drawings and paths, without those that are wrong.
+pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> Vec<Named> {
     let workspace = Workspace {
         settings,
         system: Arc::new(OsSystem),
@@ -68,7 +75,6 @@ fn of_run(run: &Run) -> Vec<Named> {
         reporter: Rc::new(Silent),
     };
     let session = Session::new(&workspace);
-    let inputs = cli.command.inputs().inputs.into_iter().map(|input| absolute(&case, input)).collect();
     let wanted = session.wanted(&Inputs { inputs });
     let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();
     for file in wanted.whole(&session) {
@@ -78,7 +84,7 @@ fn of_run(run: &Run) -> Vec<Named> {
     let sound = checked.iter().filter(|checked| checked.emitted.is_some());
     let named = sound.filter_map(|checked| {
         let program = program(session.db(), checked.target).clone()?;
-        Some(Named { name: format!("{} {}", run.name(), program.path), program })
+        Some(Named { name: format!("{name} {}", program.path), program })
     });
     named.collect()
 }

@@ -203,6 +203,7 @@ impl<'db> Walk<'db> {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, &summary.problems);
         let Some(signature) = &summary.signature else { return true };
+        self.check_feed(instance, signature);
         let sweep_problems = self.sweep_problems(summary, signature, depth);
         has_errors |= self.report_all(instance, &sweep_problems);
         if has_errors {
@@ -246,16 +247,13 @@ impl<'db> Walk<'db> {
         signature.sweep_height.or(fallback)
     }
 
-    /// What is wrong with S of a path in its role. Where nobody says S or F and it is needed, that is noted.
+    /// What is wrong with S of a path in its role. Where nobody says S and it is needed, that is noted.
     fn sweep_problems(
         &mut self,
         summary: &'db PathSummary,
         signature: &PathSignature,
         depth: u32,
     ) -> Cow<'db, [Diagnostic]> {
-        if self.is_emitted && signature.needs_feed && self.options.feed.is_none() {
-            self.miss(MissingOption::Feed);
-        }
         if !self.is_emitted || depth > 0 {
             return Cow::Borrowed(&summary.sweep_problems);
         }
@@ -264,6 +262,17 @@ impl<'db> Walk<'db> {
             return Cow::default();
         };
         Cow::Owned(signature.sweep_limits.check(height))
+    }
+
+    /// The feed of a path that has no F of its own.
+    fn check_feed(&mut self, instance: Instance<'db>, signature: &PathSignature) {
+        if !self.is_emitted || !signature.needs_feed {
+            return;
+        }
+        let Some(feed) = self.options.feed else { return self.miss(MissingOption::Feed) };
+        let doubt = Settings::get(self.db).language(self.db).doubts.fallback_feed(feed);
+        let doubt = doubt.map(|problem| problem.in_path(signature.name.as_str()));
+        self.report_all(instance, doubt.as_slice());
     }
 
     fn miss(&mut self, option: MissingOption) {

@@ -146,4 +146,9 @@ messages! {
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
+    /// The other moves are those of the table "Compatible".
+    SAME_IF_COMPATIBLE: MovesDiffer {
+        en: "with --compatible the moves are the same: the program is as PathDxf2GCode writes it",
+        de: "mit --compatible sind die Bewegungen gleich: das Programm ist so, wie PathDxf2GCode es schreibt",
+    }
 }

@@ -113,6 +113,13 @@ messages! {
         help_en: "correct F, or `maximum-feed` under [machine]",
         help_de: "F berichtigen, oder `maximum-feed` unter [machine]",
     }
+    /// The same of the option.
+    FALLBACK_FEED_ABOVE_MACHINE: DoubtfulValue {
+        en: "the feed {value} that holds for this path, which has no F, is above the machine's largest, {limit}",
+        de: "der Vorschub {value}, der für diesen Pfad ohne F gilt, liegt über dem größten der Maschine, {limit}",
+        help_en: "lower `feed` (--feed), write F into the path, or correct `maximum-feed` under [machine]",
+        help_de: "`feed` (--feed) senken, F in den Pfad schreiben, oder `maximum-feed` unter [machine] berichtigen",
+    }
     /// The sweep height that an emitted path gets because it has none.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",

@@ -83,6 +83,13 @@ messages! {
         en: "{section} contains itself, or macros are nested more than {limit} deep",
         de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} geschachtelt",
     }
+    /// `{$mops}` in MOP.
+    BLOCK_WITHIN_ITSELF: EndlessMacro {
+        en: "{macro} in {section}: this section is itself a part of what {macro} stands for",
+        de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil dessen, wofür {macro} steht",
+        help_en: "$mops belongs into PostFile, $blocks into MOP, once each",
+        help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
+    }
     /// Macros that multiply.
     MACRO_SIZE: EndlessMacro {
         en: "the post writes far more text than the program has moves",
@@ -203,8 +210,8 @@ messages! {
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
-        help_en: "write it from the drawing with emit, which knows T",
-        help_de: "mit emit aus der Zeichnung schreiben, das T kennt",
+        help_en: "give the radius with --surface, or write it from the drawing with emit, which knows T",
+        help_de: "den Radius mit --surface angeben, oder mit emit aus der Zeichnung schreiben, das T kennt",
     }
     /// The spindle would never turn.
     SPINDLE_UNKNOWN: MissingPostValue {
@@ -462,6 +469,11 @@ messages! {
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
         help_en: "look at the post's text for this line; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+    }
+    /// What is wrong is in a file that there will not be.
+    IN_OUTPUT: PostDiffers {
+        en: "in line {line} of the output",
+        de: "in Zeile {line} der Ausgabe",
     }
     /// G55 and the like.
     JOB_SYSTEM: NothingToPost {

@@ -35,8 +35,16 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
         c if is_invisible(c) => ' ',
         c => c,
     };
+    if text.bytes().all(is_harmless_everywhere) {
+        return text.to_owned();
+    }
     let is_ascii = charset == Charset::Ascii || spelling.is_some_and(|spelling| spelling.real_time_bytes);
     if is_ascii { ascii(text).chars().map(harmless).collect() } else { text.chars().map(harmless).collect() }
+}
+
+/// As nearly all characters of nearly all comments are.
+fn is_harmless_everywhere(byte: u8) -> bool {
+    matches!(byte, b' '..=b'~') && !matches!(byte, b'(' | b')' | b'\\' | b';' | b'%' | b'!' | b'?' | b'~')
 }
 
 /// Control characters, ends of lines and changes of direction.

@@ -1,5 +1,7 @@
 //! Comments, and the characters that may stand in them.
 
+use crate::dialect::{Dialect, within_comment};
+
 /// The characters that are written. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Charset {
@@ -18,28 +20,15 @@ pub(super) struct Remarks {
     pub(super) compatible: bool,
 }
 
-/// `(text)`, with what would end or break the comment replaced.
-pub fn comment(text: &str, charset: Charset) -> String {
-    Remarks { charset, compatible: false }.comment(text)
-}
-
 impl Remarks {
-    /// `(text)`, with what would end or break the comment replaced.
+    /// A comment of the native dialect.
     pub(super) fn comment(self, text: &str) -> String {
-        let mut comment = String::with_capacity(text.len() + 2);
-        comment.push('(');
-        for character in text.chars() {
-            match character {
-                '(' if !self.compatible => comment.push('['),
-                ')' => comment.push(']'),
-                '\\' => comment.push('/'),
-                character if character.is_control() => comment.push(' '),
-                character if character.is_ascii() || self.charset == Charset::Utf8 => comment.push(character),
-                character => comment.push_str(transliterated(character)),
-            }
+        if !self.compatible {
+            return Dialect::Native.comment(text, self.charset);
         }
-        comment.push(')');
-        comment
+        let parts: Vec<String> =
+            text.split('(').map(|part| within_comment(part, Some(Dialect::Native), self.charset)).collect();
+        format!("({})", parts.join("("))
     }
 }
 

@@ -10,11 +10,11 @@ mod read_back;
 mod statistics;
 
 pub(crate) use arc_end::{is_doubtful, is_point};
-pub use comment::transliterated;
-pub use comment::{Charset, comment};
+pub use comment::{Charset, transliterated};
 pub use number::f3;
 pub use probing::{probing_program, values_file};
 pub use program::{
-    Header, WriteOptions, drawing_of_title, is_title, path_of_title, program, program_in_parts, title,
+    Header, WriteOptions, drawing_of_title, is_title, is_title_of, path_of_title, plain_title, program,
+    program_in_parts, title,
 };
 pub use read_back::{is_read_back, read_back, read_probing_back};

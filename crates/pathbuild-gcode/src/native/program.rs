@@ -4,10 +4,11 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
-use super::comment::{Charset, Remarks, comment};
+use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, push_f3};
 use super::statistics;
+use crate::dialect::within_comment;
 
 /// How programs are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,10 +60,20 @@ pub fn path_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING)?.0.strip_prefix(PATH)
 }
 
-/// Whether a title that stands in a program is that of a path of a drawing, in whatever characters and case a post has written it.
+/// A title, or the drawing's name in it, in the characters that are left of it in every dialect: titles that are equal so are the same,
+/// however a post has written them.
+pub fn plain_title(text: &str) -> String {
+    within_comment(text, None, Charset::Ascii).to_lowercase()
+}
+
+/// Whether a title that stands in a program is that of a path of a drawing.
 pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
-    let plain = |title: &str| comment(title, Charset::Ascii).to_lowercase();
-    plain(found) == plain(&title(drawing, path))
+    plain_title(found) == plain_title(&title(drawing, path))
+}
+
+/// Whether a title that stands in a program names this drawing.
+pub fn is_title_of(found: &str, drawing: &str) -> bool {
+    drawing_of_title(found).is_some_and(|of| plain_title(of) == plain_title(drawing))
 }
 
 const PATH: &str = "Path ";

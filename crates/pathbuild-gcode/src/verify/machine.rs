@@ -1,5 +1,6 @@
 //! What a machine can do. (book: reference/configuration, `[machine]`)
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
 
 use crate::interpret::{Action, Move, Step, Turning};
@@ -30,7 +31,32 @@ pub enum Travel {
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
+/// Looks for what a machine cannot do: give it every step of a program, then [`finish`](Self::finish) it.
+#[derive(Debug)]
+pub struct MachineRules<'m> {
+    limits: Limits<'m>,
+    problems: Problems,
+}
+
+impl<'m> MachineRules<'m> {
+    /// The rules at the beginning of a program.
+    pub fn new(machine: &'m Machine) -> Self {
+        Self { limits: Limits::new(machine), problems: Problems::default() }
+    }
+
+    /// The next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        self.limits.step(step, &mut self.problems);
+    }
+
+    /// Everything that was found, by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
+    }
+}
+
 /// Reports what a machine cannot do.
+#[derive(Debug)]
 pub(super) struct Limits<'m> {
     machine: &'m Machine,
     reach: Reach,
@@ -59,7 +85,7 @@ impl<'m> Limits<'m> {
 }
 
 /// How far the program has come, and of which ends of axes it has been said that they are too far.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Reach {
     extent: [Option<(f64, f64)>; 3],
     said: [[bool; 2]; 3],

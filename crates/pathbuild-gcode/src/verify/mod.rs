@@ -25,12 +25,12 @@ pub use coarse::coarse_arcs;
 pub use compare::{Difference, Ends, Kind, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use lines::same_move_lines;
-pub use machine::{Machine, Travel};
-pub use rapids::rapids_into_material;
+pub use machine::{Machine, MachineRules, Travel};
+pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stock::{Piece, Stock};
 
-use crate::interpret::Program;
+use crate::interpret::{Program, Step};
 use crate::read::Problems;
 
 /// What a program is checked against.
@@ -42,18 +42,23 @@ pub struct Checks<'c> {
     pub machine: Option<&'c Machine>,
 }
 
-/// What of a program a machine cannot do, by line.
-pub fn verify_machine(program: &(impl Program + ?Sized), machine: &Machine) -> Vec<Diagnostic> {
-    let mut problems = Problems::default();
-    let mut limits = machine::Limits::new(machine);
-    program.each(&mut |step| limits.step(step, &mut problems));
-    problems.into_diagnostics()
+/// What is wrong with what a program does, by line.
+pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Diagnostic> {
+    verify_with(program, checks, &mut |_| {})
 }
 
-/// What is wrong with what a program does, by line. It is gone through several times.
-pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Diagnostic> {
+/// The same; each step goes to somebody else too, so that the program is not gone through once more for that. Only for the map of the
+/// material it is gone through again.
+pub fn verify_with(
+    program: &(impl Program + ?Sized),
+    checks: &Checks<'_>,
+    each: &mut dyn FnMut(&Step),
+) -> Vec<Diagnostic> {
     let mut rules = Rules::new(checks);
-    program.each(&mut |step| rules.step(step));
+    program.each(&mut |step| {
+        rules.step(step);
+        each(step);
+    });
     let mut found = rules.finish();
     if let Some(stock) = checks.stock {
         let mut problems = Problems::default();

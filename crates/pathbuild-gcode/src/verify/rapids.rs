@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_toolpath::Program as Drawn;
 
+use super::machine::{Machine, MachineRules};
 use super::material;
 use super::stock::{Piece, Stock};
 use super::tops::Tops;
@@ -21,6 +22,13 @@ const MOST_CUTS: usize = 64;
 
 /// So many cells at most are visited for a rapid move.
 const MOST_CELLS: u64 = 1_000_000;
+
+/// What of a drawing's program a machine cannot do, by the number of its step.
+pub fn beyond_machine(drawn: &Drawn, machine: &Machine) -> Vec<Diagnostic> {
+    let mut rules = MachineRules::new(machine);
+    Moves(drawn).each(&mut |step| rules.step(step));
+    rules.finish()
+}
 
 /// The rapid moves of a drawing's program that go into material, by the number of its step.
 pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {

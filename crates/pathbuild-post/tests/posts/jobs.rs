@@ -95,6 +95,28 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     assert!(matches!(arc(0.002), Step::Arc(_)));
 }
 
+/// The ends of a full circle that was drawn as an arc are numbers of two elements: they may differ by next to nothing.
+#[test]
+fn a_full_circle_ends_where_it_begins() {
+    let arc = |by: f64, length: f64| {
+        let (feed, clockwise, is_spiral) = (100.0, false, false);
+        let (centre, to) = (Xy::new(5.0, 0.0), Xy::new(0.0, by));
+        let to = Move::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
+        let count = Count { class: Class::Milling, length, feed: Some(100.0) };
+        match job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0] {
+            Step::Arc(arc) => arc.to,
+            ref other => panic!("{other:?}"),
+        }
+    };
+    let turn = 10.0 * std::f64::consts::PI;
+    for by in [0.0, 1e-14, -1e-14] {
+        let end = arc(by, turn);
+        assert!(end[1] == 0.0 || by > 0.0, "{by}: {end:?}");
+    }
+    assert_eq!(arc(-1e-14, turn)[1], 0.0, "an angle of next to nothing");
+    assert_eq!(arc(-0.01, 0.01)[1], -0.01, "a short arc stays one");
+}
+
 #[test]
 fn a_plunge_has_a_feed_of_its_own() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);

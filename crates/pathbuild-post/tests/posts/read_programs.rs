@@ -252,7 +252,8 @@ fn built_in_posts_move_as_the_native_program() {
         Job::from_programs("8001.1P", std::slice::from_ref(&program), &ToolTable::default(), false);
     let mut compared = 0;
     for name in definitions() {
-        let output = load(name).unwrap().write(&job, &PostOptions::default());
+        let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
+        let output = load(name).unwrap().write(&job, &options);
         let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
         assert_moves_alike(name, &output.text, &program);
         compared += 1;
@@ -265,7 +266,7 @@ fn built_in_posts_with_cycles_move_as_the_native_program() {
     let program = program();
     let (job, _) =
         Job::from_programs("8001.1P", std::slice::from_ref(&program), &ToolTable::default(), false);
-    let options = PostOptions { cycles: true, ..PostOptions::default() };
+    let options = PostOptions { cycles: true, manual_spindle: true, ..PostOptions::default() };
     for name in ["linuxcnc", "mach3", "fanuc", "haas"] {
         let output = load(name).unwrap().write(&job, &options);
         let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
@@ -288,7 +289,8 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
     let job = Job::from_steps("8001.1P", &read.steps, &native_remark).unwrap();
     assert_eq!(job.operations.iter().map(|it| &*it.name).collect::<Vec<_>>(), ["1234.1A", "1234.2B"]);
     for name in definitions() {
-        let output = load(name).unwrap().write(&job, &PostOptions::default());
+        let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
+        let output = load(name).unwrap().write(&job, &options);
         let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
         assert_moves_alike(name, &output.text, &program);
     }

@@ -3,6 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::verify::{Machine, Travel};
 use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
 
 use crate::support::{definition, feed, job, rapid, texts};
@@ -244,6 +245,57 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
         Ok(()),
         "within half a unit of the last digit"
     );
+}
+
+/// Writes a cut to X10 at a tool's speed, with these texts before and behind it, for LinuxCNC on a machine.
+fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
+    let text = format!(
+        "<PostFile>{{$mops}}{behind}</PostFile><MOP>{before}\n{{$blocks}}</MOP><Dialect>linuxcnc</Dialect>"
+    );
+    let post = Post::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+    let options = PostOptions { machine: Some(machine), ..PostOptions::default() };
+    let steps = vec![feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0), rapid(10.0, 0.0, 5.0)];
+    post.write(&job(steps), &options).map(drop).map_err(|errors| texts(&errors))
+}
+
+#[test]
+fn a_program_that_breaks_a_rule_of_verify_is_not_written() {
+    let any = Machine::default;
+    assert_eq!(run_on(any(), "M3 S1000", "M5"), Ok(()));
+    assert_eq!(run_on(any(), "", ""), Ok(()), "the operator sees to the spindle");
+    for (before, behind, code) in [
+        ("M5", "", "PB745 a cutting move with the spindle off"),
+        ("", "M5", "PB745 "),
+        ("M3 S0", "M5", "PB745 a cutting move with the spindle at speed 0"),
+        ("M3", "M5", "PB745 "),
+    ] {
+        let errors = run_on(any(), before, behind).unwrap_err();
+        assert!(errors[0].starts_with(code), "{before}, {behind}: {errors:?}");
+    }
+    let spindle = |speeds| Machine { spindle: Some(speeds), ..Machine::default() };
+    assert_eq!(run_on(spindle((500.0, 1000.0)), "M3 S1000", "M5"), Ok(()));
+    let errors = run_on(spindle((500.0, 999.0)), "M3 S1000", "M5").unwrap_err();
+    assert!(errors[0].starts_with("PB746 S 1000 is outside the machine's 500 to 999"), "{errors:?}");
+    let travel = |x| {
+        let size = Some(Travel::Size([x, 100.0, 100.0]));
+        Machine { travel: size, ..Machine::default() }
+    };
+    assert_eq!(run_on(travel(10.0), "M3 S1000", "M5"), Ok(()));
+    let errors = run_on(travel(9.99), "M3 S1000", "M5").unwrap_err();
+    assert!(errors[0].starts_with("PB748 "), "{errors:?}");
+}
+
+#[test]
+fn somebody_who_answers_for_the_moves_does_not_answer_for_rules() {
+    let post = |dialect: &str| {
+        let text = format!("<PostFile>{{$mops}}</PostFile><MOP>M5\n{{$blocks}}</MOP>{dialect}");
+        Post::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap()
+    };
+    let options = PostOptions { unchecked: true, ..PostOptions::default() };
+    let job = job(vec![feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 5.0)]);
+    let errors = texts(&post("<Dialect>linuxcnc</Dialect>").write(&job, &options).unwrap_err());
+    assert!(errors[0].starts_with("PB745 "), "{errors:?}");
+    assert!(post("").write(&job, &options).is_ok(), "without a dialect nobody knows what M5 means");
 }
 
 #[test]

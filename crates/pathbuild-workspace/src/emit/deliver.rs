@@ -8,13 +8,14 @@ use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
-use pathbuild_gcode::verify::rapids_into_material;
+use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Total};
 
 use super::job::Job;
 use super::provenance::Provenances;
 use super::{compare, options};
+use crate::machine::machine;
 use crate::posting::Poster;
 use crate::session::{OutputKind, Writing, hash_output, without_values};
 use crate::workspace::Workspace;
@@ -110,13 +111,14 @@ pub(super) struct Means<'a> {
     pub(super) writing: Writing,
     pub(super) poster: Option<&'a Poster>,
     pub(super) provenances: Provenances,
+    machine: Option<Machine>,
 }
 
 impl<'a> Means<'a> {
     /// As the configuration says.
     pub(super) fn new(workspace: &Workspace, poster: Option<&'a Poster>) -> Self {
         let provenances = Provenances::new(&workspace.settings, poster);
-        Self { writing: options::writing(workspace), poster, provenances }
+        Self { writing: options::writing(workspace), poster, provenances, machine: machine(workspace) }
     }
 }
 
@@ -143,7 +145,8 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
     let provenance = means.provenances.of(&programs);
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
-    let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program));
+    let machine = means.machine.as_ref();
+    let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
     let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
     let outputs = made.unwrap_or_else(|problems| {
         delivered.is_refused = true;
@@ -153,9 +156,15 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
     Made { delivered, outputs }
 }
 
-/// Rapid moves of a program into material, which is not written then.
-fn unsafe_moves(db: &Database, job: &Job, program: &Program) -> Option<Vec<Diagnostic>> {
+/// Rapid moves of a program into material, and what the machine cannot do: it is not written then.
+fn unsafe_moves(
+    db: &Database,
+    job: &Job,
+    program: &Program,
+    machine: Option<&Machine>,
+) -> Option<Vec<Diagnostic>> {
     let mut found = rapids_into_material(program);
+    found.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
     found.retain(Diagnostic::is_error);
     for problem in &mut found {
         // The line would be the number of a step.

@@ -2,6 +2,7 @@
 
 mod asked;
 mod compare;
+mod compatible;
 mod configured;
 mod current;
 mod deliver;
@@ -101,6 +102,7 @@ impl Request<'_> {
         let made = session.settled(|session| making.make(session))?;
         let Made { asked, answers, jobs, refused, mut delivered, mut diagnostics } = made;
         tell_known(session.workspace(), &asked, &answers);
+        compatible::name(session.workspace(), self, &mut delivered);
         let older = older::programs(session, self, &asked.targets, &jobs, &delivered);
         let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
         diagnostics.extend(problems.cloned());

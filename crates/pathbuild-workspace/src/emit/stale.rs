@@ -11,7 +11,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
-use pathbuild_gcode::native::{self, Charset, comment};
+use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::asked::Asked;
@@ -220,21 +220,16 @@ struct Writers {
     knows_all: bool,
 }
 
-/// What a program says that it was made from, in ASCII and without case.
+/// What a program says that it was made from, in plain characters.
 fn title(drawing: &str, path: &str) -> String {
-    without_case(&comment(&native::title(drawing, path), Charset::Ascii))
+    plain_title(&native::title(drawing, path))
 }
 
 fn file_name(drawing: &Utf8Path) -> &str {
     drawing.file_name().unwrap_or_default()
 }
 
-/// Some posts write capitals only.
-fn without_case(title: &str) -> String {
-    title.to_lowercase()
-}
-
-/// Where programs are written, and what they say they are made from, without case.
+/// Where programs are written, and what they say they are made from, in plain characters.
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
@@ -246,8 +241,7 @@ impl Writers {
             let beside = || drawing.parent().unwrap_or(Utf8Path::new("")).to_owned();
             out_dir.clone().unwrap_or_else(beside)
         };
-        let written =
-            |drawing: &Utf8Path| (place(drawing), without_case(&comment(file_name(drawing), Charset::Ascii)));
+        let written = |drawing: &Utf8Path| (place(drawing), plain_title(file_name(drawing)));
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
         let made: BTreeSet<Title> =
             jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
@@ -274,12 +268,12 @@ impl Writers {
         title: &str,
         mut beside: impl Iterator<Item = &'n str>,
     ) -> bool {
-        let title = without_case(&comment(title, Charset::Ascii));
-        let Some(drawing) = native::drawing_of_title(&title[1..title.len() - 1]) else { return false };
-        let named = |text: String| (directory.to_owned(), text);
-        let drawing = named(format!("({drawing})"));
-        let is_beside = beside.any(|name| without_case(&comment(name, Charset::Ascii)) == drawing.1);
-        if self.idle.contains(&named(title.clone())) || self.others.contains(&drawing) {
+        let title = plain_title(title);
+        let Some(drawing) = native::drawing_of_title(&title) else { return false };
+        let named = |text: &str| (directory.to_owned(), text.to_owned());
+        let drawing = named(drawing);
+        let is_beside = beside.any(|name| plain_title(name) == drawing.1);
+        if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
             return false;
         }
         // A drawing that is there, but that the run does not know (an ignored one), is left alone.

@@ -12,10 +12,12 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts as messages;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::verify::Machine;
 use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable};
 
 use crate::config::{Origin, types};
 use crate::files::unreadable;
+use crate::machine::machine;
 use crate::workspace::Workspace;
 
 pub use build::run_post_build;
@@ -39,6 +41,7 @@ pub struct Poster {
     charset: Charset,
     wishes: Wishes,
     manner: Manner,
+    machine: Option<Machine>,
     system: Arc<dyn System>,
     /// The definition is a stranger's.
     runs_no_command: bool,
@@ -125,6 +128,7 @@ impl Poster {
                 types::Charset::Utf8 => Charset::Utf8,
             },
             wishes,
+            machine: machine(context),
             system: Arc::clone(&context.system),
             runs_no_command: context.settings.confined.is_some(),
             manner: Manner {
@@ -197,6 +201,7 @@ impl Poster {
             needs_speed: !self.manner.manual_spindle,
             spin_up: self.manner.spin_up,
             milliseconds: self.manner.milliseconds,
+            machine: self.machine.clone(),
             ..PostOptions::default()
         };
         if let Some(below) = &below {

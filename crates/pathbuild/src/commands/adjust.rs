@@ -5,7 +5,7 @@ use pathbuild_db::system::{Kind, Written};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
-use pathbuild_gcode::native::{self, Charset};
+use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use regex::Regex;
 
@@ -108,10 +108,7 @@ impl Job {
 /// Whether the header of a program names this drawing.
 fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
     let text = context.system.read(program, context.settings.limits.file_size.value).unwrap_or_default();
-    let title = Provenance::of_head(&text).map(|(_, title)| title);
-    let named = native::comment(drawing, Charset::Utf8);
-    let named = [&named, &native::comment(drawing, Charset::Ascii)].map(|it| it[1..it.len() - 1].to_owned());
-    title.as_deref().and_then(native::drawing_of_title).is_some_and(|it| named.iter().any(|name| name == it))
+    Provenance::of_head(&text).is_some_and(|(_, title)| native::is_title_of(&title, drawing))
 }
 
 /// A name without its suffix, which may be in any case.

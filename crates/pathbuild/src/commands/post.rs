@@ -8,7 +8,7 @@ use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Step;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_post::{BUILT_IN, Job, Output, Remark, native_remark};
+use pathbuild_post::{BUILT_IN, Job, Output, Remark, is_of_head, native_remark};
 
 use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
@@ -89,7 +89,7 @@ fn written(
     let steps = std::mem::take(&mut program.read.steps);
     let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
     let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
-    let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header).unwrap_or(0.0);
+    let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header);
     let output =
         output(&program, steps, poster, surface, args.output.as_deref()).map_err(|mut problems| {
             program.place_own(&mut problems);
@@ -113,25 +113,34 @@ fn written(
     }
 }
 
-/// What the post makes of a program that has no errors, of material up to a height in mm.
+/// What the post makes of a program that has no errors, of material up to a height in mm, where that is known.
 fn output(
     program: &Program,
     steps: Vec<Step>,
     poster: &Poster,
-    surface: f64,
+    surface: Option<f64>,
     to: Option<&Utf8Path>,
 ) -> Result<Output, Vec<Diagnostic>> {
     if let Some(line) = first_open_formula(&program.text).filter(|_| program.dialect == Dialect::Native) {
         return Err(vec![Diagnostic::new(&posts::POST_UNADJUSTED).at_line(line, None)]);
     }
-    let remark: fn(&str) -> Remark<'_> = match program.dialect {
-        Dialect::Native => native_remark,
-        _ => |_| Remark::Stays,
+    let head = Provenance::of_head(&program.text);
+    let remark: fn(&str) -> Remark<'_> = match (program.dialect, &head) {
+        (Dialect::Native, _) => native_remark,
+        (_, Some(_)) => |text| if is_of_head(text) { Remark::Goes } else { Remark::Stays },
+        (_, None) => |_| Remark::Stays,
     };
     let name = program.file.file_stem().unwrap_or_default();
     let mut job = Job::from_steps(name, &steps, &remark)?;
     drop(steps);
-    job.set_surface(surface);
+    if let Some((provenance, title)) = head {
+        // It is the same program in another dialect.
+        let dialect = poster.reader().and_then(|(dialect, is_own)| is_own.then_some(dialect));
+        job.remarks = vec![Provenance { dialect, ..provenance }.to_string().into(), title];
+    }
+    if let Some(surface) = surface {
+        job.set_surface(surface);
+    }
     let unknown = furnish(&mut job, poster.tools());
     let mut output = poster.write(&job, to)?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));

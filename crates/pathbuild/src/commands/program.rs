@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Evidence, Heights, Interpretation, Options, Text, UnitCodes, guess, interpret, interpret_each,
+    Evidence, Heights, Interpretation, Options, Step, Text, UnitCodes, guess, interpret_each,
 };
 use pathbuild_gcode::read::quote;
 
@@ -29,7 +29,7 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// Reads a file.
+    /// Reads a file and keeps its steps.
     ///
     /// # Errors
     /// It cannot be read at all; what is wrong with its lines is in [`read`](Self::read).
@@ -38,19 +38,21 @@ impl Program {
         file: &Utf8Path,
         args: &ReadingArgs,
     ) -> Result<Self, Box<Diagnostic>> {
-        let mut program = Self::open_lazily(context, file, args)?;
-        program.read.steps = interpret(&program.text, program.dialect, &program.options).steps;
+        let mut steps = Vec::new();
+        let mut program = Self::open_each(context, file, args, &mut |step| steps.push(step))?;
+        program.read.steps = steps;
         Ok(program)
     }
 
-    /// Reads a file without keeping its steps: large programs are gone through again instead.
+    /// Reads a file and hands on its steps, as it is written, without keeping them: large programs are gone through again instead.
     ///
     /// # Errors
     /// It cannot be read at all.
-    pub(super) fn open_lazily(
+    pub(super) fn open_each(
         context: &Context,
         file: &Utf8Path,
         args: &ReadingArgs,
+        each: &mut dyn FnMut(Step),
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
         let text =
@@ -58,22 +60,17 @@ impl Program {
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let options = options(context, args);
-        let mut problems = interpret_each(&text, dialect, &options, &mut |_| {});
+        let mut problems = interpret_each(&text, dialect, &options, each);
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
         Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
     }
 
-    /// What it does, as it is written.
-    pub(super) fn written(&self) -> Text<'_> {
-        Text { text: &self.text, dialect: self.dialect, options: self.options.clone() }
-    }
-
     /// What it does at the heights that it was drawn with, where its own are corrected by formulas.
     pub(super) fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
-        Text { options, ..self.written() }
+        Text { text: &self.text, dialect: self.dialect, options }
     }
 
     /// Shows under diagnostics where in the file they are.

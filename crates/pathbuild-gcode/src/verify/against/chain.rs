@@ -1,6 +1,7 @@
 //! The way that rapid moves go between two cuts.
 //!
-//! It is the way that the drawing says, point for point. Only on the way to where that begins, and once all is milled, a program may go to
+//! It is the way that the drawing says, point for point: whoever changed a program may have changed any of them. (What posts write is held
+//! against what a way may touch, since a definition may lift the tool higher: `ways` in pathbuild-post.) Only on the way to where that begins, and once all is milled, a program may go to
 //! places of the machine; there the tool is at S0 or above, where nothing is in the way.
 
 use crate::interpret::{Axes, Move, Path, Position};

@@ -1,4 +1,4 @@
-//! `[machine]`: what the machine can do, for `verify` and for times. (book: program/reading)
+//! `[machine]`: what the machine can do, for `emit`, `verify` and for times. (book: program/reading)
 
 use std::fmt::Debug;
 
@@ -17,17 +17,17 @@ section! {
     /// what P of G4 counts on a control that can be set either way (Mach3: Config > Logic): "seconds" or "milliseconds"
     dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
     /// mm: from where to where the X axis goes, in the program's coordinates; without it any X is right
-    x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Neither;
+    x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Emit;
     /// mm: the same for the Y axis
-    y: Option<Extent> = "y", EXTENT, None, "[0, 200]", Neither;
+    y: Option<Extent> = "y", EXTENT, None, "[0, 200]", Emit;
     /// mm: the same for the Z axis
-    z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Neither;
+    z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Emit;
     /// mm/min: largest feed
     max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
     /// mm: how far X, Y and Z go, wherever the part is clamped; x, y and z say more
-    travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Neither;
+    travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
     /// 1/min: the spindle's slowest and fastest speed
-    spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Neither;
+    spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Emit;
     /// mm/min: the fastest that X, Y and Z go; with accelerations, times are those of the machine
     rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
     /// mm/s²: the most that X, Y and Z gain in speed

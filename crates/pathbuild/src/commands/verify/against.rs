@@ -5,7 +5,8 @@ use std::sync::Arc;
 use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
-use pathbuild_gcode::interpret::{self, Program as _, Text, Turning};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{self, Move, Turning};
 use pathbuild_gcode::verify::{self, ToolUse};
 use pathbuild_path::PathName;
 use pathbuild_post::Spindle;
@@ -54,17 +55,19 @@ impl Against {
         self.drawn.surface()
     }
 
-    /// Everything that a program says otherwise than the drawing. Its steps are those at the heights before correction.
-    pub(super) fn differences(&self, context: &Context, program: &Text<'_>) -> Vec<Diagnostic> {
+    /// What compares a program of a dialect with the drawing. Its steps are those at the heights before correction.
+    pub(super) fn comparison(
+        &self,
+        context: &Context,
+        dialect: Dialect,
+    ) -> verify::Against<impl Iterator<Item = (u32, Move)>> {
         let drawn = verify::Drawn {
             moves: interpret::each_move_of(&self.drawn),
             clearance: self.drawn.start_height(),
             tool: self.tool(context),
             spin_up: context.settings.machine.spin_up.value,
         };
-        let mut comparison = verify::Against::new(drawn, program.dialect);
-        program.each(&mut |step| comparison.step(step));
-        comparison.finish()
+        verify::Against::new(drawn, dialect)
     }
 
     /// The cutter as the configuration has it.

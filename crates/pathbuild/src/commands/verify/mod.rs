@@ -1,16 +1,17 @@
 //! `pathbuild verify`: whether a G-code program is safe to run, and is what a drawing says. (book: program/reading)
 
 mod against;
-mod machine;
 mod stock;
 
+use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
-use pathbuild_gcode::verify::{Checks, coarse_arcs, verify, verify_machine};
+use pathbuild_gcode::verify::{self, Checks, MachineRules, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::machine::machine;
 use pathbuild_workspace::session::Session;
 
 use super::program::Program;
@@ -31,8 +32,8 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
     for file in &args.files {
-        match Program::open_lazily(context, file, &args.reading) {
-            Ok(program) => diagnostics.extend(check(context, program, &wishes, against.as_ref())),
+        match check(context, file, args, &wishes, against.as_ref()) {
+            Ok(found) => diagnostics.extend(found),
             Err(problem) => diagnostics.push(*problem),
         }
     }
@@ -57,28 +58,47 @@ impl Wishes {
 
 /// Everything that is wrong with a program. Of one whose heights are corrected the material is where it was drawn: a plate that is not flat
 /// is not milled by rapid moves that follow it. The machine is asked for what it has to do.
-fn check(context: &Context, program: Program, wishes: &Wishes, against: Option<&Against>) -> Vec<Diagnostic> {
+///
+/// The text is interpreted twice, and not kept as steps: what is known of the material is asked by the rules.
+fn check(
+    context: &Context,
+    file: &Utf8Path,
+    args: &VerifyArgs,
+    wishes: &Wishes,
+    against: Option<&Against>,
+) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
+    let machine = machine(context);
+    let mut limits = machine.as_ref().map(MachineRules::new);
+    let mut tools = stock::Tools::default();
+    let program = Program::open_each(context, file, &args.reading, &mut |step| {
+        tools.step(&step);
+        if let Some(limits) = &mut limits {
+            limits.step(&step);
+        }
+    })?;
     let drawn = program.drawn();
-    let tools = stock::Tools::of(&program.written());
     let cells = context.settings.limits.verify_cells.value;
     let stock = stock::stock(context, &program, &tools, wishes, against).map(|stock| stock.with_cells(cells));
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
-    let mut found = verify(&drawn, &Checks { stock: stock.as_ref(), machine: None });
+    let mut comparison = against.map(|against| against.comparison(context, program.dialect));
+    let mut found = verify_with(&drawn, &Checks { stock: stock.as_ref(), machine: None }, &mut |step| {
+        if let Some(comparison) = &mut comparison {
+            comparison.step(step);
+        }
+    });
     found.extend(coarse_arcs(&program.text, program.dialect));
-    if let Some(machine) = machine::machine(context) {
-        found.extend(verify_machine(&program.written(), &machine));
-    }
+    found.extend(limits.map(MachineRules::finish).unwrap_or_default());
     found.extend(stock::unknown_tools(context, &program, &tools));
-    found.extend(against.map(|against| against.differences(context, &drawn)).unwrap_or_default());
+    found.extend(comparison.map(verify::Against::finish).unwrap_or_default());
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if against.is_some() {
         diagnostics.iter_mut().filter(|it| is_unsaid(it)).for_each(|it| it.severity = Severity::Error);
     }
     diagnostics.append(&mut found);
-    diagnostics
+    Ok(diagnostics)
 }
 
 /// Whether a doubt is about something that the drawing's program says, or does not say at all.

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Action, Program as Steps};
+use pathbuild_gcode::interpret::{Action, Step};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{Piece, Stock};
 
@@ -13,21 +13,26 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use pathbuild_workspace::posting::tool_table;
 
-/// The tools of a program.
+/// The tools of a program, with their lines: it is told every step.
+#[derive(Default)]
 pub(super) struct Tools {
-    /// Those that it puts in, with their lines; where it never says M6, those that it selects.
-    used: Vec<(u32, u32)>,
+    selected: Vec<(u32, u32)>,
+    inserted: Vec<(u32, u32)>,
 }
 
 impl Tools {
-    pub(super) fn of(program: &impl Steps) -> Self {
-        let (mut selected, mut inserted) = (Vec::new(), Vec::new());
-        program.each(&mut |step| match step.action {
-            Action::ChangeTool(number) => inserted.push((step.line, number)),
-            Action::SelectTool(number) => selected.push((step.line, number)),
+    /// The next step of the program.
+    pub(super) fn step(&mut self, step: &Step) {
+        match step.action {
+            Action::ChangeTool(number) => self.inserted.push((step.line, number)),
+            Action::SelectTool(number) => self.selected.push((step.line, number)),
             _ => {}
-        });
-        Self { used: if inserted.is_empty() { selected } else { inserted } }
+        }
+    }
+
+    /// Those that it puts in; where it never says M6, those that it selects.
+    fn used(&self) -> &[(u32, u32)] {
+        if self.inserted.is_empty() { &self.selected } else { &self.inserted }
     }
 
     /// The diameters in mm, each from a line on, by the tool table; `None` if one is not in it, or there are no tools.
@@ -37,7 +42,7 @@ impl Tools {
             table.entries.iter().find(|entry| entry.index == Some(number)).map(|entry| entry.diameter)
         };
         let cutters: Option<Vec<(u32, f64)>> =
-            self.used.iter().map(|(line, number)| Some((*line, diameter(*number)?))).collect();
+            self.used().iter().map(|(line, number)| Some((*line, diameter(*number)?))).collect();
         cutters.filter(|cutters| !cutters.is_empty())
     }
 }
@@ -78,7 +83,7 @@ pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools)
     // Layers are no tools, and the native program always says T1.
     let is_no_tool = matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
     let mut unknown: Vec<(u32, u32)> = Vec::new();
-    for (line, number) in &tools.used {
+    for (line, number) in tools.used() {
         let is_new = unknown.iter().all(|(_, met)| met != number);
         if is_new && !known.is_empty() && !known.contains(number) && !is_no_tool {
             unknown.push((*line, *number));

@@ -2,11 +2,11 @@
 
 use pathbuild_gcode::verify::{Machine, Travel};
 
-use crate::context::Context;
-use pathbuild_workspace::config::types::Extent;
+use crate::config::types::Extent;
+use crate::workspace::Workspace;
 
 /// The machine of the configuration; `None` where nothing is known of it.
-pub(super) fn machine(context: &Context) -> Option<Machine> {
+pub fn machine(context: &Workspace) -> Option<Machine> {
     let settings = &context.settings.machine;
     let placed = [settings.x.value, settings.y.value, settings.z.value];
     let travel = if placed.iter().any(Option::is_some) {
