@@ -1,6 +1,7 @@
 //! The books in docs/en and docs/de, and the README: what they show is made here again and compared. Commands are typed into a
 //! scratch copy of the book's drawings, pictures are drawn by `view`, tables come from the code, links are followed.
 //! `PATHBUILD_UPDATE=1` writes anew what differs. (CONTRIBUTING.md, "The books")
+#![allow(clippy::case_sensitive_file_extension_comparisons, reason = "the files are ours")]
 
 mod citations;
 mod console;

@@ -16,9 +16,7 @@ fn pictures_are_what_view_draws() {
         .iter()
         .flat_map(|page| {
             let text = page.text();
-            let images =
-                links::images(&text).into_iter().map(|link| links::target(page, link)).collect::<Vec<_>>();
-            images
+            links::images(&text).into_iter().map(|link| links::target(page, link)).collect::<Vec<_>>()
         })
         .collect();
     let wrong: Vec<String> = shown.par_iter().filter_map(|file| wrong(file)).collect();

@@ -34,7 +34,9 @@ pub fn run(context: &Context, example: bool) -> ExitStatus {
         files.iter().map(|(name, content)| (context.working_directory.join(name), *content)).collect();
     match files::create(&placed) {
         Ok(()) => {
-            files.iter().for_each(|(name, _)| context.printer.result_line(name));
+            for (name, _) in files {
+                context.printer.result_line(name);
+            }
             ExitStatus::Success
         }
         Err(reasons) => context.fail(reasons),
