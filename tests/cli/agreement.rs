@@ -231,6 +231,6 @@ impl OnDisk {
                 words: vec![text("message").unwrap()],
             }
         };
-        run.stdout.lines().map(of).collect()
+        run.stdout.lines().filter(|line| line.starts_with(r#"{"type":"finding""#)).map(of).collect()
     }
 }

@@ -36,7 +36,7 @@ fn every_value_is_shown_with_where_it_comes_from() {
 feed = 150
 rapid = 1_000.5
 library = ["components", "../projects"]
-restrict = ["8*:[0-9.]*P"]
+restrict = ["^8:P$"]
 units = "mm"
 out-dir = "out"
 z-model = "tin"

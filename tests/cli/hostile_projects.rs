@@ -165,7 +165,7 @@ fn a_chain_of_very_many_levels_ends_at_the_tenth() {
     let place = place([(0, component(0, ""))].into_iter().chain(levels), "");
     let run = timed(&place, "check .");
     assert!(run.stderr.contains("400 paths in 400 drawings"), "{run}");
-    let too_deep: Vec<&str> = run.stderr.lines().filter(|line| line.contains("PB508")).collect();
+    let too_deep: Vec<&str> = run.stderr.lines().filter(|line| line.contains("[PB508]")).collect();
     assert_eq!(too_deep.len(), 389, "those of levels 11 to 399, each at its tenth level");
     let run = timed(&place, "emit 1000.10P");
     assert_eq!((run.status, cuts(&written(&place, 10))), (Some(0), 5), "{run}");
@@ -200,7 +200,7 @@ fn a_cycle_through_a_hundred_files_ends() {
     let run = timed(&place(levels, ""), "check .");
     assert_eq!(run.status, Some(1));
     assert!(!run.stderr.contains("PB509"));
-    assert_eq!(run.stderr.lines().filter(|line| line.contains("PB508")).count(), 100);
+    assert_eq!(run.stderr.lines().filter(|line| line.contains("[PB508]")).count(), 100);
 }
 
 /// Eleven levels below two projects is the same segment: that is said once.
@@ -219,7 +219,7 @@ fn a_segment_that_is_too_deep_below_several_projects_is_reported_once() {
 fn each_of_very_many_wrong_embeddings_is_reported() {
     let texts: Vec<String> = (0..600).map(|number| format!(">{}.{number}P", 2000 + number / 100)).collect();
     let run = timed(&place([(0, project(0, "", &texts))], ""), "check .");
-    assert_eq!(run.stderr.lines().filter(|line| line.contains("PB503")).count(), 600);
+    assert_eq!(run.stderr.lines().filter(|line| line.contains("[PB503]")).count(), 600);
 }
 
 #[test]

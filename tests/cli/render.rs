@@ -59,7 +59,7 @@ fn render(format: Format, findings: &Findings, view: &View) -> String {
 }
 
 fn shown(format: Format, lang: Lang) -> String {
-    render(format, &findings(), &View { lang, color: false, width: None, base: "/work".into() })
+    render(format, &findings(), &View { lang, color: false, width: None, base: "/work".into(), root: None })
 }
 
 #[test]
@@ -80,13 +80,13 @@ fn full_speaks_german() {
 
 #[test]
 fn full_wraps_at_the_width_of_the_terminal() {
-    let view = View { lang: Lang::En, color: false, width: Some(60), base: "/work".into() };
+    let view = View { lang: Lang::En, color: false, width: Some(60), base: "/work".into(), root: None };
     assert_snapshot!(render(Format::Full, &findings(), &view));
 }
 
 #[test]
 fn colours_are_escape_sequences_and_nothing_else_is() {
-    let view = View { lang: Lang::En, color: true, width: None, base: "/work".into() };
+    let view = View { lang: Lang::En, color: true, width: None, base: "/work".into(), root: None };
     assert!(render(Format::Full, &findings(), &view).contains("\u{1b}["));
     for format in [Format::Full, Format::Concise] {
         assert!(!shown(format, Lang::En).contains('\u{1b}'), "{format:?}");
@@ -97,7 +97,8 @@ fn colours_are_escape_sequences_and_nothing_else_is() {
 fn json_has_the_same_keys_on_every_line() {
     let text = shown(Format::Json, Lang::En);
     assert_snapshot!(text);
-    let keys = "code name severity message help file line path layer handle entity x y text span trace";
+    let keys =
+        "type code name severity message help notes file line path layer handle entity x y text span trace";
     for line in text.lines() {
         let object: serde_json::Map<String, serde_json::Value> = serde_json::from_str(line).unwrap();
         let found: std::collections::BTreeSet<&str> = object.keys().map(String::as_str).collect();
@@ -140,14 +141,14 @@ fn sarif_is_what_its_schema_says() {
     let empty = render(
         Format::Sarif,
         &Findings::default(),
-        &View { lang: Lang::De, color: false, width: None, base: "/".into() },
+        &View { lang: Lang::De, color: false, width: None, base: "/".into(), root: None },
     );
     assert!(jsonschema::is_valid(&schema, &json(&empty)));
 }
 
 #[test]
 fn sarif_has_no_more_results_than_github_takes_and_says_so() {
-    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into(), root: None };
     // Counted in the text: to parse so much takes a debug build many seconds.
     let shown = |count| render(Format::Sarif, &many(count), &view);
     let count = |text: &str, part| text.matches(part).count();
@@ -170,7 +171,7 @@ fn github_annotations_are_commands_of_a_workflow() {
 
 #[test]
 fn github_gets_ten_annotations_of_a_severity_and_the_rest_as_lines() {
-    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+    let view = View { lang: Lang::En, color: false, width: None, base: "/work".into(), root: None };
     let text = render(Format::Github, &many(12), &view);
     let starts = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
     assert_eq!(
@@ -239,7 +240,7 @@ fn junit_is_xml_with_counts_that_are_right() {
 fn full_shows_only_the_neighbourhood_of_a_fault_in_a_long_text() {
     let of = |text: &str, span: std::ops::Range<usize>| {
         let diagnostic = Diagnostic::new(&files::EMPTY_FILE).with_text(TextFault::new(text, span));
-        let view = View { lang: Lang::En, color: false, width: None, base: "/work".into() };
+        let view = View { lang: Lang::En, color: false, width: None, base: "/work".into(), root: None };
         render(Format::Full, &Findings::new(vec![diagnostic]), &view)
     };
     let inside = format!("{}FAULT{}", "a".repeat(400), "z".repeat(400));

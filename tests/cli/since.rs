@@ -106,3 +106,19 @@ fn timings_name_the_phases_and_the_slowest_paths() {
     assert!(run.stderr.contains(" ms  8002.1P (projects/8002.dxf)"), "{run}");
     assert!(!place.run("check").stderr.contains(" ms "));
 }
+
+#[test]
+fn a_clone_that_does_not_reach_the_revision_is_called_shallow() {
+    let place = library();
+    let revision =
+        Command::new("git").args(["rev-parse", "HEAD"]).current_dir(place.path()).output().unwrap();
+    let revision = String::from_utf8(revision.stdout).unwrap().trim().to_owned();
+    git(&place, &["commit", "-q", "--allow-empty", "-m", "later"]);
+    git(&place, &["clone", "-q", "--depth", "1", &format!("file://{}", place.path().display()), "clone"]);
+    let run = place.run_in("clone", &["check", "--changed-since", &revision]);
+    assert_eq!(run.status, Some(2), "{run}");
+    assert!(run.stderr.contains("too shallow") && run.stderr.contains("fetch-depth"), "{run}");
+    let run = place.run(&format!("check --changed-since {}", "0".repeat(40)));
+    assert_eq!(run.status, Some(2), "{run}");
+    assert!(!run.stderr.contains("shallow"), "a whole clone is not: {run}");
+}

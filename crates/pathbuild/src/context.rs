@@ -3,13 +3,16 @@
 use std::ops::Deref;
 use std::rc::Rc;
 
+use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_workspace::Workspace;
+use pathbuild_workspace::{Workspace, config, files};
+use serde_json::Value;
 
-use crate::args::Format;
+use crate::args::{Cli, Format};
 use crate::exit::ExitStatus;
+use crate::output::Output;
 use crate::printer::{Printer, Stream};
-use crate::render::{View, render};
+use crate::render::{View, json as lines, render};
 use crate::report::{Findings, judge};
 use crate::usage;
 
@@ -20,6 +23,8 @@ pub struct Context {
     pub printer: Rc<Printer>,
     /// How diagnostics are shown.
     pub format: Format,
+    /// What programs read of the run.
+    pub(crate) output: Output,
     /// What the run works in.
     pub workspace: Workspace,
 }
@@ -33,20 +38,99 @@ impl Deref for Context {
 }
 
 impl Context {
+    /// What a command line works in.
+    pub fn new(cli: &Cli, printer: Rc<Printer>, workspace: Workspace) -> Self {
+        let output = Output::new(&cli.command, &cli.common);
+        Self { printer, format: output.format, output, workspace }
+    }
+
     /// Findings with the severities of the configuration, in order, each once.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
     }
 
-    /// Shows findings on stderr, as every command but `check` does.
+    /// Shows findings: to people on stderr, to programs in the document of the run.
     pub fn show(&self, findings: &Findings) {
-        self.show_on(Stream::Stderr, findings);
+        if let Some((stream, text)) = self.output.take(findings, |stream| self.view(stream)) {
+            if self.format.is_for_machines() {
+                self.printer.document(stream, &text);
+            } else {
+                self.printer.diagnostics(stream, &text);
+            }
+        }
     }
 
-    /// Shows findings as the result of the run: what machines read goes to stdout.
-    pub fn show_as_result(&self, findings: &Findings) {
-        let stream = if self.format.is_for_machines() { Stream::Stdout } else { Stream::Stderr };
-        self.show_on(stream, findings);
+    /// Shows some of the findings to people; reports have all.
+    pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
+        _ = self.output.take(findings, |stream| self.view(stream));
+        let view = self.view(Stream::Stderr);
+        self.printer.diagnostics(Stream::Stderr, &render(self.format, some, &view));
+    }
+
+    /// Begins the document that programs read.
+    pub(crate) fn begin(&self) {
+        if let Some(header) = self.output.header() {
+            self.printer.json(self.output.stream, header);
+        }
+    }
+
+    /// A result of a kind, in JSON: a line of the document.
+    pub(crate) fn row(&self, kind: &str, row: Value) {
+        self.printer.json(self.output.stream, lines::typed(kind, &row));
+    }
+
+    /// The same where it is in JSON that the results are wanted.
+    pub(crate) fn row_of_json(&self, row: impl FnOnce() -> (&'static str, Value)) {
+        if self.format == Format::Json {
+            let (kind, row) = row();
+            self.row(kind, row);
+        }
+    }
+
+    /// The name of a file in a document: from the repository's root.
+    pub(crate) fn file(&self, file: &Utf8Path) -> String {
+        self.machine_view().raw_name(file).into_owned()
+    }
+
+    /// Ends the document, and writes reports; a report that cannot be written is an error.
+    pub(crate) fn end(&self, status: ExitStatus) -> ExitStatus {
+        let (status, view) = (self.write_reports(status), self.machine_view());
+        if let Some(text) = self.output.end(status.code(), &view) {
+            self.printer.document(self.output.stream, &text);
+        }
+        status
+    }
+
+    fn write_reports(&self, status: ExitStatus) -> ExitStatus {
+        let mut failed = Vec::new();
+        for report in &self.output.reports {
+            let view = if report.format.is_for_machines() { self.machine_view() } else { self.plain_view() };
+            let text = self.output.whole(report.format, status.code(), &view);
+            if report.is_stdout() {
+                self.printer.document(Stream::Stdout, &text);
+            } else {
+                let file = self.working_directory.join(&report.file);
+                failed.extend(files::replace(self, &file, text.as_str()).err().map(|fault| *fault));
+            }
+        }
+        if failed.is_empty() { status } else { status.max(self.fail(failed)) }
+    }
+
+    /// The view of a program: names of files from the repository's root.
+    fn machine_view(&self) -> View {
+        let directory = self.settings.directory().unwrap_or(&self.working_directory);
+        View { root: Some(config::repository(directory).to_owned()), ..self.plain_view() }
+    }
+
+    /// The view of somebody who reads a file.
+    fn plain_view(&self) -> View {
+        View {
+            lang: self.lang(),
+            color: false,
+            width: None,
+            base: self.working_directory.clone(),
+            root: None,
+        }
     }
 
     /// Shows why nothing can be done at all. `diagnostics` are those of the configuration or of options.
@@ -79,15 +163,13 @@ impl Context {
 
     /// The view of somebody who looks at that stream.
     pub fn view(&self, stream: Stream) -> View {
+        if self.format.is_for_machines() {
+            return self.machine_view();
+        }
         View {
-            lang: self.lang(),
             color: self.printer.is_colored(stream),
             width: self.printer.width(stream),
-            base: self.working_directory.clone(),
+            ..self.plain_view()
         }
-    }
-
-    fn show_on(&self, stream: Stream, findings: &Findings) {
-        self.printer.diagnostics(stream, &render(self.format, findings, &self.view(stream)));
     }
 }

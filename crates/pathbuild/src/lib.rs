@@ -7,6 +7,7 @@ mod completion;
 mod context;
 mod exit;
 mod numbers;
+mod output;
 pub mod printer;
 pub mod progress;
 pub mod render;
@@ -32,6 +33,7 @@ pub use exit::ExitStatus;
 
 use args::{Cli, Command, CommonArgs, CompatArgs};
 use commands::compat::{self, Translated};
+use output::Output;
 use printer::{ColorChoice, Printer};
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
@@ -78,23 +80,31 @@ fn execute(cli: &Cli) -> ExitStatus {
         return watching::run(cli, args);
     }
     let (context, faults) = context_of(cli);
+    if let Some(refusal) = context.output.refusal() {
+        let status = context.usage(&refusal);
+        return context.printer.finish(status);
+    }
+    context.begin();
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {
         context.refuse(faults)
     };
+    let status = context.end(status);
     context.printer.finish(status)
 }
 
 /// The surroundings, and what is wrong with the configuration.
-fn context_of(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
+fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
+    let Cli { command, common } = cli;
     let working_directory = working_directory();
     let (user, mut faults) =
         surroundings::user_configuration().map(|file| User::load(&file)).unwrap_or_default();
     let given = Overrides { trusted: user.trusted, ..common.overrides() };
     let (settings, more) = config::load(&given, &command.inputs(), &working_directory);
     faults.extend(more);
-    let printer = Rc::new(Printer::new(common.verbosity(), common.color.unwrap_or_default()));
+    let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
+    let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
     let system: Arc<dyn System> = match &settings.confined {
         Some(confined) => Arc::new(confined.clone()),
         None => Arc::new(OsSystem),
@@ -104,13 +114,13 @@ fn context_of(Cli { command, common }: &Cli) -> (Context, Vec<Diagnostic>) {
     let workspace = Workspace {
         settings,
         system,
-        own_lang: common.lang.map(Lang::from).or(user.lang),
+        own_lang: common.lang.map(Lang::from).or_else(surroundings::lang).or(user.lang),
         jobs: common.jobs,
         cache: if common.no_cache { None } else { cache_home() },
         working_directory,
         reporter: printer.clone(),
     };
-    let context = Context { printer, format: common.format.unwrap_or_default(), workspace };
+    let context = Context::new(cli, printer, workspace);
     (context, faults)
 }
 

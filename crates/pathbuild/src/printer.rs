@@ -3,7 +3,7 @@
 //! | what | stream | at |
 //! | --- | --- | --- |
 //! | results: what the command was asked for | stdout | always |
-//! | diagnostics of `check` in a machine's format | stdout | always |
+//! | the document of a run in a machine's format | stdout, unless that holds a program | always |
 //! | all other diagnostics | stderr | up to `-q` |
 //! | wrong usage | stderr | always |
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
@@ -70,6 +70,8 @@ impl Verbosity {
 pub struct Printer {
     verbosity: Verbosity,
     color: ColorChoice,
+    /// Stdout is a document that a program reads: people's results go to stderr.
+    is_stdout_taken: bool,
     failures: RefCell<Failures>,
 }
 
@@ -102,7 +104,16 @@ impl Stream {
 impl Printer {
     /// A printer that says so much, in such colours.
     pub fn new(verbosity: Verbosity, color: ColorChoice) -> Self {
-        Self { verbosity, color, failures: RefCell::default() }
+        Self { verbosity, color, ..Self::default() }
+    }
+
+    /// The same where stdout is a document that a program reads.
+    pub(crate) fn with_stdout_taken(self, is_stdout_taken: bool) -> Self {
+        Self { is_stdout_taken, ..self }
+    }
+
+    fn results(&self) -> Stream {
+        if self.is_stdout_taken { Stream::Stderr } else { Stream::Stdout }
     }
 
     /// How much is said.
@@ -130,17 +141,22 @@ impl Printer {
 
     /// Prints a result of whole lines to stdout.
     pub fn result(&self, text: impl Display) {
-        self.write(Stream::Stdout, &shown::lines(&text.to_string()));
+        self.write(self.results(), &shown::lines(&text.to_string()));
     }
 
     /// Prints a result of one line to stdout.
     pub fn result_line(&self, line: impl Display) {
-        self.write_line(Stream::Stdout, line);
+        self.write_line(self.results(), line);
     }
 
     /// Prints a result in JSON to stdout.
     pub fn result_json(&self, json: impl Display) {
-        self.write(Stream::Stdout, &shown::json(&format!("{json}\n")));
+        self.json(Stream::Stdout, json);
+    }
+
+    /// Prints a line in JSON.
+    pub(crate) fn json(&self, stream: Stream, json: impl Display) {
+        self.write(stream, &shown::json(&format!("{json}\n")));
     }
 
     /// Prints a result that is wanted byte for byte to stdout.
@@ -159,10 +175,22 @@ impl Printer {
         }
     }
 
+    /// Prints what a program reads, at any verbosity.
+    pub(crate) fn document(&self, stream: Stream, text: &Rendered) {
+        self.write(stream, text.as_str());
+    }
+
     /// Prints a line about the run.
     pub fn status(&self, line: impl Display) {
         if self.verbosity >= Verbosity::Normal {
             self.write_line(Stream::Stderr, line);
+        }
+    }
+
+    /// Prints whole lines about the run.
+    pub(crate) fn status_lines(&self, lines: impl Display) {
+        if self.verbosity >= Verbosity::Normal {
+            self.write(Stream::Stderr, &shown::lines(&lines.to_string()));
         }
     }
 

@@ -7,6 +7,7 @@
 use std::env;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::CacheHome;
 
 /// A person's `config.toml`, there or not; `None` where nobody says where it would be.
@@ -20,6 +21,16 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
         absolute("XDG_CONFIG_HOME").or_else(|| below_home(".config"))
     };
     directory.map(|directory| directory.join("pathbuild").join("config.toml"))
+}
+
+/// The language that a person has chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
+pub(crate) fn lang() -> Option<Lang> {
+    let name = env::var("PATHBUILD_LANG").ok()?;
+    match name.split(['_', '-', '.']).next()? {
+        "de" => Some(Lang::De),
+        "en" => Some(Lang::En),
+        _ => None,
+    }
 }
 
 /// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the person's own, which `config.toml` may name; `None` where nobody says

@@ -18,6 +18,13 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
     loop {
         let (context, faults) = context_of(cli);
+        if let Some(refusal) = context.output.refusal() {
+            let status = context.usage(&refusal);
+            return context.printer.finish(status);
+        }
+        if !has_begun {
+            context.begin();
+        }
         let sources = Sources::of(&context);
         let is_lost = has_begun && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {

@@ -40,7 +40,8 @@ pub fn faults(text: &str) -> Vec<String> {
 /// The diagnostics among the lines of both streams.
 fn diagnostics(run: &Run) -> Vec<Json> {
     let lines = run.stdout.lines().chain(run.stderr.lines());
-    lines.filter(|line| line.starts_with('{')).map(|line| serde_json::from_str(line).unwrap()).collect()
+    let objects = lines.filter(|line| line.starts_with('{')).map(|line| serde_json::from_str(line).unwrap());
+    objects.filter(|object: &Json| object["type"] == "finding").collect()
 }
 
 fn agrees(expect: &Expect, command: usize, found: &Json) -> bool {

@@ -115,8 +115,8 @@ messages! {
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
         en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
         de: "`{key}` muss PARENT:CHILD sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
-        help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"8*:[0-9.]*P\"",
-        help_de: "Pfade, deren Namen PARENT entsprechen, betten nur Pfade ein, deren Namen CHILD entsprechen: \"8*:[0-9.]*P\"",
+        help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"^8:P$\"",
+        help_de: "Pfade, deren Namen PARENT entsprechen, betten nur Pfade ein, deren Namen CHILD entsprechen: \"^8:P$\"",
     }
     /// A severity for no code.
     UNKNOWN_CODE: InvalidConfiguration {

@@ -65,7 +65,9 @@ pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Opti
         .as_ref()
         .map(|directory| Sourced::option("out-dir", Some(working_directory.join(directory))));
     general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
-    general.lang = arguments.lang.map(|lang| Sourced::option("lang", lang));
+    // The other program has one option for messages and comments; ours leaves programs as they are.
+    let comments = arguments.lang.filter(|_| arguments.compatible);
+    general.comment_lang = comments.map(|lang| Sourced::option("lang", lang));
     (options, reader.diagnostics)
 }
 

@@ -16,7 +16,7 @@ pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
 }
 
 /// The repository of a directory: the nearest directory above that Git takes for one, else the directory itself.
-pub(super) fn repository(directory: &Utf8Path) -> &Utf8Path {
+pub fn repository(directory: &Utf8Path) -> &Utf8Path {
     let is_repository = |directory: &&Utf8Path| OsSystem.kind(&directory.join(".git")) != Kind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
 }

@@ -35,10 +35,10 @@ pub use options::Options;
 pub use origin::{Origin, Sourced};
 pub use schema::schema;
 pub use settings::Settings;
-pub use show::show;
+pub use show::{Setting, settings, show};
 pub use template::template;
 pub use user::User;
 
-pub use discover::FILE_NAME;
+pub use discover::{FILE_NAME, repository};
 pub use kinds::table::nearest_code;
 pub use pathbuild_db::system::clean;

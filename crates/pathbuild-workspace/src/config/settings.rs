@@ -1,7 +1,9 @@
 use camino::{Utf8Path, Utf8PathBuf};
 
 use pathbuild_db::system::Confined;
+use pathbuild_diagnostic::Lang;
 
+use super::origin::Origin;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::types::{Severities, ZModel};
 
@@ -33,6 +35,14 @@ impl Settings {
         Severities {
             everywhere: self.tables.severity.value.clone(),
             in_files: self.tables.severity_in.value.clone(),
+        }
+    }
+
+    /// The language of comments in programs.
+    pub fn comment_lang(&self) -> Lang {
+        match self.general.comment_lang.origin {
+            Origin::Default => self.general.lang.value,
+            Origin::File(_) | Origin::CommandLine(_) => self.general.comment_lang.value,
         }
     }
 

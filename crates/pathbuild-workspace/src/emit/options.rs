@@ -40,7 +40,7 @@ pub(crate) fn write_options(context: &Workspace) -> WriteOptions {
         types::Charset::Utf8 => Charset::Utf8,
     };
     let rapid = general.rapid.value.unwrap_or_default();
-    WriteOptions { lang: general.lang.value, charset, rapid, correction: correction(context) }
+    WriteOptions { lang: context.settings.comment_lang(), charset, rapid, correction: correction(context) }
 }
 
 /// How heights are corrected between probes.

@@ -26,7 +26,7 @@ impl Provenances {
         let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
         add(&(general.rapid.value, general.compatible.value));
         add(&(general.z_model.value, settings.z_split()));
-        add(&(general.lang.value, general.charset.value));
+        add(&(settings.comment_lang(), general.charset.value));
         options.extend(poster.map(Poster::identity).unwrap_or_default());
         let own = |(dialect, is_own): (Dialect, bool)| is_own.then_some(dialect);
         let dialect = match poster {

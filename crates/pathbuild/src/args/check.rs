@@ -1,7 +1,7 @@
 use camino::Utf8PathBuf;
 use clap::Args;
 
-use super::{InputArgs, ReportFile};
+use super::InputArgs;
 
 /// `pathbuild check`
 #[derive(Clone, Debug, Default, Args)]
@@ -28,9 +28,9 @@ pub struct CheckArgs {
     /// Show where the time went
     #[arg(long)]
     pub timings: bool,
-    /// Write the diagnostics into a file as well (repeatable)
-    #[arg(long, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]
-    pub report: Vec<ReportFile>,
+    /// Show no more than N errors; the last lines count all
+    #[arg(long, value_name = "N")]
+    pub max_errors: Option<usize>,
     /// Write a picture of each erroneous path into this directory
     #[arg(long, value_name = "DIR", hide = true)]
     pub pictures: Option<Utf8PathBuf>,

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::Overrides;
 
-use super::Format;
+use super::{Format, ReportFile};
 use crate::printer::{ColorChoice, Verbosity};
 
 /// The common options.
@@ -40,7 +40,7 @@ pub struct CommonArgs {
     /// Paths that PARENT matches embed only paths that CHILD matches (repeatable)
     #[arg(long, global = true, value_name = "PARENT:CHILD", allow_hyphen_values = true)]
     pub restrict: Vec<String>,
-    /// Language of messages and of comments in programs
+    /// Language of messages (also: `PATHBUILD_LANG`)
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "en|de")]
     pub lang: Option<LangArg>,
     /// Write into this directory, not beside the drawing
@@ -52,6 +52,9 @@ pub struct CommonArgs {
     /// How diagnostics are shown
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = FORMATS)]
     pub format: Option<Format>,
+    /// Write findings into a file too, `-` is standard output (repeatable)
+    #[arg(long, global = true, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]
+    pub report: Vec<ReportFile>,
     /// When to colour
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "auto|always|never")]
     pub color: Option<ColorChoice>,

@@ -35,9 +35,19 @@ impl Format {
         !matches!(self, Self::Dot | Self::Mermaid)
     }
 
-    /// Whether a program reads it, so that it belongs to the results of `check`.
+    /// Whether a program reads it, so that it is the result of a run.
     pub fn is_for_machines(self) -> bool {
-        !matches!(self, Self::Full | Self::Concise)
+        self == Self::Json || self.is_report()
+    }
+
+    /// Whether it holds findings and nothing else.
+    pub fn is_report(self) -> bool {
+        matches!(self, Self::Sarif | Self::Github | Self::Gitlab | Self::Junit)
+    }
+
+    /// Whether it can only be written when everything is known.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
     }
 }
 
@@ -51,6 +61,11 @@ pub struct ReportFile {
 }
 
 impl ReportFile {
+    /// Whether it goes to standard output: `FORMAT=-`.
+    pub fn is_stdout(&self) -> bool {
+        self.file == "-"
+    }
+
     /// Reads `FORMAT=FILE`.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;

@@ -135,6 +135,22 @@ impl Command {
         !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
     }
 
+    /// Whether it has findings or results that programs may want to read.
+    pub fn has_document(&self) -> bool {
+        !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
+            && !matches!(self, Self::Config(args) if matches!(args.command, ConfigCommand::Schema))
+            && !matches!(self, Self::Post(args) if matches!(args.command, Some(PostCommand::Show { .. })))
+    }
+
+    /// Whether standard output is a program's text or the like, so that all else goes to standard error.
+    pub fn owns_stdout(&self) -> bool {
+        match self {
+            Self::Emit(args) => args.output.is_some(),
+            Self::Post(args) => args.command.is_none() && args.output.is_none(),
+            _ => false,
+        }
+    }
+
     /// The name that it is called by.
     pub fn name(&self) -> &'static str {
         match self {

@@ -8,7 +8,9 @@ use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use regex::Regex;
+use serde_json::json;
 
+use super::output_row;
 use crate::args::AdjustArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -205,6 +207,12 @@ impl<'a> Adjustment<'a> {
     }
 
     fn say_written(&self, file: &Utf8Path, written: Written, adjusted: &Adjusted) {
+        self.context.row_of_json(|| {
+            let (kind, mut row) = output_row(self.context, file, written);
+            row["heights"] = adjusted.heights.into();
+            row["corrections"] = json!([adjusted.corrections.0, adjusted.corrections.1]);
+            (kind, row)
+        });
         let state = match written {
             Written::Changed => self.context.choose("written", "geschrieben"),
             Written::Unchanged => self.context.choose("unchanged", "unverändert"),

@@ -6,7 +6,9 @@ use pathbuild_cache::{Entry, Key, Place, Unusable};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
-use crate::args::{CacheArgs, CacheCommand};
+use serde_json::json;
+
+use crate::args::{CacheArgs, CacheCommand, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::session::BUILD;
@@ -21,10 +23,17 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     };
     let build = Key::new(BUILD, "");
     match args.command {
+        CacheCommand::Dir if context.format == Format::Json => {
+            context.row("cache", json!({ "directory": place.directory().to_string() }));
+        }
         CacheCommand::Dir => context.printer.result_line(place.directory()),
         CacheCommand::Size => {
             let size: u64 = place.entries(&build).iter().map(|entry| entry.size).sum();
-            context.printer.result_line(format_args!("{size} {}", context.choose("bytes", "Bytes")));
+            if context.format == Format::Json {
+                context.row("cache", json!({ "bytes": size }));
+            } else {
+                context.printer.result_line(format_args!("{size} {}", context.choose("bytes", "Bytes")));
+            }
         }
         CacheCommand::Prune => {
             let gone = home.prune();
@@ -43,6 +52,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
 fn report(context: &Context, place: &Place, removed: io::Result<usize>) -> ExitStatus {
     match removed {
         Ok(count) => {
+            context.row_of_json(|| ("cache", json!({ "removed": count })));
             context.printer.status(format_args!("{}: {count}", context.choose("removed", "entfernt")));
             ExitStatus::Success
         }
@@ -68,6 +78,15 @@ fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
             }
         };
         let name = path.file_name().unwrap_or_default();
+        if context.format == Format::Json {
+            let state = match fault {
+                None => "whole",
+                Some(Unusable::Foreign) => "foreign",
+                Some(Unusable::Damaged) => "damaged",
+            };
+            context.row("cache_file", json!({ "name": name, "state": state, "bytes": size }));
+            continue;
+        }
         context
             .printer
             .result_line(format_args!("{name}: {state}, {size} {}", context.choose("bytes", "Bytes")));

@@ -1,13 +1,21 @@
 //! `pathbuild config show` and `config schema`.
 
-use crate::args::{ConfigArgs, ConfigCommand};
+use serde_json::json;
+
+use crate::args::{ConfigArgs, ConfigCommand, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::config::{schema, show};
+use pathbuild_workspace::config::{Setting, schema, settings, show};
 
 /// Prints what holds, or what can be written.
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
     match args.command {
+        ConfigCommand::Show { .. } if context.format == Format::Json => {
+            for Setting { section, name, value, origin } in settings(&context.settings) {
+                let row = json!({ "section": section, "name": name, "value": value, "origin": origin });
+                context.row("setting", row);
+            }
+        }
         ConfigCommand::Show { origin, .. } => context.printer.result(show(&context.settings, origin)),
         ConfigCommand::Schema => context.printer.result_json(format_args!("{:#}", schema())),
     }

@@ -1,13 +1,15 @@
 //! `pathbuild emit`: the files of one or more paths. (book: reference/commands, book: program/gcode)
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, Note};
+use pathbuild_diagnostic::{Diagnostic, Lang, Note};
 use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
 use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
 
-use crate::args::EmitArgs;
+use crate::args::{EmitArgs, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::numbers::count;
+use serde_json::{Value, json};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
@@ -75,6 +77,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if matches!(task, Task::Compare { .. }) {
         is_current &= outdated.is_empty();
         for path in &outdated {
+            context.row_of_json(|| row(context, path, &State::Outdated, None));
             show_state(context, path, &State::Outdated);
         }
     }
@@ -85,6 +88,9 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     }
     let findings = context.findings(diagnostics);
     context.show(&findings);
+    if matches!(task, Task::Compare { .. }) {
+        count_current(context, &delivered, outdated.len());
+    }
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
@@ -115,13 +121,14 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
     let mut is_current = true;
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
+        // The program comes first; what belongs to its probes has no length of its own.
+        context.row_of_json(|| row(context, path, state, (index == 0).then_some(delivered)));
         match state {
             State::Written | State::Unchanged => {
                 let state = match state {
                     State::Written => phrase("written", "geschrieben"),
                     _ => phrase("unchanged", "unverändert"),
                 };
-                // The program comes first; what belongs to its probes has no length of its own.
                 if index == 0 {
                     let (length, minutes) = (delivered.length, delivered.minutes);
                     context.printer.status(format_args!("{path}: {state}, {length:.0} mm, {minutes:.0} min"));
@@ -139,10 +146,50 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
     is_current
 }
 
-/// What a comparison says of a file.
-fn show_state(context: &Context, path: &Utf8Path, state: &State) {
+/// Says how many files are current.
+fn count_current(context: &Context, delivered: &[Delivered], outdated: usize) {
+    let states = || delivered.iter().flat_map(|delivered| &delivered.files);
+    let current = states().filter(|(_, state)| matches!(state, State::Current)).count();
+    let (all, lang) = (states().count() + outdated, context.lang());
+    context.output.figure("current", current);
+    context.output.figure("not_current", all - current);
+    let [current, others] = [current, all - current].map(|number| count(number, lang));
+    context.printer.status(match lang {
+        Lang::En => format!("{current} current, {others} not current"),
+        Lang::De => format!("{current} aktuell, {others} nicht aktuell"),
+    });
+}
+
+/// A file in JSON.
+fn row(
+    context: &Context,
+    path: &Utf8Path,
+    state: &State,
+    delivered: Option<&Delivered>,
+) -> (&'static str, Value) {
     let state = match state {
-        State::Current => context.choose("current", "aktuell"),
+        State::Written => "written",
+        State::Unchanged => "unchanged",
+        State::Current => "current",
+        State::Outdated => "stale",
+        State::Missing => "missing",
+        State::Printed(_) => "printed",
+    };
+    let (length, minutes) = (delivered.map(|it| it.length), delivered.map(|it| it.minutes));
+    let file = context.file(path);
+    ("output", json!({ "file": file, "state": state, "length": length, "minutes": minutes }))
+}
+
+/// What a comparison says of a file: what is current needs no line.
+fn show_state(context: &Context, path: &Utf8Path, state: &State) {
+    if context.format == Format::Json {
+        return;
+    }
+    if matches!(state, State::Current) {
+        let current = context.choose("current", "aktuell");
+        return context.printer.detail(format_args!("{path}: {current}"));
+    }
+    let state = match state {
         State::Missing => context.choose("missing", "fehlt"),
         _ => context.choose("not current", "nicht aktuell"),
     };

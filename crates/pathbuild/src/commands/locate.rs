@@ -6,6 +6,7 @@ use pathbuild_db::{PathPlace, SourceFile, check_file, path_names, path_place};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use serde::Serialize;
+use serde_json::Value;
 
 use pathbuild_workspace::Input;
 
@@ -27,10 +28,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
         (found, session.with_hints(problems))
     });
     for (file, place) in found {
-        let file = file.path(session.db()).as_str();
+        let file = file.path(session.db());
         match context.format {
-            Format::Json => context.printer.result_json(json(file, &place)),
-            _ => context.printer.result_line(line(context, file, &place)),
+            Format::Json => context.row("definition", json(&context.file(file), &place)),
+            _ => context.printer.result_line(line(context, file.as_str(), &place)),
         }
     }
     let findings = context.findings(problems);
@@ -85,7 +86,7 @@ struct Object<'a> {
     y: Option<f64>,
 }
 
-fn json(file: &str, place: &PathPlace) -> String {
+fn json(file: &str, place: &PathPlace) -> Value {
     let object = Object {
         path: place.name.as_str(),
         file,
@@ -96,5 +97,5 @@ fn json(file: &str, place: &PathPlace) -> String {
         y: place.point.map(|point| point.y.0),
     };
     // Only maps with keys that are no text can fail to become JSON.
-    serde_json::to_string(&object).unwrap_or_default()
+    serde_json::to_value(&object).unwrap_or_default()
 }

@@ -23,10 +23,23 @@ pub mod view;
 pub mod watch;
 pub mod why;
 
+use camino::Utf8Path;
+use pathbuild_db::system::Written;
+use serde_json::{Value, json};
+
 use crate::args::{Command, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::usage;
+
+/// A file that was written, as a line in JSON.
+fn output_row(context: &Context, file: &Utf8Path, written: Written) -> (&'static str, Value) {
+    let state = match written {
+        Written::Changed => "written",
+        Written::Unchanged => "unchanged",
+    };
+    ("output", json!({ "file": context.file(file), "state": state }))
+}
 
 /// Runs a command.
 pub fn run(context: &Context, command: &Command) -> ExitStatus {

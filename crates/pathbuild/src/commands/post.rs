@@ -9,14 +9,16 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Step;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_post::{BUILT_IN, Job, Output, Remark, is_of_head, native_remark};
+use serde_json::json;
 
-use crate::args::{PostArgs, PostCommand};
+use crate::args::{Format, PostArgs, PostCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::posting::{Poster, Wishes, furnish, run_post_build};
 
+use super::output_row;
 use super::program::Program;
 
 /// Runs the command.
@@ -32,6 +34,11 @@ pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
 fn list(context: &Context) -> ExitStatus {
     for post in BUILT_IN {
         let language = post.language.name();
+        if context.format == Format::Json {
+            let row = json!({ "name": post.name, "language": language, "description": post.description });
+            context.row("post", row);
+            continue;
+        }
         context.printer.result(format_args!("{:<10} {language:<14} {}\n", post.name, post.description));
     }
     ExitStatus::Success
@@ -106,6 +113,7 @@ fn written(
         Written::Changed => context.choose("written", "geschrieben"),
         Written::Unchanged => context.choose("unchanged", "unverändert"),
     };
+    context.row_of_json(|| output_row(context, to, written));
     context.printer.status(format_args!("{to}: {state}"));
     match &output.post_build {
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),

@@ -7,6 +7,7 @@ use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{PathName, QProject};
 
+use super::output_row;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -125,8 +126,13 @@ fn write(
     count: usize,
 ) -> ExitStatus {
     let state = match session.db().system().write(output, bytes) {
-        Ok(Written::Changed) => context.choose("written", "geschrieben"),
-        Ok(Written::Unchanged) => context.choose("unchanged", "unverändert"),
+        Ok(written) => {
+            context.row_of_json(|| output_row(context, output, written));
+            match written {
+                Written::Changed => context.choose("written", "geschrieben"),
+                Written::Unchanged => context.choose("unchanged", "unverändert"),
+            }
+        }
         Err(reason) => {
             let problem = Diagnostic::new(&files::CANNOT_WRITE)
                 .with("name", output.file_name().unwrap_or_default())

@@ -40,7 +40,7 @@ impl Listener for Shown<'_> {
     fn begun(&self, Beginning { drawings, paths, diagnostics, time }: Beginning) {
         let context = self.context;
         let findings = context.findings(diagnostics);
-        context.show_as_result(&findings);
+        context.show(&findings);
         let (errors, warnings) = (findings.errors(), findings.warnings());
         let milliseconds = time.as_secs_f64() * 1000.0;
         context.printer.status(match context.lang() {
@@ -61,7 +61,7 @@ impl Listener for Shown<'_> {
         let still: HashSet<&Diagnostic> = now.iter().collect();
         let gone = before.iter().filter(|found| !still.contains(found)).count();
         let new: Vec<Diagnostic> = now.iter().filter(|found| !known.contains(found)).cloned().collect();
-        context.show_as_result(&Findings { diagnostics: new.clone(), checked: Vec::new() });
+        context.show(&Findings { diagnostics: new.clone(), checked: Vec::new() });
         let (count, revision) = (update.checked, update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;
         let phrase = |en, de| context.choose(en, de);

@@ -2,10 +2,11 @@
 
 use std::collections::HashSet;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Reason;
 use pathbuild_diagnostic::shown;
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
@@ -31,7 +32,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     for drawing in all.filter(|drawing| known.insert(*drawing)) {
         let answer = Answer { drawing, reasons: keeper.why(drawing.as_str()) };
         match context.format {
-            Format::Json => context.printer.result_json(answer.json()),
+            Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),
         }
     }
@@ -70,12 +71,18 @@ impl Answer<'_> {
         format!("{}: {state}\n", shown::line(self.drawing.as_str())) + &lines.collect::<String>()
     }
 
-    fn json(&self) -> String {
-        let reasons = self.reasons.as_deref().unwrap_or_default().iter().map(object).collect();
+    fn json(&self, context: &Context) -> Value {
+        let reasons = self
+            .reasons
+            .as_deref()
+            .unwrap_or_default()
+            .iter()
+            .map(|reason| object(context, reason))
+            .collect();
         let holds = self.reasons.as_ref().map(Vec::is_empty);
-        let object = Object { file: self.drawing.as_str(), holds, reasons };
+        let object = Object { file: context.file(self.drawing), holds, reasons };
         // Only maps with keys that are no text can fail to become JSON.
-        serde_json::to_string(&object).unwrap_or_default()
+        serde_json::to_value(&object).unwrap_or_default()
     }
 }
 
@@ -107,7 +114,7 @@ fn said(context: &Context, reason: &Reason) -> String {
 
 #[derive(Serialize)]
 struct Object<'a> {
-    file: &'a str,
+    file: String,
     /// `null`: nothing is kept of it.
     holds: Option<bool>,
     reasons: Vec<ReasonObject<'a>>,
@@ -115,25 +122,27 @@ struct Object<'a> {
 
 #[derive(Serialize)]
 struct ReasonObject<'a> {
-    file: &'a str,
+    file: String,
     /// `changed`, `gone`, `new` or `links`.
     change: &'static str,
     /// The path that the file may hold or have held.
     path: Option<&'a str>,
 }
 
-fn object(reason: &Reason) -> ReasonObject<'_> {
+fn object<'a>(context: &Context, reason: &'a Reason) -> ReasonObject<'a> {
     match reason {
         Reason::File { path, is_gone } => ReasonObject {
-            file: path.as_str(),
+            file: context.file(path),
             change: if *is_gone { "gone" } else { "changed" },
             path: None,
         },
         Reason::Name { file, path, is_gone } => ReasonObject {
-            file: file.as_str(),
+            file: context.file(Utf8Path::new(file.as_str())),
             change: if *is_gone { "gone" } else { "new" },
             path: Some(path),
         },
-        Reason::Links { directory } => ReasonObject { file: directory.as_str(), change: "links", path: None },
+        Reason::Links { directory } => {
+            ReasonObject { file: context.file(directory), change: "links", path: None }
+        }
     }
 }

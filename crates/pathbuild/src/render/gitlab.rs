@@ -17,7 +17,9 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 fn issue(diagnostic: &Diagnostic, fingerprint: Fingerprint, view: &View) -> Json {
     let element = place::element(diagnostic, view);
     let element = if element.is_empty() { element } else { format!(" ({element})") };
+    let help = view.help(diagnostic).unwrap_or_default();
     json!({
+        "content": { "body": help },
         "description": format!("{}: {}{element}", diagnostic.code(), diagnostic.text(view.lang)),
         "check_name": diagnostic.code().name(),
         "fingerprint": fingerprint.to_string(),

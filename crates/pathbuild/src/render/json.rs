@@ -3,19 +3,22 @@
 //! `span` is the faulty part of `text`: its first character and the one after its last, counted in characters from 0. `x` and `y`
 //! are millimetres in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Severity, TextFault, TraceStep};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Severity, TextFault, TraceStep, shown};
 use serde::Serialize;
+use serde_json::Value;
 
-use super::View;
+use super::{Rendered, View};
 use crate::report::Findings;
 
 #[derive(Serialize)]
 struct Object<'a> {
+    r#type: &'static str,
     code: String,
     name: &'static str,
     severity: &'static str,
     message: String,
     help: Option<String>,
+    notes: Vec<String>,
     file: Option<String>,
     line: Option<u32>,
     path: Option<&'a str>,
@@ -41,14 +44,45 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()
 }
 
+/// The first line of a document: which form it has, and of which command it is.
+pub(crate) fn header(command: &str) -> String {
+    let header =
+        Header { r#type: "header", schema_version: VERSION, pathbuild: env!("CARGO_PKG_VERSION"), command };
+    // Only maps with keys that are no text can fail to become JSON.
+    serde_json::to_string(&header).unwrap_or_default()
+}
+
+/// An object with its type before all else.
+pub(crate) fn typed(kind: &str, object: &Value) -> String {
+    format!("{{\"type\":\"{kind}\",{}", object.to_string().trim_start_matches('{'))
+}
+
+/// Lines in JSON that may be printed.
+pub(crate) fn rendered(lines: &str) -> Rendered {
+    Rendered(shown::json(lines).into_owned())
+}
+
+/// The version of docs/schemas/output.json.
+const VERSION: u32 = 2;
+
+#[derive(Serialize)]
+struct Header<'a> {
+    r#type: &'static str,
+    schema_version: u32,
+    pathbuild: &'static str,
+    command: &'a str,
+}
+
 fn line(diagnostic: &Diagnostic, view: &View) -> String {
     let place = &diagnostic.place;
     let object = Object {
+        r#type: "finding",
         code: diagnostic.code().to_string(),
         name: diagnostic.code().name(),
         severity: severity(diagnostic.severity),
         message: diagnostic.text(view.lang),
-        help: view.help(diagnostic),
+        help: diagnostic.help(view.lang),
+        notes: diagnostic.notes.iter().map(|note| note.text(view.lang)).collect(),
         file: view.raw_file(diagnostic).map(Into::into),
         line: place.line,
         path: diagnostic.path.as_deref(),

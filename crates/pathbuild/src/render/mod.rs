@@ -4,7 +4,7 @@ mod concise;
 mod full;
 mod github;
 mod gitlab;
-mod json;
+pub(crate) mod json;
 mod junit;
 mod place;
 mod sarif;

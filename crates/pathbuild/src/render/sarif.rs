@@ -29,8 +29,10 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
             "tool": { "driver": {
                 "name": "pathbuild",
                 "version": env!("CARGO_PKG_VERSION"),
+                "informationUri": env!("CARGO_PKG_REPOSITORY"),
                 "rules": rules.iter().map(|code| rule(*code, view)).collect::<Vec<_>>(),
             } },
+            "automationDetails": { "id": "pathbuild/" },
             "columnKind": "unicodeCodePoints",
             "invocations": [invocation(left_out, view)],
             "results": results.into_iter().map(|(diagnostic, it)| result(diagnostic, it, &rules, view)).collect::<Vec<_>>(),
@@ -47,9 +49,17 @@ fn rule(code: Code, view: &View) -> Json {
         "defaultConfiguration": { "level": level(code.severity()) },
     });
     if let Some(page) = page(code, view.lang) {
+        rule["fullDescription"] = json!({ "text": description(page) });
         rule["help"] = json!({ "text": page, "markdown": page });
     }
     rule
+}
+
+/// A page's first paragraph.
+fn description(page: &str) -> String {
+    let text = page.lines().skip_while(|line| line.starts_with('#') || line.trim().is_empty());
+    let text: Vec<&str> = text.take_while(|line| !line.trim().is_empty()).collect();
+    text.join(" ")
 }
 
 fn invocation(left_out: usize, view: &View) -> Json {

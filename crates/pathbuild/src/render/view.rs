@@ -2,6 +2,7 @@ use std::borrow::Cow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use pathbuild_workspace::config::clean;
 
 /// What depends on who looks: a person at a terminal of some width, or a program.
 #[derive(Clone, Debug)]
@@ -14,6 +15,8 @@ pub struct View {
     pub width: Option<usize>,
     /// The directory that names of files are shown relative to.
     pub base: Utf8PathBuf,
+    /// The directory that a program reads them relative to, which may lie above; `None`: as for people.
+    pub root: Option<Utf8PathBuf>,
 }
 
 impl View {
@@ -27,8 +30,14 @@ impl View {
 
     /// The same as it is, for formats that have an escape of their own for every character.
     pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
-        let name = file.strip_prefix(&self.base).unwrap_or(file).as_str();
-        if cfg!(windows) { name.replace('\\', "/").into() } else { name.into() }
+        let name = match &self.root {
+            None => Cow::Borrowed(file.strip_prefix(&self.base).unwrap_or(file).as_str()),
+            Some(root) => {
+                let whole = clean(&self.base.join(file));
+                Cow::Owned(whole.strip_prefix(root).unwrap_or(&whole).as_str().to_owned())
+            }
+        };
+        if cfg!(windows) { name.replace('\\', "/").into() } else { name }
     }
 
     /// The name of a diagnostic's file, as it is shown.

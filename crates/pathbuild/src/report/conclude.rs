@@ -1,15 +1,18 @@
+use std::collections::BTreeMap;
 use std::mem::ManuallyDrop;
 use std::time::Duration;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 
 use super::baseline::Compared;
 use super::{Baseline, Findings, summary};
-use crate::args::{CheckArgs, ReportFile};
+use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::render::{View, render};
+use crate::numbers::count;
+use crate::render::View;
+use crate::table::table;
 use pathbuild_workspace::check::Checked;
 use pathbuild_workspace::files;
 
@@ -38,8 +41,7 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Dur
 
 fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Duration) -> ExitStatus {
     let findings = &compared.new;
-    context.show_as_result(findings);
-    let failed = write_reports(context, &args.report, findings);
+    show(context, args.max_errors, findings);
     if compared.gone > 0 {
         let (en, de) = (
             "entries of the baseline that are no longer found",
@@ -48,21 +50,56 @@ fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Durat
         let phrase = context.choose(en, de);
         context.printer.detail(format_args!("{phrase}: {}", compared.gone));
     }
+    if findings.diagnostics.len() > MANY && !context.format.is_for_machines() {
+        context.printer.status_lines(by_code(context, findings));
+    }
+    context.output.figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
+    context.output.figure("drawings", findings.checked.len());
+    context.output.figure("known", compared.known);
     context.printer.status(summary(findings, compared.known, time, context.lang()));
     let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
-    let status = if is_wrong { ExitStatus::Errors } else { ExitStatus::Success };
-    if failed.is_empty() { status } else { context.fail(failed) }
+    if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-fn write_reports(context: &Context, reports: &[ReportFile], findings: &Findings) -> Vec<Diagnostic> {
-    let view = plain_view(context, context.lang());
-    let write = |report: &ReportFile| {
-        let file = context.working_directory.join(&report.file);
-        files::replace(context, &file, render(report.format, findings, &view).as_str())
-            .err()
-            .map(|fault| *fault)
+/// So many findings are more than anybody reads: they are counted by code.
+const MANY: usize = 100;
+
+/// Shows findings; to people no more than so many errors, and what stands before the next.
+fn show(context: &Context, most: Option<usize>, findings: &Findings) {
+    let Some(most) = most.filter(|_| !context.format.is_for_machines()) else {
+        return context.show(findings);
     };
-    reports.iter().filter_map(write).collect()
+    let mut errors = 0;
+    let is_shown = |found: &&Diagnostic| {
+        errors += usize::from(found.is_error());
+        errors <= most
+    };
+    let shown: Vec<Diagnostic> = findings.diagnostics.iter().take_while(is_shown).cloned().collect();
+    let left = findings.diagnostics.len() - shown.len();
+    context.show_some(findings, &Findings { diagnostics: shown, checked: Vec::new() });
+    if left > 0 {
+        let phrase =
+            context.choose("findings not shown (--max-errors)", "Meldungen nicht gezeigt (--max-errors)");
+        context.printer.status(format_args!("{} {phrase}", count(left, context.lang())));
+    }
+}
+
+/// How often each code was found, the most frequent first.
+fn by_code(context: &Context, findings: &Findings) -> String {
+    let mut counts: BTreeMap<(Code, Severity), usize> = BTreeMap::new();
+    for found in &findings.diagnostics {
+        *counts.entry((found.code(), found.severity)).or_default() += 1;
+    }
+    let mut counts: Vec<_> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let rows = counts.into_iter().map(|((code, severity), number)| {
+        let severity = match severity {
+            Severity::Error => context.choose("error", "Fehler"),
+            Severity::Warning => context.choose("warning", "Warnung"),
+        };
+        vec![count(number, context.lang()), severity.to_owned(), code.to_string(), code.name().to_owned()]
+    });
+    table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
 }
 
 fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
@@ -83,5 +120,5 @@ fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus
 
 /// The view of somebody who reads a file.
 fn plain_view(context: &Context, lang: Lang) -> View {
-    View { lang, color: false, width: None, base: context.working_directory.clone() }
+    View { lang, color: false, width: None, base: context.working_directory.clone(), root: None }
 }

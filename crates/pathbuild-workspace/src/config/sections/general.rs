@@ -39,10 +39,12 @@ section! {
     path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check;
     /// what path names in a file name are
     file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check;
-    /// PARENT:CHILD, split at the first colon: what may embed what, such as "8*:[0-9.]*P"
+    /// PARENT:CHILD, split at the first colon: what may embed what, such as "^8:P$"
     restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check;
-    /// en | de; the environment is not asked
+    /// en | de: of messages; --lang, PATHBUILD_LANG and your own config.toml come first
     lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
+    /// en | de: of comments in programs; without it `lang` of this file, and no option
+    comment_lang: Lang = "comment-lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
     /// header (mm or none, else PB113) | drawing (converted) | mm (the header is not believed)
     units: Units = "units", choice::<Units>(), Units::Header, r#""header""#, Check;
     /// ascii (umlauts transliterated) | utf-8, for what is written

@@ -4,6 +4,7 @@ use pathbuild_path::{Bindings, PathName};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use crate::context::Context;
 use pathbuild_workspace::session::{End, Graph, Node};
 
 #[derive(Serialize)]
@@ -16,7 +17,7 @@ struct Object<'a> {
 #[derive(Serialize)]
 struct Path<'a> {
     path: &'a str,
-    file: &'a str,
+    file: String,
     values: Map<String, Value>,
     /// Whether the values are examples, with which nothing embeds it.
     example: bool,
@@ -34,19 +35,19 @@ struct Embedding<'a> {
     code: Option<String>,
 }
 
-pub(super) fn json(graph: &Graph) -> String {
+pub(super) fn json(context: &Context, graph: &Graph) -> Value {
     let object = Object {
-        paths: graph.nodes.iter().map(path).collect(),
+        paths: graph.nodes.iter().map(|node| path(context, node)).collect(),
         embeddings: graph.embeddings.iter().map(|it| embedding(graph, it)).collect(),
     };
     // Only maps with keys that are no text can fail to become JSON.
-    serde_json::to_string(&object).unwrap_or_default()
+    serde_json::to_value(&object).unwrap_or_default()
 }
 
-fn path(node: &Node) -> Path<'_> {
+fn path<'a>(context: &Context, node: &'a Node) -> Path<'a> {
     Path {
         path: node.name.as_str(),
-        file: node.file.as_str(),
+        file: context.file(&node.file),
         values: values(&node.bindings),
         example: node.is_example,
         erroneous: !node.is_sound,

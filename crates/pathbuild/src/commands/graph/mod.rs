@@ -134,7 +134,7 @@ fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph) -> String) {
     match context.format {
         Format::Dot => context.printer.result(dot::dot(graph)),
         Format::Mermaid => context.printer.result(mermaid::mermaid(graph)),
-        Format::Json => context.printer.result_json(json::json(graph)),
+        Format::Json => context.row("graph", json::json(context, graph)),
         _ => context.printer.result(text(graph)),
     }
 }

@@ -5,13 +5,14 @@ use pathbuild_gcode::summary::{Extent, Tally, Used};
 use serde_json::{Value, json};
 
 use super::facts::Facts;
+use crate::context::Context;
 
-pub(super) fn json(facts: &Facts<'_>) -> String {
+pub(super) fn json(context: &Context, facts: &Facts<'_>) -> Value {
     let (program, summary) = (facts.program, &facts.summary);
     let taken =
         facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
-    let object = json!({
-        "file": program.file.as_str(),
+    json!({
+        "file": context.file(&program.file),
         "lines": program.lines(),
         "dialect": program.dialect.name(),
         "guessed": program.evidence.map(|evidence| json!({ "reason": evidence.reason.en, "line": evidence.line })),
@@ -26,8 +27,7 @@ pub(super) fn json(facts: &Facts<'_>) -> String {
         "stops": summary.stops,
         "tool_changes": summary.tool_changes,
         "taken": taken.collect::<Vec<_>>(),
-    });
-    object.to_string()
+    })
 }
 
 fn tally(tally: &Tally) -> Value {

@@ -19,7 +19,7 @@ pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
             Ok(program) => {
                 let facts = Facts::new(context, &program);
                 match context.format {
-                    Format::Json => context.printer.result_json(json::json(&facts)),
+                    Format::Json => context.row("program", json::json(context, &facts)),
                     _ => context.printer.result(text::text(context, &facts)),
                 }
                 diagnostics.extend(program.read.problems);

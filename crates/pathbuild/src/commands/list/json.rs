@@ -4,16 +4,17 @@ use serde_json::{Value, json};
 
 use super::row::{Row, State};
 use super::stats::{Stats, Total};
+use crate::context::Context;
 use pathbuild_workspace::list::ProgramState;
 
 /// A path, as one object.
-pub(super) fn path(row: &Row) -> Value {
+pub(super) fn path(context: &Context, row: &Row) -> Value {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
     let [x, y, z] = path.cutting_box.map(axis);
     json!({
         "path": path.name.as_str(),
-        "file": path.drawing.as_str(),
+        "file": context.file(&path.drawing),
         "material": path.material,
         "thickness": path.thickness,
         "tool": path.tool,

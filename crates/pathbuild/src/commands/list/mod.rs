@@ -18,7 +18,7 @@ use stats::Stats;
 /// Prints a line for each path.
 pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, _| match context.format {
-        Format::Json => rows.iter().for_each(|row| context.printer.result_json(json::path(row))),
+        Format::Json => rows.iter().for_each(|row| context.row("path", json::path(context, row))),
         _ if rows.is_empty() => {}
         _ => {
             let cells = rows.iter().map(|row| row.cells(context));
@@ -32,7 +32,7 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, drawings| {
         let stats = Stats::of(rows, drawings);
         match context.format {
-            Format::Json => context.printer.result_json(json::stats(&stats)),
+            Format::Json => context.row("statistics", json::stats(&stats)),
             _ => context.printer.result(stats.text(context)),
         }
     })

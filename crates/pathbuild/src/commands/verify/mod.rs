@@ -23,6 +23,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(wishes) => wishes,
         Err(fault) => return context.refuse(vec![*fault]),
     };
+    context.output.figure("programs", args.files.len());
     let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
     let drawn = |name| session.settled(|session| Against::new(context, session, name));

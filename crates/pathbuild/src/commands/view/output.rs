@@ -6,6 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_view::{Scene, Shown};
 use pathbuild_workspace::files::cannot_write;
 
+use crate::commands::output_row;
 use crate::context::Context;
 
 /// Where a scene goes, and as what.
@@ -106,7 +107,9 @@ impl Output {
         let bytes =
             self.format.bytes(scene, Shown::all(context.lang())).map_err(|reason| refused(&reason))?;
         let Some(file) = &self.file else { return show(context, &bytes).map_err(|reason| refused(&reason)) };
-        let state = match context.system.write(file, &bytes).map_err(|reason| refused(&reason))? {
+        let written = context.system.write(file, &bytes).map_err(|reason| refused(&reason))?;
+        context.row_of_json(|| output_row(context, file, written));
+        let state = match written {
             Written::Changed => context.choose("written", "geschrieben"),
             Written::Unchanged => context.choose("unchanged", "unverändert"),
         };

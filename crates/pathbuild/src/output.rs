@@ -1,0 +1,125 @@
+//! What a program reads of a run: one document, on stdout unless that holds something else, and reports in files.
+
+use std::cell::RefCell;
+
+use serde_json::{Map, Value, json};
+
+use crate::args::{Command, CommonArgs, Format, ReportFile};
+use crate::printer::Stream;
+use crate::render::{Rendered, View, json as lines, render};
+use crate::report::Findings;
+
+/// The document of a run, and everything that goes into it at the end.
+#[derive(Debug)]
+pub(crate) struct Output {
+    command: &'static str,
+    pub(crate) format: Format,
+    /// Where a format for programs goes.
+    pub(crate) stream: Stream,
+    pub(crate) reports: Vec<ReportFile>,
+    /// Whether the command has findings: others have no document.
+    is_document: bool,
+    found: RefCell<Findings>,
+    figures: RefCell<Map<String, Value>>,
+}
+
+impl Output {
+    /// The document of a command.
+    pub(crate) fn new(command: &Command, common: &CommonArgs) -> Self {
+        Self {
+            command: command.name(),
+            format: common.format.unwrap_or_default(),
+            stream: if command.owns_stdout() { Stream::Stderr } else { Stream::Stdout },
+            reports: common.report.clone(),
+            is_document: command.has_document(),
+            found: RefCell::default(),
+            figures: RefCell::default(),
+        }
+    }
+
+    /// Why the options ask for what there is not.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
+        let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
+        if !self.is_document && (!self.reports.is_empty() || self.format.is_report()) {
+            return Some(format!("`{}` has no findings to report", self.command));
+        }
+        if on_stdout > 0 && on_stdout + taken > 1 {
+            return Some("standard output holds one document: give the other report a file".to_owned());
+        }
+        (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty()))
+            .then(|| "`watch` never ends: it shows findings as full, concise, json or github".to_owned())
+    }
+
+    /// Whether stdout is a program's, so that people's lines go elsewhere.
+    pub(crate) fn takes_stdout(&self) -> bool {
+        let reports = self.reports.iter().any(ReportFile::is_stdout);
+        self.is_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
+    }
+
+    /// The first line in JSON.
+    pub(crate) fn header(&self) -> Option<String> {
+        (self.is_document && self.format == Format::Json).then(|| lines::header(self.command))
+    }
+
+    /// Takes findings; what is to be shown of them now, and where.
+    pub(crate) fn take(
+        &self,
+        findings: &Findings,
+        view: impl FnOnce(Stream) -> View,
+    ) -> Option<(Stream, Rendered)> {
+        if !self.reports.is_empty() || self.format.is_whole() || self.format == Format::Json {
+            let mut found = self.found.borrow_mut();
+            found.diagnostics.extend(findings.diagnostics.iter().cloned());
+            found.checked.extend(findings.checked.iter().cloned());
+        }
+        if self.format.is_whole() {
+            return None;
+        }
+        let stream = if self.format.is_for_machines() { self.stream } else { Stream::Stderr };
+        Some((stream, render(self.format, findings, &view(stream))))
+    }
+
+    /// A number for the last line in JSON.
+    pub(crate) fn figure(&self, name: &str, value: impl Into<Value>) {
+        self.figures.borrow_mut().insert(name.to_owned(), value.into());
+    }
+
+    /// What is left to be printed at the end.
+    pub(crate) fn end(&self, status: u8, view: &View) -> Option<Rendered> {
+        match self.format {
+            _ if !self.is_document => None,
+            Format::Json => Some(lines::rendered(&self.summary(status))),
+            format if format.is_whole() => Some(self.whole(format, status, view)),
+            _ => None,
+        }
+    }
+
+    /// The text of a report.
+    pub(crate) fn whole(&self, format: Format, status: u8, view: &View) -> Rendered {
+        let found = self.found.borrow();
+        let rendered = render(format, &found, view);
+        if format != Format::Json {
+            return rendered;
+        }
+        lines::rendered(&format!(
+            "{}\n{}{}",
+            lines::header(self.command),
+            rendered.as_str(),
+            self.summary(status)
+        ))
+    }
+
+    fn summary(&self, status: u8) -> String {
+        let found = self.found.borrow();
+        let mut summary = json!({
+            "errors": found.errors(),
+            "warnings": found.warnings(),
+            "exit_status": status,
+        });
+        if let Value::Object(object) = &mut summary {
+            object.extend(self.figures.borrow().clone());
+        }
+        lines::typed("summary", &summary) + "\n"
+    }
+}
