@@ -151,7 +151,7 @@ fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
 fn what_takes_too_long_is_given_up() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I0.000001 B0\"\nmill 0,0 40,0\nend 40,0";
     let place = Place::new()
-        .file("pathbuild.toml", "[limits]\nseconds-per-path = 0.3\n")
+        .file("pathbuild.toml", "[limits]\nseconds-per-path = 0.3\nprogram-memory = \"4 GiB\"\n")
         .file(NAME, sheet(drawn).unwrap().to_dxf());
     let start = Instant::now();
     let run = place.run_with(&[&["emit", NAME], OPTIONS].concat());

@@ -31,14 +31,14 @@ fn configuration(feed: u32) -> String {
     format!("feed = {feed}\nrapid = 1000\nsweep-height = 20\nlibrary = [\".\"]\n[emit]\ntargets = [\"*\"]\n")
 }
 
-/// Drawings whose programs take a while to be written.
+/// Drawings of many programs, so that a good part of the kills meets one that is written.
 fn library() -> Place {
     let mut place = Place::new();
-    for path in 0..3 {
-        let mills: Vec<String> = (0..40).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
+    for path in 10..40 {
+        let mills: Vec<String> = (0..10).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
         let mills = mills.concat();
-        let text = format!("layer 100{path}.1P\nstart 0,0 \"T5 O2 I0.5 B0 MX\"\n{mills}end 40,0");
-        place = place.file(&format!("100{path}.1P.dxf"), sheet(&text).unwrap().to_dxf());
+        let text = format!("layer 10{path}.1P\nstart 0,0 \"T5 O2 I0.5 B0 MX\"\n{mills}end 10,0");
+        place = place.file(&format!("10{path}.1P.dxf"), sheet(&text).unwrap().to_dxf());
     }
     place
 }

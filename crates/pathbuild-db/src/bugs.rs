@@ -1,17 +1,23 @@
 //! Panics: bugs that one drawing shows must not keep the others from being compiled.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
+use salsa::Cancelled;
 
-/// Does some work that asks no queries.
+/// Does some work that asks no queries. Where it is given up because its result is no longer wanted, that is passed on.
 ///
 /// # Errors
 /// PB006 when it panicked; without a place.
 pub(crate) fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| Box::new(internal_error(&*payload)))
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
+        if payload.is::<Cancelled>() {
+            resume_unwind(payload);
+        }
+        Box::new(internal_error(&*payload))
+    })
 }
 
 /// PB006 for a panic.

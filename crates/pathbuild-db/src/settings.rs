@@ -58,6 +58,8 @@ pub struct Reading {
 pub struct Limits {
     /// Most moves of a program.
     pub moves: u64,
+    /// Most bytes that the moves of a program may take in memory.
+    pub memory: u64,
     /// Most paths in a program that differ in their drawings or values: each costs memory, however little it mills.
     pub paths: u64,
 }
@@ -78,6 +80,6 @@ impl Default for Reading {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { moves: 50_000_000, paths: 100_000 }
+        Self { moves: 50_000_000, memory: 1 << 30, paths: 100_000 }
     }
 }

@@ -97,7 +97,7 @@ pub struct Place {
 /// A piece of source text with the faulty part of it: a parameter text of a drawing, a line of the configuration or of G-code.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TextFault {
-    /// The whole text.
+    /// The text; of a long one, what is around the fault.
     pub text: Box<str>,
     /// First byte of the fault in `text`.
     pub start: u32,
@@ -105,9 +105,24 @@ pub struct TextFault {
     pub end: u32,
 }
 
+/// Bytes of a text that is shown as a whole.
+const LONGEST: usize = 4 * AROUND;
+
+/// Bytes of a longer one that are shown before a fault; twice as many from where it begins.
+const AROUND: usize = 1000;
+
 impl TextFault {
-    /// The text with the faulty byte range; a range outside the text, or off its character borders, is cut to what there is.
+    /// The text with the faulty byte range; a range outside the text, or off its character borders, is cut to what there is. Of a long
+    /// text only what is around the fault is kept: a thousand faults of one text do not keep it a thousand times.
     pub fn new(text: &str, span: Range<usize>) -> Self {
+        if text.len() > LONGEST {
+            let from = text.floor_char_boundary(span.start.min(text.len()).saturating_sub(AROUND));
+            let to = text.ceil_char_boundary(span.start.saturating_add(2 * AROUND).min(text.len()));
+            return Self::new(
+                &text[from..to],
+                span.start.saturating_sub(from)..span.end.saturating_sub(from),
+            );
+        }
         let start = text.floor_char_boundary(span.start.min(text.len()));
         let end = text.ceil_char_boundary(span.end.clamp(start, text.len()));
         let index = |byte: usize| u32::try_from(byte).unwrap_or(u32::MAX);

@@ -106,7 +106,7 @@ fn write(program: &Program) {
         rapid: 1000.0,
         correction: Correction::default(),
     };
-    let text = native::program_in_parts(program, &Header::default(), &options, &mut |_| ());
+    let text = native::program(program, &Header::default(), &options);
     if let Err(problem) = native::read_back(&text, program) {
         judge(&[*problem]);
     }

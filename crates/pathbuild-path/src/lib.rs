@@ -67,4 +67,4 @@ pub use table::RangeTable;
 pub use text::{ParameterText, ParameterTexts, Piece, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;
-pub use walk::{Walked, walk};
+pub use walk::{Walked, walk, walk_watched};

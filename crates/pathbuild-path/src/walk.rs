@@ -6,6 +6,7 @@ mod join;
 mod order;
 mod passage;
 mod stars;
+mod turns;
 mod twice;
 
 use pathbuild_diagnostic::Diagnostic;
@@ -20,6 +21,7 @@ use ends::Ends;
 use join::OpenEnds;
 use order::comes_before;
 use stars::Stars;
+use turns::Turns;
 
 pub(crate) use passage::{Passage, curve};
 
@@ -36,7 +38,12 @@ pub struct Walked {
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
-    let mut walk = Walk::new(path, join_tolerance);
+    walk_watched(path, join_tolerance, &|| {})
+}
+
+/// The same; calls `checkpoint` now and then: the place to unwind from when the result is no longer wanted.
+pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> Walked {
+    let mut walk = Walk::new(path, join_tolerance, checkpoint);
     let result = walk.run();
     let mut walked = walk.finish(result);
     for diagnostic in &mut walked.diagnostics {
@@ -60,6 +67,9 @@ impl Walked {
 /// With so many segments at a point they are put in order at once.
 const CROWDED: usize = 16;
 
+/// After so many segments it is asked whether the walk is still wanted.
+const STRETCH: usize = 256;
+
 struct Walk<'a> {
     path: &'a Path,
     ends: Ends,
@@ -78,18 +88,20 @@ struct Walk<'a> {
     /// Segments gone along forwards and not yet back over. They always lead from the start to `at`. Nothing goes back where there is no
     /// turn marker.
     way_back: Vec<(usize, Passage)>,
-    has_acted: Vec<bool>,
+    turns: Turns,
     join_tolerance: f64,
+    checkpoint: &'a dyn Fn(),
     /// PB115 for each join.
     joined: Vec<Diagnostic>,
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &'a Path, join_tolerance: f64) -> Self {
+    fn new(path: &'a Path, join_tolerance: f64, checkpoint: &'a dyn Fn()) -> Self {
         let count = path.segments.len();
         Self {
             path,
             join_tolerance,
+            checkpoint,
             joined: Vec::new(),
             ends: Ends::new(path),
             stars: Stars::default(),
@@ -101,7 +113,7 @@ impl<'a> Walk<'a> {
             last: None,
             grouped: Grouped::new(path),
             way_back: Vec::new(),
-            has_acted: vec![false; path.turns.len()],
+            turns: Turns::new(path),
         }
     }
 
@@ -125,6 +137,9 @@ impl<'a> Walk<'a> {
             return Err(self.empty().into());
         }
         while self.left > 0 {
+            if self.left.is_multiple_of(STRETCH) {
+                (self.checkpoint)();
+            }
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
@@ -223,12 +238,7 @@ impl<'a> Walk<'a> {
     }
 
     fn turn_marker(&mut self) -> Option<usize> {
-        let found = self.path.turns.iter().position(|turn| coincide(turn.at, self.at))?;
-        // Several at one point are one.
-        for (turn, has_acted) in self.path.turns.iter().zip(&mut self.has_acted) {
-            *has_acted |= coincide(turn.at, self.at);
-        }
-        Some(found)
+        self.turns.act(self.path, self.at)
     }
 
     /// Goes back over the way until something is found; an error when the way back is used up. (book: language/order-and-turns)
@@ -257,7 +267,8 @@ impl<'a> Walk<'a> {
     }
 
     fn idle_markers(&self) -> Vec<Diagnostic> {
-        let idle = self.path.turns.iter().zip(&self.has_acted).filter(|(_, has_acted)| !**has_acted);
-        idle.map(|(turn, _)| turn.origin.at(Diagnostic::new(&messages::TURN_WITHOUT_EFFECT))).collect()
+        let origin = |turn: usize| &self.path.turns[turn].origin;
+        let idle = self.turns.idle();
+        idle.map(|turn| origin(turn).at(Diagnostic::new(&messages::TURN_WITHOUT_EFFECT))).collect()
     }
 }

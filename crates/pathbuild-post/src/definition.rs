@@ -11,6 +11,7 @@ use super::suggest::nearest;
 use super::target::{self, Target};
 use super::{cad6, cambam};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 
 /// A definition that was read, ready to write programs.
@@ -137,6 +138,9 @@ impl Post {
             }
         };
         output.text = target::plain(&output.text, target, options.charset);
+        if output.text.len() > options.most_bytes {
+            return Err(vec![*too_large(options.most_bytes)]);
+        }
         let refused =
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {

@@ -25,6 +25,8 @@ pub struct PostOptions<'a> {
     pub charset: Charset,
     /// The dialect of the output, where the definition does not name one or names another.
     pub dialect: Option<Box<str>>,
+    /// The most bytes of the text. (`[limits] output-size`)
+    pub most_bytes: usize,
     /// Somebody answers for what cannot be read back.
     pub unchecked: bool,
     /// The number of the program; `None`: the first number in the program's name.
@@ -52,6 +54,7 @@ impl Default for PostOptions<'_> {
             output: None,
             run_post_build: false,
             charset: Charset::Ascii,
+            most_bytes: usize::MAX,
             dialect: None,
             unchecked: false,
             program_number: None,

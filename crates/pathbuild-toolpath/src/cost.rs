@@ -4,9 +4,16 @@ use std::ptr;
 
 use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, Walked};
 
+use crate::program::Step;
+
 /// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
 pub fn own_moves(path: &Path, walked: &Walked) -> u64 {
     walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
+}
+
+/// About how many bytes so many moves take in a program, with a comment each.
+pub fn memory(moves: u64) -> u64 {
+    moves.saturating_mul(2 * size_of::<Step>() as u64)
 }
 
 fn moves(path: &Path, walked: &Walked, item: &Item) -> u64 {

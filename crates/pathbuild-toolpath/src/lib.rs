@@ -20,7 +20,7 @@ mod z_model;
 
 pub use bars::support_bars;
 pub use correction::{Correction, Outside};
-pub use cost::own_moves;
+pub use cost::{memory, own_moves};
 pub use fold::{FoldOptions, Parts, fold, fold_traced};
 pub use pathbuild_path::Xy;
 pub use program::{

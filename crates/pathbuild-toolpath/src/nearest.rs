@@ -1,7 +1,12 @@
 //! The edge that is nearest to the tool tip. (book: program/gcode)
 //!
 //! Distances are compared approximately, which is not transitive: the choice is that of one scan in segment order. Only edges near the
-//! tip can matter to that scan, and an R-tree finds them, so that a chain of many thousand segments does not take the square of it.
+//! tip can matter to that scan, and of edges that begin at one point and one depth only the first: an R-tree of points finds them, so that
+//! neither a chain of many thousand segments nor a star of them takes the square of their number.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
 
 use pathbuild_path::Xy;
 use pathbuild_path::approx::above;
@@ -16,16 +21,39 @@ pub(crate) struct OpenEdges<'a> {
     strands: &'a [Strand<'a>],
     /// How many edges of each strand are done, from the top.
     done: Vec<usize>,
-    ends: RTree<End>,
+    /// Both ends of each strand, as indices into `points`.
+    ends: Vec<[usize; 2]>,
+    points: Vec<Point>,
+    tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
 
-/// An end of a strand of which edges are left.
-type End = GeomWithData<[f64; 2], usize>;
+/// Where strands end.
+struct Point {
+    at: Xy,
+    /// The strands of which edges are left, by the depth of their next one.
+    levels: BTreeMap<Coordinate, BTreeSet<usize>>,
+}
+
+/// A coordinate in mm that is a key.
+#[derive(Clone, Copy)]
+struct Coordinate(f64);
 
 impl<'a> OpenEdges<'a> {
     pub(crate) fn new(strands: &'a [Strand<'a>]) -> Self {
-        let ends = strands.iter().enumerate().flat_map(|(index, strand)| ends(strand, index));
-        Self { strands, done: vec![0; strands.len()], ends: RTree::bulk_load(ends.collect()) }
+        let (mut points, mut known) = (Vec::new(), BTreeMap::new());
+        let mut point = |at: Xy| {
+            *known.entry((Coordinate(at.x), Coordinate(at.y))).or_insert_with(|| {
+                points.push(Point { at, levels: BTreeMap::new() });
+                points.len() - 1
+            })
+        };
+        let ends = strands.iter().map(|strand| [strand.curve.start(), strand.curve.end()].map(&mut point));
+        let ends: Vec<[usize; 2]> = ends.collect();
+        let entry = |(number, point): (usize, &Point)| GeomWithData::new([point.at.x, point.at.y], number);
+        let tree = RTree::bulk_load(points.iter().enumerate().map(entry).collect());
+        let mut open = Self { strands, done: vec![0; strands.len()], ends, points, tree };
+        (0..strands.len()).for_each(|strand| open.enter(strand));
+        open
     }
 
     /// Takes the next edge: of those whose edge above is done, the one with an end nearest to the tip; the first on a tie.
@@ -38,11 +66,12 @@ impl<'a> OpenEdges<'a> {
             }
         }
         let (_, run) = best?;
+        self.leave(run.strand);
         self.done[run.strand] += 1;
-        if self.done[run.strand] == self.strands[run.strand].depths.len() {
-            for end in ends(&self.strands[run.strand], run.strand) {
-                self.ends.remove(&end);
-            }
+        if self.is_open(run.strand) {
+            self.enter(run.strand);
+        } else {
+            self.forget_points(run.strand);
         }
         Some(run)
     }
@@ -58,18 +87,18 @@ impl<'a> OpenEdges<'a> {
     }
 
     /// The strands that decide the scan, in segment order: the nearest, and those that cannot be told from it, from one to the next.
-    /// Whatever is farther than the first gap that comparing tells is passed over in any order.
+    /// Whatever is farther than the first gap that comparing tells is passed over in any order, and so is a strand behind another one
+    /// that is as far.
     fn contenders(&self, tip: Tip) -> Vec<usize> {
+        let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
         let mut reach = f64::INFINITY;
-        for (end, squared) in self.ends.nearest_neighbor_iter_with_distance_2([tip.at.x, tip.at.y]) {
-            // The distance in space is at least that in the plane.
-            if libm::sqrt(squared) > reach {
-                break;
-            }
-            let (least, _) = self.run(end.data, tip);
-            found.push((least, end.data));
-            reach = reach.min(least * (1.0 + MARGIN) + MARGIN);
+        if let Some(nearest) = self.tree.nearest_neighbor(place) {
+            self.look(nearest.data, tip, &mut found, &mut reach);
+        }
+        // The distance in space is at least that in the plane. To ask for one point after the other would sort all that are as far.
+        for point in self.tree.locate_within_distance(place, reach * reach) {
+            self.look(point.data, tip, &mut found, &mut reach);
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let gap = found.windows(2).position(|pair| above(pair[1].0, pair[0].0));
@@ -86,14 +115,79 @@ impl<'a> OpenEdges<'a> {
         contenders
     }
 
+    /// Finds the first strand of each depth at a point, as far as the reach, which becomes smaller.
+    fn look(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
+        let Point { at, levels } = &self.points[point];
+        let mut look = |(depth, strands): (&Coordinate, &BTreeSet<usize>)| {
+            let is_near = distance(tip, Tip { at: *at, z: depth.0 }) <= *reach;
+            if let Some(first) = strands.first().filter(|_| is_near) {
+                let (least, _) = self.run(*first, tip);
+                found.push((least, *first));
+                *reach = reach.min(least * (1.0 + MARGIN) + MARGIN);
+            }
+            is_near
+        };
+        let here = Coordinate(tip.z);
+        _ = levels.range(..=here).rev().all(&mut look);
+        _ = levels.range((Bound::Excluded(here), Bound::Unbounded)).all(&mut look);
+    }
+
     fn is_open(&self, strand: usize) -> bool {
         self.done[strand] < self.strands[strand].depths.len()
+    }
+
+    /// Enters the next edge of a strand at both its ends.
+    fn enter(&mut self, strand: usize) {
+        let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
+        for end in self.ends[strand] {
+            self.points[end].levels.entry(depth).or_default().insert(strand);
+        }
+    }
+
+    /// Takes the next edge of a strand out again.
+    fn leave(&mut self, strand: usize) {
+        let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
+        for end in self.ends[strand] {
+            let levels = &mut self.points[end].levels;
+            if let Some(strands) = levels.get_mut(&depth) {
+                strands.remove(&strand);
+                if strands.is_empty() {
+                    levels.remove(&depth);
+                }
+            }
+        }
+    }
+
+    /// Takes the ends of a strand that is done out of the tree, where nothing else is left there.
+    fn forget_points(&mut self, strand: usize) {
+        for end in self.ends[strand] {
+            let Point { at, levels } = &self.points[end];
+            if levels.is_empty() {
+                self.tree.remove(&GeomWithData::new([at.x, at.y], end));
+            }
+        }
     }
 }
 
 /// How far beyond the nearest is looked, as a part of the distance and in mm: many times what approximate comparison allows.
 const MARGIN: f64 = 1e-4;
 
-fn ends(strand: &Strand<'_>, index: usize) -> [End; 2] {
-    [strand.curve.start(), strand.curve.end()].map(|at| GeomWithData::new([at.x, at.y], index))
+impl PartialEq for Coordinate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Coordinate {}
+
+impl PartialOrd for Coordinate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Coordinate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
 }

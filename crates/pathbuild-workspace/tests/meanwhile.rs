@@ -36,6 +36,8 @@ enum Event {
     Replace,
     /// It cannot be read, this once.
     Fail,
+    /// Whoever reads it shows a bug.
+    Panic,
 }
 
 /// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, for the n-th time.
@@ -87,6 +89,7 @@ impl Mischief {
                 fs::rename(beside, &self.victim).unwrap();
             }
             Event::Fail => {}
+            Event::Panic => panic!("a bug that {} shows", self.victim),
         }
     }
 }
@@ -276,4 +279,32 @@ fn nothing_wrong_is_kept_of_a_library_that_changes_meanwhile() {
 #[test]
 fn nothing_wrong_is_kept_of_another() {
     library(2);
+}
+
+/// A bug that one drawing shows is said of that drawing; all others are checked, and nothing of it is kept.
+#[test]
+fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
+    let workshop = Workshop::new(3);
+    for victim in workshop.files().keys().filter(|path| path.ends_with(".dxf")) {
+        for jobs in [None, Some(1)] {
+            // Nothing is kept yet: every drawing is read.
+            let place = OnDisk::new(&workshop);
+            let expected = place.check(Arc::new(OsSystem), false, None);
+            let bug = Mischief {
+                trigger: victim.clone(),
+                countdown: AtomicU32::new(1),
+                is_before: true,
+                event: Event::Panic,
+                victim: place.path().join(victim),
+                bytes: Vec::new(),
+            };
+            let found = place.check(Arc::new(bug), true, jobs);
+            let is_of_victim = |found: &&String| found.contains(victim.as_str());
+            let said = found.iter().filter(|found| found.contains("a bug that")).collect::<Vec<_>>();
+            assert!(!said.is_empty() && said.iter().all(is_of_victim), "{victim}: {found:#?}");
+            let files = |found: &[String]| found.iter().filter(|it| it.starts_with('"')).count();
+            assert_eq!(files(&found), files(&expected), "{victim}: all drawings are checked");
+            assert_eq!(place.check(Arc::new(OsSystem), true, jobs), expected, "{victim}");
+        }
+    }
 }

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Language, Path, RawPath, Walked};
 
 use crate::bugs::catch_bugs;
+use crate::db::Db;
 
 /// A path, and what is wrong with its drawing or its values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,7 +28,8 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
 }
 
 /// Walks along a path.
-pub(super) fn walk(path: &Path, language: &Language) -> Walked {
-    catch_bugs(|| pathbuild_path::walk(path, language.join_tolerance))
+pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
+    let checkpoint = || db.unwind_if_revision_cancelled();
+    catch_bugs(|| pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint))
         .unwrap_or_else(|bug| Walked::failed(bug.in_path(path.name.as_str())))
 }

@@ -8,7 +8,7 @@ use std::slice;
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, PathName, PathSignature, SubpathCall};
-use pathbuild_toolpath::FoldOptions;
+use pathbuild_toolpath::{FoldOptions, memory};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::embedding::{Embedding, Outcome, embeds};
@@ -95,7 +95,7 @@ fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Clo
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
     let has_raised = own.signature.as_ref().is_some_and(|it| !it.raised_probes.is_empty());
     let is_lone = *target.role(db) == Role::Checked && own.is_clean() && !own.has_subpaths() && !has_raised;
-    let is_within = own.moves <= limits.moves && limits.paths > 0;
+    let is_within = too_much(own.moves, limits).is_none() && limits.paths > 0;
     let reached = vec![Reached { instance: root, depth: 0 }];
     let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
     (is_lone && is_within).then(closure)
@@ -399,10 +399,8 @@ impl<'db> Walk<'db> {
             return;
         }
         self.moves = self.moves_of(root, &mut FxHashMap::default());
-        let Limits { moves, .. } = self.limits;
-        if self.moves > moves {
-            let problem = Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves");
-            self.report_limit(root, problem.with("count", self.moves).with("limit", moves));
+        if let Some(problem) = too_much(self.moves, self.limits) {
+            self.report_limit(root, problem);
         }
     }
 
@@ -426,6 +424,20 @@ impl<'db> Walk<'db> {
         }
         self.report_all(instance, &[problem]);
     }
+}
+
+/// PB005: a program of so many moves, which is too long, or would take too much memory while it is made.
+fn too_much(count: u64, limits: Limits) -> Option<Diagnostic> {
+    let size = memory(count);
+    let problem = if count > limits.moves {
+        Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves").with("limit", limits.moves)
+    } else if size > limits.memory {
+        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
+        problem.with("size", size).with("limit", limits.memory)
+    } else {
+        return None;
+    };
+    Some(problem.with("count", count))
 }
 
 /// What makes two diagnostics the same: everything but how they were come by.

@@ -54,5 +54,5 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
 #[salsa::tracked(lru = 256)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
     let language = Settings::get(db).language(db);
-    path(db, instance).path.as_ref().map(|path| walk(path, language)).unwrap_or_default()
+    path(db, instance).path.as_ref().map(|path| walk(db, path, language)).unwrap_or_default()
 }

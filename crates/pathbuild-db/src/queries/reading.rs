@@ -40,11 +40,13 @@ pub(super) fn read<R>(
     let reading = Settings::get(db).reading(db);
     let (path, limit) = (file.path(db), reading.file_size);
     db.scratch().with(|scratch| {
-        let read = if reading.is_hashed {
-            db.system().read_stamped(path, limit, &mut scratch.bytes)
-        } else {
-            db.system().read_into(path, limit, &mut scratch.bytes).map(|bytes| (bytes, Stamp::UNKNOWN))
-        };
+        let read = catch_bugs(|| {
+            if reading.is_hashed {
+                db.system().read_stamped(path, limit, &mut scratch.bytes)
+            } else {
+                db.system().read_into(path, limit, &mut scratch.bytes).map(|bytes| (bytes, Stamp::UNKNOWN))
+            }
+        })?;
         let (bytes, stamp) = read.map_err(|error| Box::new(unreadable(error, limit)))?;
         Ok(work(bytes, stamp, &mut scratch.drawing))
     })

@@ -30,7 +30,7 @@ impl PathSummary {
         let language = Settings::get(db).language(db);
         let BoundPath { path, diagnostics: problems } = bind(raw, bindings, language);
         let Some(path) = path else { return Self { problems, ..Self::default() } };
-        let walked = walk(&path, language);
+        let walked = walk(db, &path, language);
         let with_hint =
             |found: &Diagnostic| ends.with_hint(&path.name, &language.path_pattern, found.clone());
         let signature = PathSignature::of(&path);

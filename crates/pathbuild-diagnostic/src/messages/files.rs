@@ -69,6 +69,20 @@ messages! {
         help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// A program that would fill the memory.
+    TOO_MUCH_MEMORY: LimitReached {
+        en: "this path comes to {count} moves, which take about {size} bytes of memory; the limit is {limit}",
+        de: "dieser Pfad ergibt {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
+    /// A text that would fill the disk.
+    OUTPUT_TOO_LARGE: LimitReached {
+        en: "this program comes to more than {limit} bytes; it is not written",
+        de: "dieses Programm wird größer als {limit} Byte; es wird nicht geschrieben",
+        help_en: "check infeed I, depth B and the length of comments Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "Zustellung I, Tiefe B und die Länge der Kommentare Q prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
     /// Too many paths in one program.
     TOO_MANY_PATHS: LimitReached {
         en: "the number of different paths (each with its values) that are embedded exceeds the limit of {limit}",

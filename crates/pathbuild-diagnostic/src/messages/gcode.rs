@@ -627,6 +627,13 @@ messages! {
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// Arcs and slopes without end.
+    TOO_MANY_PIECES: LimitReached {
+        en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
+        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, das überschreitet die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
+        help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "viel zu große Radien und Höhen berichtigen, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
     /// Rapid down.
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",

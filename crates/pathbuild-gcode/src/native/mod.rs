@@ -15,6 +15,6 @@ pub use number::f3;
 pub use probing::{probing_program, values_file};
 pub use program::{
     Header, WriteOptions, drawing_of_title, is_title, is_title_of, path_of_title, plain_title, program,
-    program_in_parts, title,
+    program_within, title, too_large,
 };
 pub use read_back::{is_read_back, read_back, read_probing_back};

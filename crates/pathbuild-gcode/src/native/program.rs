@@ -1,6 +1,7 @@
 //! The program itself. (book: program/gcode)
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
@@ -91,18 +92,21 @@ pub(super) fn setup(program: &Program) -> &'static str {
 /// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
 /// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
-    program_in_parts(program, header, options, &mut |_| {})
+    program_within(program, header, options, usize::MAX).unwrap_or_default()
 }
 
-/// The same; hands on each part of it, of whole lines, as soon as it is written.
-pub fn program_in_parts(
+/// The same.
+///
+/// # Errors
+/// PB005: where the text comes to more than so many bytes.
+pub fn program_within(
     program: &Program,
     header: &Header,
     options: &WriteOptions,
-    take: &mut dyn FnMut(&str),
-) -> String {
+    most: usize,
+) -> Result<String, Box<Diagnostic>> {
     let steps = options.correction.steps(program);
-    let text = String::with_capacity(64 * steps.len() + 512);
+    let text = String::with_capacity((64 * steps.len() + 512).min(most));
     let formulas = Formulas::new(program, options.correction);
     let mut writer = Writer { program, options, formulas, text, at: Xy::origin() };
     writer.line("%");
@@ -110,15 +114,13 @@ pub fn program_in_parts(
     writer.text.push_str(setup(program));
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
-    let mut taken = 0;
     for step in steps.as_ref() {
         match step {
             Step::Move { to, count } => writer.step(to, count.length),
             Step::Comment(said) => writer.said(said),
         }
-        if writer.text.len() - taken >= PART {
-            take(&writer.text[taken..]);
-            taken = writer.text.len();
+        if writer.text.len() > most {
+            return Err(too_large(most));
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
@@ -128,12 +130,13 @@ pub fn program_in_parts(
         writer.line(&line);
     }
     writer.line("M30\n%");
-    take(&writer.text[taken..]);
-    writer.text
+    if writer.text.len() <= most { Ok(writer.text) } else { Err(too_large(most)) }
 }
 
-/// So many bytes at least are handed on at once.
-const PART: usize = 1 << 12;
+/// PB005: a program comes to more than so many bytes.
+pub fn too_large(most: usize) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).with("key", "output-size"))
+}
 
 struct Writer<'a> {
     program: &'a Program,

@@ -18,6 +18,9 @@ const MOST_KEPT: f64 = 16e6;
 /// Cells across the cutter that it takes to tell anything at all.
 const FEWEST_ACROSS: f64 = 4.0;
 
+/// Chords leave their arc by the side of a cell divided by this, at most.
+const CHORDS: f64 = 4.0;
+
 /// A cell within O of a cut is visited so often: when the material is laid, when half of it is cut, and for each row.
 const VISITS: f64 = 3.0;
 
@@ -26,6 +29,12 @@ const VISITS: f64 = 3.0;
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     let mut extent = Extent::default();
     each_known_move(program, &mut |line, it| extent.add(line, it, stock));
+    if extent.pieces > stock.most_pieces() {
+        let (line, limit) = (extent.line, stock.most_pieces());
+        return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
+            d.with("count", extent.pieces).with("limit", limit).with("key", "verify-pieces")
+        });
+    }
     let Some(resolution) = extent.resolution(stock) else { return too_large(extent.line, stock, problems) };
     let mut bench = Bench::new(stock, resolution, stock.cells());
     let mut reached = 0;
@@ -95,6 +104,8 @@ struct Extent {
     /// The same of rapid moves below the highest surface, and how many there are.
     passed: f64,
     passes: f64,
+    /// How many pieces arcs and slopes that cut are cut into, at most.
+    pieces: u64,
     /// The box round all that is cut, in X and Y.
     sides: Option<[(f64, f64); 2]>,
     /// The last line that cuts.
@@ -110,6 +121,7 @@ impl Extent {
         let Some(piece) = cutting_piece(line, it, stock) else { return };
         self.line = line;
         self.area += covered_area(it, piece.cutter);
+        self.pieces += u64::from(pieces::count(it, stock.resolution() / CHORDS)) - 1;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
         for (side, extent) in sides.iter_mut().zip(it.extent()) {
             let Some((low, high)) = extent else { continue };
@@ -213,7 +225,7 @@ impl<'s> Bench<'s> {
     }
 
     fn parts(&self, it: &Move) -> impl Iterator<Item = Piece> + use<> {
-        pieces::pieces(it, self.resolution / 4.0)
+        pieces::pieces(it, self.resolution / CHORDS)
     }
 }
 

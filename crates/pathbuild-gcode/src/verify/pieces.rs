@@ -34,8 +34,8 @@ pub(super) fn slopes(it: &Move) -> f64 {
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
 }
 
-/// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
-pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + use<> {
+/// How many pieces a move is cut into, from 1 on.
+pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
     let slope = slopes(it);
     let count = match it.path {
         Path::Line => slope,
@@ -45,8 +45,15 @@ pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + u
             slope.max(arc.sweep(&it.from, &it.to) / angle)
         }
     };
-    let count = count.ceil().clamp(1.0, MOST);
-    let it = *it;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
+    let count = count.ceil().clamp(1.0, MOST) as u32;
+    count
+}
+
+/// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
+pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + use<> {
+    let (it, number_of_pieces) = (*it, count(it, sagitta));
+    let count = f64::from(number_of_pieces);
     let at = move |number: u32| {
         let share = f64::from(number) / count;
         match it.path {
@@ -57,7 +64,5 @@ pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + u
             Path::Arc(arc) => arc.point(&it.from, &it.to, share),
         }
     };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
-    let count = count as u32;
-    (0..count).map(move |number| Piece { from: at(number), to: at(number + 1) })
+    (0..number_of_pieces).map(move |number| Piece { from: at(number), to: at(number + 1) })
 }

@@ -27,6 +27,8 @@ pub struct Stock {
     resolution: f64,
     /// The most cells that are visited, cells that many moves visit counted as often.
     cells: u64,
+    /// The most pieces that arcs and slopes are cut into.
+    most_pieces: u64,
 }
 
 /// What holds from a line on.
@@ -49,7 +51,7 @@ impl Stock {
     /// Material whose surface or cutter changes; pieces are in the order of their lines.
     pub fn of_pieces(pieces: Vec<Piece>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
-        let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED };
+        let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
         let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
         stock.with_resolution(resolution)
     }
@@ -101,6 +103,16 @@ impl Stock {
     /// The same with another limit of the cells that are visited. (`[limits] verify-cells`)
     pub fn with_cells(self, most: u64) -> Self {
         Self { cells: most, ..self }
+    }
+
+    /// The same with another limit of the pieces that arcs and slopes are cut into. (`[limits] verify-pieces`)
+    pub fn with_pieces(self, most: u64) -> Self {
+        Self { most_pieces: most, ..self }
+    }
+
+    /// The most pieces that arcs and slopes are cut into.
+    pub(super) fn most_pieces(&self) -> u64 {
+        self.most_pieces
     }
 
     /// The most cells that are visited.

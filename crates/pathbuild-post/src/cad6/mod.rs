@@ -58,7 +58,7 @@ pub(super) fn write(
     options: &PostOptions<'_>,
 ) -> Result<Written, Vec<Diagnostic>> {
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
-    let mut runner = Runner::new(definition, file, options.files, guard);
+    let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, options, &mut runner).map_err(|error| vec![*error])?;
     let (text, warnings, inserted) = runner.finish();
     let shadow = shadow(&text, definition.units().unwrap_or(job.units));

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, Kind};
 use super::definition::Definition;
@@ -38,6 +39,7 @@ pub(super) struct Runner<'a> {
     line_number: ControlText,
     guard: Guard<'a>,
     text: Vec<u8>,
+    most_bytes: usize,
     /// Bytes that the texts may still come to, files that are inserted apart.
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
@@ -50,6 +52,7 @@ impl<'a> Runner<'a> {
         file: &'a Utf8Path,
         files: &'a dyn PostFiles,
         guard: Guard<'a>,
+        most_bytes: usize,
     ) -> Self {
         let aliases = definition.aliases.iter().map(|(other, own)| (&**other, &**own));
         let default = ControlText { text: LINE_NUMBER.to_owned(), begins: None };
@@ -61,6 +64,7 @@ impl<'a> Runner<'a> {
             line_number: definition.text(Kind::LineNumber).cloned().unwrap_or(default),
             guard,
             text: Vec::new(),
+            most_bytes,
             fuel: FUEL,
             warnings: Vec::new(),
             inserted: Vec::new(),
@@ -90,7 +94,7 @@ impl<'a> Runner<'a> {
         }
         self.push(text, kind)?;
         self.text.extend_from_slice(self.definition.settings.end_of_line.as_bytes());
-        Ok(())
+        if self.text.len() > self.most_bytes { Err(too_large(self.most_bytes)) } else { Ok(()) }
     }
 
     fn burn(&mut self, cost: usize) -> Called {

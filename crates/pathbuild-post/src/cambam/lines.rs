@@ -36,6 +36,11 @@ impl<'a> Lines<'a> {
         self.next_number += u64::from(numbering.increment);
     }
 
+    /// How many bytes there are so far.
+    pub(super) fn length(&self) -> usize {
+        self.text.len()
+    }
+
     /// The whole text.
     pub(super) fn finish(self) -> String {
         if self.options.upper_case { self.text.to_uppercase() } else { self.text }

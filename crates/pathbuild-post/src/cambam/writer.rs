@@ -2,6 +2,8 @@
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
+use pathbuild_gcode::native::too_large;
+
 use super::fuel::fuel;
 use super::line::{Line, collapse};
 use super::lines::Lines;
@@ -241,6 +243,11 @@ impl<'a> Writer<'a> {
     /// Adds text to the line; a line feed ends it.
     pub(super) fn text(&mut self, text: &str) -> Written {
         self.burn(text.len())?;
+        let most = self.plan.options.most_bytes;
+        // Blanks of the present line may still be left out.
+        if self.lines.length().max(self.line.text.len() + text.len()) > most {
+            return Err(too_large(most));
+        }
         let mut parts = text.split('\n');
         self.line.push(parts.next().unwrap_or(""));
         for part in parts {

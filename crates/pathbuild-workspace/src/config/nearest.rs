@@ -5,16 +5,27 @@ pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
         return None;
     }
     let name: Vec<char> = name.to_lowercase().chars().collect();
-    let most = name.len().div_ceil(3);
+    let (most, own) = (name.len().div_ceil(3), letters(&name));
     let near = |candidate: &'a str| {
         // A letter more or less is one that differs.
         if candidate.chars().count().abs_diff(name.len()) > most {
             return None;
         }
-        let distance = distance(&name, &candidate.to_lowercase().chars().collect::<Vec<_>>());
+        let other: Vec<char> = candidate.to_lowercase().chars().collect();
+        let others = letters(&other);
+        // Each letter that only one of them has is one that differs: nearly all names are told apart by this.
+        if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
+            return None;
+        }
+        let distance = distance(&name, &other);
         (distance <= most).then_some((distance, candidate))
     };
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
+}
+
+/// Which letters there are, a bit for each; some share theirs.
+fn letters(name: &[char]) -> u32 {
+    name.iter().fold(0, |found, letter| found | 1 << (u32::from(*letter) % 32))
 }
 
 /// Bytes of a name that may be a known one misspelt.

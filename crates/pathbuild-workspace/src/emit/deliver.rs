@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Note, Point};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Outside, Program, Statistics, Total};
+use pathbuild_toolpath::{Outside, Program, Statistics, Total, memory};
 
 use super::job::Job;
 use super::provenance::Provenances;
@@ -226,11 +226,20 @@ pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bo
 }
 
 /// PB005: what comes of cutting moves is limited like the moves themselves.
-fn too_many_pieces(count: u64, limit: u64) -> Diagnostic {
-    Diagnostic::new(&files::LIMIT)
-        .with("what", format!("the number of moves, cut by z-split ({count}),"))
-        .with("limit", limit)
-        .with("key", "embedding-moves")
+fn too_many_pieces(count: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
+    let is_cut = count > program.steps.len() as u64;
+    // Comments are counted here, and moves with a comment each are foretold.
+    let size = memory(count) / 2;
+    if count > writing.most_moves {
+        let problem = Diagnostic::new(&files::LIMIT).with("key", "embedding-moves");
+        let what = format!("the number of moves, cut by z-split ({count}),");
+        Some(problem.with("what", what).with("limit", writing.most_moves))
+    } else if is_cut && size > writing.most_memory {
+        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
+        Some(problem.with("count", count).with("size", size).with("limit", writing.most_memory))
+    } else {
+        None
+    }
 }
 
 fn outside_probes(outside: &Outside) -> Diagnostic {
@@ -278,12 +287,12 @@ fn native(
 ) -> Result<Vec<Output>, Box<Diagnostic>> {
     let correction = means.writing.options.correction;
     let count = correction.count(program);
-    if count > means.writing.most_moves {
-        return Err(Box::new(at(too_many_pieces(count, means.writing.most_moves))));
+    if let Some(problem) = too_many_pieces(count, program, &means.writing) {
+        return Err(Box::new(at(problem)));
     }
     delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
-        let text = kind.text(program, provenance, &means.writing);
+        let text = kind.text(program, provenance, &means.writing).map_err(|it| Box::new(at(*it)))?;
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
         Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
     };

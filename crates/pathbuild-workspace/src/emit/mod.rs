@@ -36,7 +36,7 @@ use deliver::Means;
 pub use deliver::{Delivered, State, Task};
 use job::{Maker, take_clashes};
 use making::{Answer, Made, Making, deliver};
-pub(crate) use options::write_options;
+pub(crate) use options::writing;
 pub use provenance::Provenances;
 use stale::Dealt;
 use store::{Run, Store};

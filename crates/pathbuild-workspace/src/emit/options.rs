@@ -28,12 +28,18 @@ pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]
 }
 
 /// How files are written.
-pub(super) fn writing(context: &Workspace) -> Writing {
-    Writing { options: write_options(context), most_moves: context.settings.limits.embedding_moves.value }
+pub(crate) fn writing(context: &Workspace) -> Writing {
+    let limits = &context.settings.limits;
+    Writing {
+        options: write_options(context),
+        most_moves: limits.embedding_moves.value,
+        most_bytes: limits.output_size(),
+        most_memory: limits.program_memory.value,
+    }
 }
 
 /// How texts are written.
-pub(crate) fn write_options(context: &Workspace) -> WriteOptions {
+fn write_options(context: &Workspace) -> WriteOptions {
     let general = &context.settings.general;
     let charset = match general.charset.value {
         types::Charset::Ascii => Charset::Ascii,

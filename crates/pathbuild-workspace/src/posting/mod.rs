@@ -39,6 +39,7 @@ pub struct Poster {
     macros: Vec<PostMacro>,
     cycles: bool,
     charset: Charset,
+    most_bytes: usize,
     wishes: Wishes,
     manner: Manner,
     machine: Option<Machine>,
@@ -123,6 +124,7 @@ impl Poster {
             tools: tool_table(context),
             macros: macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect(),
             cycles: general.cycles.value,
+            most_bytes: context.settings.limits.output_size(),
             charset: match general.charset.value {
                 types::Charset::Ascii => Charset::Ascii,
                 types::Charset::Utf8 => Charset::Utf8,
@@ -194,6 +196,7 @@ impl Poster {
             output: output.map(|output| output.as_str().into()),
             run_post_build: self.wishes.run_post_build,
             charset: self.charset,
+            most_bytes: self.most_bytes,
             dialect: self.wishes.dialect.clone(),
             unchecked: self.manner.unchecked,
             program_number: self.manner.program_number,

@@ -24,6 +24,10 @@ pub struct Writing {
     pub options: WriteOptions,
     /// Most moves of a program, after cutting.
     pub most_moves: u64,
+    /// Most bytes that its moves may take in memory. (`[limits] program-memory`)
+    pub most_memory: u64,
+    /// Most bytes of a program's text. (`[limits] output-size`)
+    pub most_bytes: usize,
 }
 
 impl OutputKind {
@@ -58,13 +62,31 @@ impl OutputKind {
     }
 
     /// The whole text.
-    pub fn text(self, program: &Program, provenance: &str, writing: &Writing) -> String {
+    ///
+    /// # Errors
+    /// PB005: where it is too large.
+    pub fn text(
+        self,
+        program: &Program,
+        provenance: &str,
+        writing: &Writing,
+    ) -> Result<String, Box<Diagnostic>> {
         let header = Header { provenance: provenance.to_owned() };
         match self {
-            Self::Milling | Self::Clean => native::program(program, &header, &writing.options),
-            Self::Probing => native::probing_program(program, &header, &writing.options),
-            Self::Values => native::values_file(program, &writing.options),
+            Self::Milling | Self::Clean => writing.text(program, &header),
+            Self::Probing => Ok(native::probing_program(program, &header, &writing.options)),
+            Self::Values => Ok(native::values_file(program, &writing.options)),
         }
+    }
+}
+
+impl Writing {
+    /// The text of a program.
+    ///
+    /// # Errors
+    /// PB005: where it is too large.
+    pub fn text(&self, program: &Program, header: &Header) -> Result<String, Box<Diagnostic>> {
+        native::program_within(program, header, &self.options, self.most_bytes)
     }
 }
 

@@ -7,13 +7,13 @@ use pathbuild_db::{
     traced_program,
 };
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Correction;
 use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
 
-use super::Session;
-use crate::emit::write_options;
+use super::{Session, Writing};
+use crate::emit::writing;
 
 /// A scene, and what is wrong with what it shows.
 #[derive(Debug)]
@@ -48,19 +48,19 @@ impl Session<'_> {
         let checked =
             self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
         let Some(checked) = checked else { return (None, Vec::new()) };
-        let options = &write_options(self.context);
+        let writing = &writing(self.context);
         let work = |db: &pathbuild_db::Database, target: &Target| {
             let traced = traced_program(db, *target);
-            traced.as_deref().and_then(|traced| program_scene(db, traced, options))
+            traced.as_deref().map_or(Ok(None), |traced| program_scene(db, traced, writing))
         };
         let mut diagnostics = checked.diagnostics;
+        let at = |problem: Diagnostic| problem.in_file(file.path(&self.db)).in_path(name.as_str());
         let made = self.guarded(slice::from_ref(&checked.target), work).pop();
         match made {
-            Some(Ok(Some(scene))) => return (Some(scene), diagnostics),
-            Some(Err(problem)) => {
-                diagnostics.push(problem.in_file(file.path(&self.db)).in_path(name.as_str()));
-            }
-            Some(Ok(None)) | None => {}
+            Some(Ok(Ok(Some(scene)))) => return (Some(scene), diagnostics),
+            Some(Err(problem)) => diagnostics.push(at(*problem)),
+            Some(Ok(Err(problem))) => diagnostics.push(at(*problem)),
+            Some(Ok(Ok(None))) | None => {}
         }
         let drawn = drawn_path(&self.db, file, name);
         (drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn))), diagnostics)
@@ -68,18 +68,26 @@ impl Session<'_> {
 }
 
 /// A program with where it comes from; `None` where a drawing changed meanwhile.
-fn program_scene(db: &dyn Db, traced: &Traced, options: &WriteOptions) -> Option<ScenePath> {
+///
+/// # Errors
+/// PB005: where its text is too large.
+fn program_scene(
+    db: &dyn Db,
+    traced: &Traced,
+    writing: &Writing,
+) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let Traced { program, trace, parts } = traced;
     let sources = parts.iter().map(|part| {
         let drawn = drawn_path(db, part.file, &part.path.name)?;
         Some((drawn_source(db, part.file, drawn), &part.path))
     });
-    let sources: Vec<_> = sources.collect::<Option<_>>()?;
+    let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
     // Each line is to be one move.
-    let correction = Correction { longest: 0.0, ..options.correction };
-    let text = native::program(program, &Header::default(), &WriteOptions { correction, ..*options });
+    let correction = Correction { longest: 0.0, ..writing.options.correction };
+    let options = WriteOptions { correction, ..writing.options };
+    let text = Writing { options, ..*writing }.text(program, &Header::default())?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
-    Some(view::program_path(&ProgramSource { program, trace, parts: &sources, text: &text, rapid }))
+    Ok(Some(view::program_path(&ProgramSource { program, trace, parts: &sources, text: &text, rapid })))
 }
 
 fn drawn_source<'db>(db: &'db dyn Db, file: SourceFile, drawn: DrawnPath<'db>) -> DrawnSource<'db> {

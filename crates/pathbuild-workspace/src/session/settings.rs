@@ -47,7 +47,11 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         probe_feed: general.probe_feed.value,
         compatible: general.compatible.value,
     };
-    let limits = Limits { moves: limits.embedding_moves.value, paths: limits.embedded_paths.value };
+    let limits = Limits {
+        moves: limits.embedding_moves.value,
+        memory: limits.program_memory.value,
+        paths: limits.embedded_paths.value,
+    };
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 

@@ -1,5 +1,7 @@
 //! Tables whose keys are names that the configuration itself chooses.
 
+use std::sync::LazyLock;
+
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Code, Severity, Value};
 use pathbuild_path::LineType;
@@ -211,8 +213,9 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Co
 
 /// The code whose number or name is nearest, if one is near; of several that are as near, the first.
 pub fn nearest_code(name: &str) -> Option<String> {
-    let codes: Vec<(String, &str)> = Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect();
-    let names = codes.iter().flat_map(|(code, name)| [code.as_str(), name]);
+    static CODES: LazyLock<Vec<(String, &str)>> =
+        LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());
+    let names = CODES.iter().flat_map(|(code, name)| [code.as_str(), name]);
     nearest(name, names).map(str::to_owned)
 }
 

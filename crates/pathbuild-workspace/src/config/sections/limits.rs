@@ -40,8 +40,14 @@ limits! {
     entities: u64 = "entities", COUNT, 2_000_000, "2_000_000", Check;
     /// most moves of a program, with everything that it embeds
     embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000", Check;
+    /// memory that the moves of one program may take
+    program_memory: u64 = "program-memory", SIZE, 1 << 30, r#""1 GiB""#, Check;
+    /// largest program that is written
+    output_size: u64 = "output-size", SIZE, 256 << 20, r#""256 MiB""#, Emit;
     /// most cells of the material's map that `verify` visits
     verify_cells: u64 = "verify-cells", COUNT, 1_000_000_000, "1_000_000_000", Neither;
+    /// most pieces that `verify` cuts arcs and slopes into, to follow the material
+    verify_pieces: u64 = "verify-pieces", COUNT, 5_000_000, "5_000_000", Neither;
     /// most different paths, each with its values, in a program
     embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000", Check;
     /// most files and directories below one that is searched for drawings
@@ -52,4 +58,11 @@ limits! {
     text_length: u64 = "text-length", COUNT, 65_536, "65_536", Check;
     /// longest time for one path
     seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60", Check;
+}
+
+impl Settings {
+    /// The most bytes of a program that is written.
+    pub fn output_size(&self) -> usize {
+        usize::try_from(self.output_size.value).unwrap_or(usize::MAX)
+    }
 }

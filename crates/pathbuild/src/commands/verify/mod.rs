@@ -78,8 +78,10 @@ fn check(
         }
     })?;
     let drawn = program.drawn();
-    let cells = context.settings.limits.verify_cells.value;
-    let stock = stock::stock(context, &program, &tools, wishes, against).map(|stock| stock.with_cells(cells));
+    let allowed = &context.settings.limits;
+    let (cells, pieces) = (allowed.verify_cells.value, allowed.verify_pieces.value);
+    let stock = stock::stock(context, &program, &tools, wishes, against);
+    let stock = stock.map(|stock| stock.with_cells(cells).with_pieces(pieces));
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }

@@ -1,0 +1,227 @@
+//! `[limits]` of programs: each with an input just inside and one just outside, and shapes that would come to gigabytes.
+//! (docs/reliability.md)
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use crate::support::{Place, Run};
+use pathbuild_testkit::sheet;
+
+const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
+
+/// A control text, and a definition of CamBam's language: each writes its own native moves.
+const CAMBAM: &str = "m.cbpp";
+
+fn place(limits: &str, parameters: &str) -> Place {
+    let drawn = format!("layer 1202.1P\nstart 0,0 \"{parameters}\"\nmill 0,0 40,0\nend 40,0");
+    let post = "<PostProcessor><PostFile>{$mops}</PostFile><MOP>{$blocks}</MOP><Rapid>{$_g0} {$_x} {$_y} {$_z}</Rapid>\
+        <FeedMove>{$_g1} {$_f} {$_x} {$_y} {$_z}</FeedMove></PostProcessor>";
+    Place::new()
+        .file("pathbuild.toml", format!("{CONFIGURATION}[limits]\n{limits}\n"))
+        .file("1202.1P.dxf", sheet(&drawn).unwrap().to_dxf())
+        .file(CAMBAM, post)
+}
+
+fn programs(place: &Place) -> Vec<u64> {
+    let files = fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap());
+    let programs = files.filter(|file| file.file_name().to_string_lossy().contains("_Milling"));
+    programs.map(|file| file.metadata().unwrap().len()).collect()
+}
+
+#[track_caller]
+fn assert_exceeds(run: &Run, key: &str) {
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("PB005") && run.stderr.contains(&format!("`{key}`")), "{run}");
+}
+
+#[test]
+fn the_memory_of_a_program_is_limited() {
+    let parameters = "T5 O2 I0.01 B0 MX";
+    let asked = place("program-memory = 1", parameters).run("check 1202.1P.dxf --no-cache");
+    assert_exceeds(&asked, "program-memory");
+    let (_, rest) = asked.stderr.split_once("about ").unwrap();
+    let size: u64 = rest.split(' ').next().unwrap().parse().unwrap();
+    for command in ["check 1202.1P.dxf", "emit 1202.1P.dxf", "emit 1202.1P.dxf --post linuxcnc"] {
+        let inside = place(&format!("program-memory = {size}"), parameters);
+        let run = inside.run(command);
+        assert_eq!(run.status, Some(0), "{run}");
+        assert_eq!(programs(&inside).len(), usize::from(command.starts_with("emit")), "{run}");
+        let outside = place(&format!("program-memory = {}", size - 1), parameters);
+        assert_exceeds(&outside.run(command), "program-memory");
+        assert_eq!(programs(&outside), [0; 0]);
+    }
+}
+
+#[test]
+fn what_is_written_is_limited() {
+    let control_text = format!("--post ./{CAMBAM} --dialect linuxcnc");
+    for options in ["", "--post linuxcnc", "--post xpertmill", &control_text] {
+        let command = format!("emit 1202.1P.dxf {options}");
+        let parameters = "T5 O2 I0.1 B0 MX";
+        let whole = place("", parameters);
+        let run = whole.run(&command);
+        assert_eq!(run.status, Some(0), "{run}");
+        let [size] = programs(&whole)[..] else { panic!("{run}") };
+        let inside = place(&format!("output-size = {size}"), parameters);
+        let run = inside.run(&command);
+        assert_eq!((run.status, programs(&inside)), (Some(0), vec![size]), "{run}");
+        let outside = place(&format!("output-size = {}", size - 1), parameters);
+        assert_exceeds(&outside.run(&command), "output-size");
+        assert_eq!(programs(&outside), [0; 0]);
+    }
+}
+
+/// Some hundred bytes of drawing each: whoever checks or emits them hears of it at once.
+#[test]
+fn few_bytes_do_not_become_gigabytes() {
+    for parameters in ["T5 O2 I1 B-10000000 MX", "T5 O2 I0.0000001 B0 MX", "T5 O2 I0.0000001 B0 W4 MX"] {
+        for command in [
+            "check 1202.1P.dxf",
+            "emit 1202.1P.dxf",
+            "emit 1202.1P.dxf --post grbl",
+            "view 1202.1P.dxf -o v.svg",
+        ] {
+            let place = place("", parameters);
+            let begun = Instant::now();
+            let run = place.run(command);
+            assert_exceeds(
+                &run,
+                if run.stderr.contains("memory") { "program-memory" } else { "embedding-moves" },
+            );
+            assert!(begun.elapsed() < Duration::from_secs(20), "{parameters} {command}");
+            assert_eq!(programs(&place), [0; 0]);
+        }
+    }
+}
+
+/// A comment that every pass repeats.
+#[test]
+fn a_comment_does_not_fill_the_disk() {
+    let drawn = format!(
+        "layer 1202.1P\nstart 0,0 \"T5 O2 I0.05 B0 MX\"\nmill 0,0 40,0 \"Q{}\"\nend 40,0",
+        "x".repeat(20_000)
+    );
+    let drawing = sheet(&drawn).unwrap().to_dxf();
+    for command in ["emit 1202.1P.dxf", "emit 1202.1P.dxf --post linuxcnc", "view 1202.1P.dxf -o v.svg"] {
+        let place = place("output-size = \"1 MiB\"", "T5 O2 I1 B0 MX").file("1202.1P.dxf", &drawing);
+        assert_exceeds(&place.run(command), "output-size");
+        assert_eq!(programs(&place), [0; 0]);
+    }
+}
+
+/// A thousand faults of one text do not keep it a thousand times.
+#[test]
+fn faults_of_a_long_text_take_no_square_of_it() {
+    let words = "X ".repeat(20_000);
+    let drawing = format!(
+        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n1202.1P\n6\nPHANTOM\n10\n0\n20\n0\n40\n0.5\n\
+         0\nTEXT\n8\n1202.1P\n10\n0\n20\n0\n40\n1\n1\nT5 O2 {words}\n0\nENDSEC\n0\nEOF\n"
+    );
+    let place = Place::new().file("1202.1P.dxf", drawing);
+    let begun = Instant::now();
+    let run = place.run("check 1202.1P.dxf --format json");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+    assert!(run.stdout.lines().all(|line| line.len() < 20_000));
+}
+
+/// `verify-pieces`: what arcs and slopes are cut into.
+#[test]
+fn arcs_that_are_followed_are_limited() {
+    let circles = "G2 X0 Y0 I50 J0\n".repeat(4);
+    let program = format!("G17 G21 G90\nF500\nG0 Z20\nG0 X0 Y0\nG1 Z-1\n{circles}G0 Z20\nM30\n");
+    let verify = |most: u64| {
+        let place = Place::new()
+            .file("pathbuild.toml", format!("[limits]\nverify-pieces = {most}\n"))
+            .file("a.gcode", &program);
+        place.run("verify a.gcode --cutter 2 --surface 0 --dialect linuxcnc")
+    };
+    let asked = verify(1);
+    assert_exceeds(&asked, "verify-pieces");
+    let (_, rest) = asked.stderr.split_once("cut into ").unwrap();
+    let count: u64 = rest.split(' ').next().unwrap().parse().unwrap();
+    assert!(!verify(count).stderr.contains("PB005"), "{}", verify(count));
+    assert_exceeds(&verify(count - 1), "verify-pieces");
+}
+
+/// What grows with the input: four times as much takes at most five times as long, and a little more.
+#[test]
+fn work_grows_with_what_is_drawn() {
+    for (name, kind, count) in [
+        ("a fan of lines", fan as fn(usize) -> String, 1000),
+        ("a star with turn markers", star, 500),
+        ("a long chain", chain, 1000),
+        ("a chain with gaps", gaps, 500),
+        ("a polyline", polyline, 1000),
+    ] {
+        let time = |count: usize| {
+            let place = place("", "T5 O2 I1 B0 MX")
+                .file("pathbuild.toml", format!("join-tolerance = 0.01\n{CONFIGURATION}"))
+                .file("1202.1P.dxf", kind(count));
+            let begun = Instant::now();
+            let run = place.run("emit 1202.1P.dxf --format concise");
+            assert_eq!(run.status, Some(0), "{name}: {run}");
+            begun.elapsed()
+        };
+        // The better of two: other work on the machine is no part of it.
+        let least = |count: usize| time(count).min(time(count));
+        let (one, four) = (least(count), least(4 * count));
+        assert!(four < one * 6 + Duration::from_millis(500), "{name}: {one:?}, {four:?}");
+    }
+}
+
+fn entities(drawn: &str, end: (f64, f64)) -> String {
+    format!(
+        "0\nSECTION\n2\nENTITIES\n{}{}0\nTEXT\n8\n1202.1P\n10\n0\n20\n0\n40\n1\n1\nT5 O2 I5 B0 MX\n{drawn}0\nENDSEC\n0\nEOF\n",
+        circle((0.0, 0.0), 0.5),
+        circle(end, 1.0),
+    )
+}
+
+fn circle((x, y): (f64, f64), radius: f64) -> String {
+    format!("0\nCIRCLE\n8\n1202.1P\n6\nPHANTOM\n10\n{x}\n20\n{y}\n40\n{radius}\n")
+}
+
+fn line((x, y): (f64, f64), (u, v): (f64, f64)) -> String {
+    format!("0\nLINE\n8\n1202.1P\n6\nCONTINUOUS\n10\n{x}\n20\n{y}\n11\n{u}\n21\n{v}\n")
+}
+
+fn at(index: usize) -> (f64, f64) {
+    let index = u32::try_from(index).unwrap();
+    (f64::from(index) * 0.25, f64::from(index % 2) * 3.0)
+}
+
+/// Lines from one point to one other.
+fn fan(count: usize) -> String {
+    entities(&line((0.0, 0.0), (10.0, 0.0)).repeat(count + 1), (10.0, 0.0))
+}
+
+/// Lines of one point, with a turn marker at each tip.
+fn star(count: usize) -> String {
+    let spoke = |index: usize| {
+        let angle = 6.0 * f64::from(u32::try_from(index).unwrap()) / f64::from(u32::try_from(count).unwrap());
+        let tip = (50.0 * angle.cos(), 50.0 * angle.sin());
+        line((0.0, 0.0), tip) + &circle(tip, 0.75)
+    };
+    let spokes: String = (0..count).map(spoke).collect();
+    entities(&(spokes + &line((0.0, 0.0), (100.0, 0.0))), (100.0, 0.0))
+}
+
+fn chain(count: usize) -> String {
+    entities(&(0..count).map(|index| line(at(index), at(index + 1))).collect::<String>(), at(count))
+}
+
+/// Ends that do not quite meet.
+fn gaps(count: usize) -> String {
+    let with_gap = |index: usize| {
+        let ((x, y), to) = (at(index), at(index + 1));
+        line((x + 0.004, y), to)
+    };
+    entities(&(0..count).map(with_gap).collect::<String>(), at(count))
+}
+
+fn polyline(count: usize) -> String {
+    let vertices: String = (0..=count).map(at).map(|(x, y)| format!("10\n{x}\n20\n{y}\n")).collect();
+    let drawn = format!("0\nLWPOLYLINE\n8\n1202.1P\n6\nCONTINUOUS\n90\n{}\n70\n0\n{vertices}", count + 1);
+    entities(&drawn, at(count))
+}
