@@ -13,6 +13,7 @@ mod compat;
 mod config;
 mod conformance;
 mod diagnostics;
+mod diff;
 mod documents;
 mod elsewhere;
 mod emit;

@@ -126,7 +126,7 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
         cache: None,
         reporter: Rc::<Printer>::clone(&printer),
     };
-    let context = Context::new(&cli, printer, workspace);
+    let context = Context::new(&cli, cli.common.overrides(), printer, workspace);
     let status = commands::run(&context, &cli.command);
     (status, system.left.load(Ordering::SeqCst) == 0 || system.left.load(Ordering::SeqCst) > reads)
 }

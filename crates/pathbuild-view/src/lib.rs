@@ -4,6 +4,7 @@
 //! errors, or from G-code. Renderers turn it into text or bytes. Nothing here does IO or prints. (docs: "Pictures")
 
 mod build;
+mod changes;
 #[cfg(feature = "pictures")]
 mod page;
 #[cfg(feature = "pictures")]
@@ -14,6 +15,7 @@ mod svg;
 pub use build::{
     DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, other_layers, program_path,
 };
+pub use changes::{Change, ChangeKind, Group, compare, groups, phrase};
 #[cfg(feature = "pictures")]
 pub use page::page;
 #[cfg(feature = "pictures")]
@@ -22,4 +24,4 @@ pub use scene::{
     Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Point,
     ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
 };
-pub use svg::{Shown, svg};
+pub use svg::{Picture, Shown, changes_svg, escaped, svg};

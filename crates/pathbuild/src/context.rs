@@ -2,10 +2,14 @@
 
 use std::ops::Deref;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::Utf8Path;
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_workspace::{Workspace, config, files};
+use pathbuild_workspace::config::{self, Overrides, Settings};
+use pathbuild_workspace::{Inputs, Workspace, files};
 use serde_json::Value;
 
 use crate::args::{Cli, Format};
@@ -25,6 +29,8 @@ pub struct Context {
     pub format: Format,
     /// What programs read of the run.
     pub(crate) output: Output,
+    /// What the command line says beside the configuration.
+    pub overrides: Overrides,
     /// What the run works in.
     pub workspace: Workspace,
 }
@@ -39,9 +45,24 @@ impl Deref for Context {
 
 impl Context {
     /// What a command line works in.
-    pub fn new(cli: &Cli, printer: Rc<Printer>, workspace: Workspace) -> Self {
+    pub fn new(cli: &Cli, overrides: Overrides, printer: Rc<Printer>, workspace: Workspace) -> Self {
         let output = Output::new(&cli.command, &cli.common);
-        Self { printer, format: output.format, output, workspace }
+        Self { printer, format: output.format, output, overrides, workspace }
+    }
+
+    /// What a run in another tree works in: its own configuration holds, and nothing is kept for later. Also what is wrong with that.
+    pub fn elsewhere(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
+        let (settings, faults) = config::load(&self.overrides, inputs, &self.working_directory);
+        let workspace = Workspace {
+            system: system_of(&settings),
+            settings,
+            own_lang: self.own_lang,
+            working_directory: self.working_directory.clone(),
+            jobs: self.jobs,
+            cache: None,
+            reporter: self.printer.clone(),
+        };
+        (workspace, faults)
     }
 
     /// Findings with the severities of the configuration, in order, each once.
@@ -171,5 +192,13 @@ impl Context {
             width: self.printer.width(stream),
             ..self.plain_view()
         }
+    }
+}
+
+/// The files that a run with these settings sees.
+pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
+    match &settings.confined {
+        Some(confined) => Arc::new(confined.clone()),
+        None => Arc::new(OsSystem),
     }
 }

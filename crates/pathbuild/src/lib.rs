@@ -19,11 +19,8 @@ mod watching;
 
 use std::ffi::OsString;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use camino::Utf8PathBuf;
-use pathbuild_db::System;
-use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{Overrides, User};
 use pathbuild_workspace::{Workspace, config};
@@ -105,22 +102,18 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     faults.extend(more);
     let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
     let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
-    let system: Arc<dyn System> = match &settings.confined {
-        Some(confined) => Arc::new(confined.clone()),
-        None => Arc::new(OsSystem),
-    };
     let cache_home =
         || surroundings::cache_home(common.cache_dir.as_deref(), user.cache_dir, &working_directory);
     let workspace = Workspace {
+        system: context::system_of(&settings),
         settings,
-        system,
         own_lang: common.lang.map(Lang::from).or_else(surroundings::lang).or(user.lang),
         jobs: common.jobs,
         cache: if common.no_cache { None } else { cache_home() },
         working_directory,
         reporter: printer.clone(),
     };
-    let context = Context::new(cli, printer, workspace);
+    let context = Context::new(cli, given, printer, workspace);
     (context, faults)
 }
 

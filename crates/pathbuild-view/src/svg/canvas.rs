@@ -101,7 +101,7 @@ impl Canvas {
 }
 
 /// A text within SVG: on one line, what acts in it shown, what is XML's escaped.
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in shown::line(text).chars() {
         match character {

@@ -47,6 +47,11 @@ impl Frame {
         for at in scene.findings.iter().filter_map(|finding| finding.at) {
             widen(&mut corners, [at, at]);
         }
+        Self::around(corners)
+    }
+
+    /// The frame round corners: the lowest and the highest.
+    pub(super) fn around(corners: Option<[Point; 2]>) -> Self {
         let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [LEAST; 2]]);
         for axis in [0, 1] {
             let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
@@ -111,7 +116,7 @@ fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
     shapes.chain(moves).chain(rapids).chain(texts).map(moved).collect()
 }
 
-fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
+pub(super) fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
     if ![low, high].iter().flatten().all(|value| value.is_finite()) {
         return;
     }

@@ -1,6 +1,7 @@
 //! Scenes as SVG: the same bytes for the same scene, light for print, in colours that the colour-blind tell apart.
 
 mod canvas;
+mod changes;
 mod frame;
 mod legend;
 mod marks;
@@ -12,8 +13,8 @@ use pathbuild_diagnostic::Lang;
 
 use crate::scene::Scene;
 use canvas::Canvas;
-#[cfg(feature = "pictures")]
-pub(crate) use canvas::escaped;
+pub use canvas::escaped;
+pub use changes::{Picture, changes_svg};
 use frame::Frame;
 use palette::Depths;
 

@@ -167,7 +167,7 @@ pub(super) fn along(it: &Move, share: f64) -> Point {
 }
 
 /// A move as path data: arcs of the plane stay arcs.
-fn data(it: &Move, place: &Place) -> String {
+pub(super) fn data(it: &Move, place: &Place) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))

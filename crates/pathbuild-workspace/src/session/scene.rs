@@ -4,10 +4,11 @@ use std::slice;
 
 use pathbuild_db::{
     Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, other_layers,
-    traced_program,
+    path_names, program, traced_program,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{Header, WriteOptions};
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Correction;
 use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
@@ -64,6 +65,22 @@ impl Session<'_> {
         }
         let drawn = drawn_path(&self.db, file, name);
         (drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn))), diagnostics)
+    }
+
+    /// A hash of the moves of each path of some drawings, of the programs that [`scene`](Self::scene) shows; `None` where a path has errors.
+    pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<(SourceFile, PathName, Option<Box<str>>)> {
+        let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
+        let wanted: Vec<(SourceFile, PathName)> =
+            names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
+        let checked = self.each(&wanted, |asking, (file, name)| asking.check_as_known(*file, name));
+        let targets: Vec<Target> = checked.into_iter().map(|checked| checked.target).collect();
+        let hash = |db: &pathbuild_db::Database, target: &Target| {
+            program(db, *target)
+                .as_deref()
+                .map(|program| Provenance::of_programs(&[program], &[], None).moves)
+        };
+        let hashes = self.guarded(&targets, hash).into_iter().map(|hash| hash.ok().flatten());
+        wanted.into_iter().zip(hashes).map(|((file, name), hash)| (file, name, hash)).collect()
     }
 }
 

@@ -31,11 +31,20 @@ pub struct ViewArgs {
 }
 
 /// `pathbuild diff`
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct DiffArgs {
-    /// What is compared.
+    /// What there was: a directory, a drawing, a Git revision, or a G-code program
+    #[arg(value_name = "OLD")]
+    pub old: String,
+    /// What there is: the same, or for a program a path; else the working directory
+    #[arg(value_name = "NEW")]
+    pub new: Option<String>,
+    /// File to write as well: .html (with pictures), .md (for a pull request) or .json
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// How programs are read.
     #[command(flatten)]
-    pub inputs: InputArgs,
+    pub reading: ReadingArgs,
 }
 
 /// `pathbuild q-project`

@@ -60,8 +60,7 @@ pub enum Command {
     Texts(Deferred<TextsArgs>),
     /// Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON
     View(Deferred<ViewArgs>),
-    /// Show what a change of drawings does to the moves
-    #[command(hide = true)]
+    /// Show what a change of drawings does to the moves: between directories, Git revisions, or a program and a path
     Diff(Deferred<DiffArgs>),
     /// Read a G-code program and print what it is
     Import(Deferred<ImportArgs>),
@@ -110,7 +109,6 @@ impl Command {
             Self::Watch(args) => (*args.inputs).clone(),
             Self::Texts(args) => (*args.inputs).clone(),
             Self::View(args) => Inputs { inputs: vec![args.what.clone()] },
-            Self::Diff(args) => (*args.inputs).clone(),
             Self::Graph(args)
             | Self::Deps(args)
             | Self::Rdeps(args)

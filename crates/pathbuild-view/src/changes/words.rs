@@ -1,0 +1,55 @@
+//! Changes in words.
+
+use pathbuild_diagnostic::{Lang, Number};
+
+use super::{ChangeKind, Group};
+
+/// How a group of moves changed: "0.5 mm deeper, feed 150 instead of 300".
+pub fn phrase(group: &Group, lang: Lang) -> String {
+    match lang {
+        Lang::En => english(group.kind),
+        Lang::De => german(group.kind),
+    }
+}
+
+fn english(kind: Option<ChangeKind>) -> String {
+    match kind {
+        None => "other rapid moves".into(),
+        Some(ChangeKind::Added) => "added".into(),
+        Some(ChangeKind::Removed) => "removed".into(),
+        Some(ChangeKind::Reordered) => "at another place in the order".into(),
+        Some(ChangeKind::Shifted([x, y])) => format!("shifted by ({}, {}) mm", Number(x), Number(y)),
+        Some(ChangeKind::Altered { raised, feed }) => {
+            let height = (raised != 0.0).then(|| {
+                let way = if raised < 0.0 { "deeper" } else { "higher" };
+                format!("{} mm {way}", Number(raised.abs()))
+            });
+            let feed = feed.map(|[was, is]| {
+                let way = if is > was { "faster" } else { "slower" };
+                format!("{way}: F{} instead of F{}", Number(is), Number(was))
+            });
+            height.into_iter().chain(feed).collect::<Vec<_>>().join(", ")
+        }
+    }
+}
+
+fn german(kind: Option<ChangeKind>) -> String {
+    match kind {
+        None => "andere Eilgänge".into(),
+        Some(ChangeKind::Added) => "dazugekommen".into(),
+        Some(ChangeKind::Removed) => "weggefallen".into(),
+        Some(ChangeKind::Reordered) => "an anderer Stelle der Reihenfolge".into(),
+        Some(ChangeKind::Shifted([x, y])) => format!("um ({}, {}) mm verschoben", Number(x), Number(y)),
+        Some(ChangeKind::Altered { raised, feed }) => {
+            let height = (raised != 0.0).then(|| {
+                let way = if raised < 0.0 { "tiefer" } else { "höher" };
+                format!("{} mm {way}", Number(raised.abs()))
+            });
+            let feed = feed.map(|[was, is]| {
+                let way = if is > was { "schneller" } else { "langsamer" };
+                format!("{way}: F{} statt F{}", Number(is), Number(was))
+            });
+            height.into_iter().chain(feed).collect::<Vec<_>>().join(", ")
+        }
+    }
+}

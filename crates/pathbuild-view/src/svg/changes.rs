@@ -1,0 +1,150 @@
+//! What a change of a drawing does to the moves of a path, as a picture. Old and new lie in one frame, so that pictures can be laid over each
+//! other.
+
+use pathbuild_diagnostic::Lang;
+
+use super::canvas::{Anchor, Canvas, n};
+use super::frame::{Frame, Place, widen};
+use super::moves::data;
+use super::palette::{BAR, INK, OTHER, RAPID};
+use crate::changes::{Change, ChangeKind, Group, groups, phrase};
+use crate::scene::{Move, MoveKind, Point};
+
+/// Blue: what is new. Vermilion and broken: what is gone. The colour-blind tell them apart by the line.
+const ADDED: &str = "#0072b2";
+const REMOVED: &str = "#d55e00";
+const SHIFTED: &str = "#009e73";
+
+/// The height of a line of the legend, and the size of its letters, in px.
+const LINE: f64 = 20.0;
+const LETTERS: f64 = 13.0;
+
+/// Which of the pictures of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// Old and new in one, with what changed in colours and a legend.
+    Changes,
+    /// What was milled.
+    Old,
+    /// What is milled now.
+    New,
+}
+
+/// The programs of a path before and after, and what changed between them.
+#[derive(Clone, Copy, Debug)]
+struct Pair<'a> {
+    old: &'a [Move],
+    new: &'a [Move],
+    changes: &'a [Change],
+}
+
+/// Draws a change. All pictures of one have the same size and scale.
+pub fn changes_svg(old: &[Move], new: &[Move], changes: &[Change], picture: Picture, lang: Lang) -> String {
+    let frame = frame(old.iter().chain(new));
+    let place = frame.of_drawing();
+    let pair = Pair { old, new, changes };
+    let groups = groups(changes, old, new);
+    let legend = if picture == Picture::Changes { groups.len() as f64 * LINE } else { 0.0 };
+    let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom() + legend);
+    canvas.open("fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+    match picture {
+        Picture::Old => all(&mut canvas, old, &place, REMOVED),
+        Picture::New => all(&mut canvas, new, &place, ADDED),
+        Picture::Changes => pair.draw(&mut canvas, &place),
+    }
+    canvas.close();
+    if picture == Picture::Changes {
+        for (index, group) in groups.iter().enumerate() {
+            entry(&mut canvas, group, frame.bottom() + index as f64 * LINE, lang);
+        }
+    }
+    canvas.finish()
+}
+
+impl Pair<'_> {
+    /// What stays in grey below, what changed above.
+    fn draw(&self, canvas: &mut Canvas, place: &Place) {
+        let mut is_changed = vec![false; self.new.len()];
+        for change in self.changes {
+            is_changed[change.new.clone()].fill(true);
+        }
+        let stays = self.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
+        for (it, _) in stays {
+            stroke(canvas, it, place, OTHER, "");
+        }
+        for change in self.changes {
+            let (old, new) = (&self.old[change.old.clone()], &self.new[change.new.clone()]);
+            let was = if matches!(change.kind, ChangeKind::Altered { .. } | ChangeKind::Reordered) {
+                &[]
+            } else {
+                old
+            };
+            for it in was {
+                stroke(canvas, it, place, REMOVED, DASHES);
+            }
+            for it in new {
+                stroke(canvas, it, place, color(Some(change.kind)), dashes(Some(change.kind)));
+            }
+        }
+    }
+}
+
+const DASHES: &str = " stroke-dasharray=\"5 4\"";
+
+fn all(canvas: &mut Canvas, moves: &[Move], place: &Place, color: &str) {
+    for it in moves {
+        stroke(canvas, it, place, color, "");
+    }
+}
+
+fn stroke(canvas: &mut Canvas, it: &Move, place: &Place, color: &str, dashes: &str) {
+    if !it.is_placed() || it.kind == MoveKind::Lift {
+        return;
+    }
+    if matches!(it.kind, MoveKind::Plunge | MoveKind::Probe) {
+        return canvas.circle(place.at(it.to()), 2.5, &format!("stroke=\"{color}\"{dashes}"));
+    }
+    let (width, dashes) =
+        if it.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
+    canvas.path(&data(it, place), &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)));
+}
+
+fn color(kind: Option<ChangeKind>) -> &'static str {
+    match kind {
+        None => RAPID,
+        Some(ChangeKind::Added) => ADDED,
+        Some(ChangeKind::Removed) => REMOVED,
+        Some(ChangeKind::Altered { .. }) => BAR,
+        Some(ChangeKind::Shifted(_)) => SHIFTED,
+        Some(ChangeKind::Reordered) => RAPID,
+    }
+}
+
+fn dashes(kind: Option<ChangeKind>) -> &'static str {
+    match kind {
+        Some(ChangeKind::Removed) => DASHES,
+        Some(ChangeKind::Reordered) => " stroke-dasharray=\"9 3 2 3\"",
+        _ => "",
+    }
+}
+
+/// A line of the legend.
+fn entry(canvas: &mut Canvas, group: &Group, top: f64, lang: Lang) {
+    let middle = top + LINE / 2.0;
+    let style = format!("stroke=\"{}\" stroke-width=\"2\"{}", color(group.kind), dashes(group.kind));
+    canvas.line([40.0, middle], [76.0, middle], &style);
+    let moves = match lang {
+        Lang::En => "moves",
+        Lang::De => "Bewegungen",
+    };
+    let text = format!("{}: {} {moves}, {} mm", phrase(group, lang), group.moves, n(group.length));
+    canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
+}
+
+fn frame<'a>(moves: impl Iterator<Item = &'a Move>) -> Frame {
+    let mut corners: Option<[Point; 2]> = None;
+    for extent in moves.filter_map(Move::extent) {
+        widen(&mut corners, extent);
+    }
+    Frame::around(corners)
+}

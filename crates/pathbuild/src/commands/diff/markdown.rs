@@ -1,0 +1,41 @@
+//! A comparison as Markdown, for a pull request. Names come from drawings: nothing in them is markup.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_workspace::diff::{Comparison, Outcome};
+
+use super::text::{details, either, outcome, place, summary};
+
+/// A table with a row for each path.
+pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
+    let mut text = format!("**pathbuild**: {}\n", summary(comparison, lang));
+    if comparison.paths.is_empty() {
+        return text;
+    }
+    let head = either(lang, "| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
+    _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
+    for path in &comparison.paths {
+        let mut cell = outcome(path, lang).to_owned();
+        if let Outcome::Changed(program) = &path.outcome {
+            cell = details(program, lang).iter().map(|line| escaped(line)).collect::<Vec<_>>().join("<br>");
+        }
+        _ = writeln!(text, "| {} | {} | {cell} |", escaped(&path.name), escaped(&place(path)));
+    }
+    text
+}
+
+/// A text as Markdown shows it: whatever could be markup, a link or a mention is written as a character's number.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in shown::line(text).chars() {
+        let is_plain =
+            character.is_alphanumeric() || matches!(character, ' ' | '.' | ',' | '/' | '-' | '(' | ')' | '→');
+        if is_plain {
+            escaped.push(character);
+        } else {
+            _ = write!(escaped, "&#{};", u32::from(character));
+        }
+    }
+    escaped
+}

@@ -1,0 +1,67 @@
+//! Where a comparison goes beside what is printed.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Written;
+use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_workspace::diff::Comparison;
+use pathbuild_workspace::files::cannot_write;
+
+use super::{json, markdown, page};
+use crate::context::Context;
+
+/// A file, and as what.
+pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Html,
+    Markdown,
+    Json,
+}
+
+impl Output {
+    /// By the file's name.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn of(file: Option<&Utf8Path>) -> Result<Self, String> {
+        let Some(file) = file else { return Ok(Self(None)) };
+        let format = match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
+            "html" => Format::Html,
+            "md" => Format::Markdown,
+            "json" => Format::Json,
+            _ => {
+                return Err(format!(
+                    "-o {}: the name must end in .html, .md or .json",
+                    shown::line(file.as_str())
+                ));
+            }
+        };
+        Ok(Self(Some((format, file.to_owned()))))
+    }
+
+    /// Whether it shows pictures.
+    pub(super) fn has_pictures(&self) -> bool {
+        matches!(self.0, Some((Format::Html, _)))
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(super) fn deliver(&self, context: &Context, comparison: &Comparison) -> Result<(), Box<Diagnostic>> {
+        let Some((format, file)) = &self.0 else { return Ok(()) };
+        let text = match format {
+            Format::Html => page::page(comparison, context.lang()),
+            Format::Markdown => markdown::markdown(comparison, context.lang()),
+            Format::Json => json::json(comparison),
+        };
+        let refused = |reason: Box<str>| Box::new(cannot_write(file, &reason));
+        let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
+            Written::Changed => context.choose("written", "geschrieben"),
+            Written::Unchanged => context.choose("unchanged", "unverändert"),
+        };
+        context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
+        Ok(())
+    }
+}

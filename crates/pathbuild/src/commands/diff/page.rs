@@ -1,0 +1,61 @@
+//! A comparison as one HTML file that asks the network for nothing.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_view::escaped;
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet};
+
+use super::text::{details, either, outcome, place, summary};
+
+const TEMPLATE: &str = include_str!("page.html");
+
+/// The page.
+pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
+    let (before, behind) = TEMPLATE.split_once("{{paths}}").unwrap_or((TEMPLATE, ""));
+    let code = either(lang, "en", "de");
+    let title = format!("pathbuild diff: {}", summary(comparison, lang));
+    let mut page = before.replace("{{lang}}", code).replace("{{title}}", &escaped(&title));
+    for path in &comparison.paths {
+        section(&mut page, path, lang);
+    }
+    page.push_str(behind);
+    page
+}
+
+fn section(page: &mut String, path: &PathDiff, lang: Lang) {
+    _ = writeln!(
+        page,
+        "<section>\n<h2>{} <small>{}</small></h2>\n<p>{}</p>",
+        escaped(&path.name),
+        escaped(&place(path)),
+        outcome(path, lang)
+    );
+    if let Outcome::Changed(program) = &path.outcome {
+        page.push_str("<ul>\n");
+        for line in details(program, lang) {
+            _ = writeln!(page, "<li>{}</li>", escaped(&line));
+        }
+        page.push_str("</ul>\n");
+        if let Some(pictures) = &program.pictures {
+            show(page, pictures, lang);
+        }
+    }
+    page.push_str("</section>\n");
+}
+
+/// The pictures three ways. Without scripts the changes are seen.
+fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: Lang) {
+    let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", either(lang, en, de));
+    let label = either(lang, "old to new", "alt bis neu");
+    _ = writeln!(
+        page,
+        "<div class=\"pictures\" data-way=\"changes\">\n<nav>{}{}{}</nav>\n<div class=\"changes\">{changes}</div>\n\
+         <div class=\"beside\"><div>{old}</div><div>{new}</div></div>\n\
+         <div class=\"over\"><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"{label}\">\
+         <div class=\"stack\"><div>{old}</div><div class=\"new\">{new}</div></div></div>\n</div>",
+        button("changes", "changes", "Änderungen"),
+        button("beside", "side by side", "nebeneinander"),
+        button("over", "laid over each other", "übereinander"),
+    );
+}

@@ -1,0 +1,142 @@
+//! What the arguments of `diff` mean.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::Kind;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::{Inputs, Workspace};
+
+use super::revision::{self, Revision};
+use crate::args::DiffArgs;
+use crate::commands::program::Program;
+use crate::context::Context;
+
+/// One of the two sides.
+pub(super) enum Side {
+    Drawings(Box<Drawings>),
+    Program(Box<Seen>),
+}
+
+/// Drawings below a directory, with the configuration that holds there.
+pub(super) struct Drawings {
+    pub(super) workspace: Workspace,
+    pub(super) inputs: Inputs,
+    pub(super) root: Utf8PathBuf,
+    /// What was taken out of Git; its files go with it.
+    revision: Option<Revision>,
+}
+
+/// A program, or a path's.
+pub(super) struct Seen {
+    pub(super) path: ScenePath,
+    pub(super) problems: Vec<Diagnostic>,
+}
+
+/// Why nothing can be compared.
+pub(super) enum Failure {
+    Usage(String),
+    Refused(Vec<Diagnostic>),
+    Found(Vec<Diagnostic>),
+}
+
+/// What an argument is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Nature {
+    Drawings,
+    Program,
+    /// A revision, or beside a program a path.
+    Name,
+}
+
+/// Both sides, the old one first.
+pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
+    let new = args.new.as_deref().unwrap_or(".");
+    let natures = [args.old.as_str(), new].map(|argument| nature(context, argument));
+    let beside_program = natures.contains(&Nature::Program);
+    let side = |argument: &str, nature| match nature {
+        Nature::Program => program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program),
+        Nature::Name if beside_program => path(context, argument).map(Box::new).map(Side::Program),
+        Nature::Drawings => drawings(context, argument.into(), None),
+        Nature::Name => {
+            let revision = revision::checked_out(context, argument).map_err(Failure::Usage)?;
+            drawings(context, revision.root.clone(), Some(revision))
+        }
+    };
+    Ok([side(&args.old, natures[0])?, side(new, natures[1])?])
+}
+
+fn nature(context: &Context, argument: &str) -> Nature {
+    let place = Utf8Path::new(argument);
+    let is_drawing = Session::is_drawing(place);
+    match context.system.kind(place) {
+        Kind::Directory => Nature::Drawings,
+        Kind::File if is_drawing => Nature::Drawings,
+        Kind::File => Nature::Program,
+        _ if argument == "." => Nature::Drawings,
+        _ => Nature::Name,
+    }
+}
+
+fn drawings(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
+    let is_drawing = Session::is_drawing(&place);
+    let named = Inputs::places([&place]);
+    let (workspace, faults) = context.elsewhere(&named);
+    if !faults.is_empty() {
+        return Err(Failure::Refused(faults));
+    }
+    let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
+    let absolute =
+        |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
+    // The directory of a configuration stands for its library.
+    let is_library = !is_drawing
+        && workspace.has_library()
+        && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
+    let inputs = if is_library { Inputs::default() } else { named };
+    Ok(Side::Drawings(Box::new(Drawings { workspace, inputs, root, revision })))
+}
+
+impl Drawings {
+    /// Names files of a revision as Git does.
+    pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
+        let Some(revision) = &self.revision else { return };
+        for problem in problems {
+            let place = problem.file.as_deref().map(|file| context.working_directory.join(file));
+            let below = place.as_deref().and_then(|place| place.strip_prefix(&revision.root).ok());
+            if let Some(below) = below {
+                problem.file = Some(format!("{}:{below}", revision.name).into());
+            }
+        }
+    }
+}
+
+fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Seen, Failure> {
+    let program =
+        Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
+    let source =
+        GcodeSource { file: file.as_str(), steps: &program.read.steps, text: &program.text, tool: None };
+    Ok(Seen { path: gcode_path(&source), problems: program.read.problems })
+}
+
+/// The program of a path that a name means in the working directory.
+fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
+    let inputs = Inputs { inputs: vec![name.to_owned()] };
+    Session::new(context).settled(|session| {
+        let wanted = session.wanted(&inputs);
+        let [path] = wanted.paths.as_slice() else {
+            let reason = || format!("{name:?} is neither a directory nor a program nor one path");
+            let problems = wanted.problems;
+            return Err(if problems.is_empty() {
+                Failure::Usage(reason())
+            } else {
+                Failure::Found(problems)
+            });
+        };
+        let seen = session.scene(path.file, std::slice::from_ref(&path.name));
+        if seen.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(Failure::Found(seen.diagnostics));
+        }
+        let path = seen.scene.paths.into_iter().next().unwrap_or_default();
+        Ok(Seen { path, problems: seen.diagnostics })
+    })
+}

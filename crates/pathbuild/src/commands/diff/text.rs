@@ -1,0 +1,129 @@
+//! A comparison for people.
+
+use std::fmt::Write;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Lang, Number, shown};
+use pathbuild_view::{Group, Totals, phrase};
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, ProgramDiff};
+
+/// The whole comparison: what became of each path, and how many of how many it concerns.
+pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
+    let mut text = String::new();
+    for path in &comparison.paths {
+        _ = writeln!(
+            text,
+            "{} · {}: {}",
+            shown::line(&path.name),
+            shown::line(&place(path)),
+            outcome(path, lang)
+        );
+        if let Outcome::Changed(program) = &path.outcome {
+            for line in details(program, lang) {
+                _ = writeln!(text, "  {line}");
+            }
+        }
+    }
+    _ = writeln!(text, "{}", summary(comparison, lang));
+    text
+}
+
+/// The drawing of a path; of one that moved to another drawing both.
+pub(super) fn place(path: &PathDiff) -> String {
+    let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
+    match (old, new) {
+        (Some(old), Some(new)) if old != new => format!("{old} → {new}"),
+        (_, Some(file)) | (Some(file), None) => file.to_owned(),
+        (None, None) => String::new(),
+    }
+}
+
+/// What became of a path, in a few words.
+pub(super) fn outcome(path: &PathDiff, lang: Lang) -> &'static str {
+    let (en, de) = match &path.outcome {
+        Outcome::Added => ("new", "neu"),
+        Outcome::Removed => ("gone", "weg"),
+        Outcome::Broken => ("has errors now", "hat jetzt Fehler"),
+        Outcome::Mended => ("had errors, has none now", "hatte Fehler, jetzt keine mehr"),
+        Outcome::StillBroken => ("has errors, before and now", "hat Fehler, vorher und jetzt"),
+        Outcome::OtherDrawing => {
+            ("the same moves, from another drawing", "dieselben Bewegungen, aus anderer Zeichnung")
+        }
+        Outcome::Changed(_) => ("changed", "geändert"),
+    };
+    either(lang, en, de)
+}
+
+/// A line for each kind of change, and one for the whole.
+pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
+    let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
+    if let [Some(old), Some(new)] = program.totals {
+        lines.push(totals(&old, &new, lang));
+    }
+    lines
+}
+
+fn line(group: &Group, lang: Lang) -> String {
+    let moves = match (group.moves, lang) {
+        (1, Lang::En) => "move",
+        (_, Lang::En) => "moves",
+        (1, Lang::De) => "Bewegung",
+        (_, Lang::De) => "Bewegungen",
+    };
+    let first = either(lang, "the first to", "die erste nach");
+    let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
+    format!("{}: {} {moves}, {} mm{at}", phrase(group, lang), group.moves, Number(tenths(group.length)))
+}
+
+fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
+    let length = |totals: &Totals| Number(tenths(totals.milling + totals.drilling));
+    let minutes = match (old.minutes, new.minutes) {
+        (Some(old), Some(new)) if (old - new).abs() > f64::EPSILON => {
+            format!(", {} → {} min", Number(old), Number(new))
+        }
+        (_, Some(new)) => format!(", {} min", Number(new)),
+        _ => String::new(),
+    };
+    format!("{}: {} → {} mm{minutes}", either(lang, "cutting", "Fräsweg"), length(old), length(new))
+}
+
+/// "2 of 35 paths changed, 1 new".
+pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
+    let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
+    let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
+    let mut parts = vec![match lang {
+        Lang::En => format!("{changed} of {} paths changed", comparison.looked_at),
+        Lang::De => format!("{changed} von {} Pfaden geändert", comparison.looked_at),
+    }];
+    let mut add = |number: usize, en: &str, de: &str| {
+        if number > 0 {
+            parts.push(format!("{number} {}", either(lang, en, de)));
+        }
+    };
+    add(count(|outcome| matches!(outcome, Outcome::Added)), "new", "neu");
+    add(count(|outcome| matches!(outcome, Outcome::Removed)), "gone", "weg");
+    add(count(|outcome| matches!(outcome, Outcome::Broken)), "with errors now", "jetzt mit Fehlern");
+    add(count(|outcome| matches!(outcome, Outcome::Mended)), "without errors now", "jetzt ohne Fehler");
+    add(
+        count(|outcome| matches!(outcome, Outcome::StillBroken)),
+        "with errors before and now",
+        "vorher und jetzt mit Fehlern",
+    );
+    add(
+        count(|outcome| matches!(outcome, Outcome::OtherDrawing)),
+        "from another drawing",
+        "aus anderer Zeichnung",
+    );
+    parts.join(", ")
+}
+
+pub(super) fn either<'a>(lang: Lang, en: &'a str, de: &'a str) -> &'a str {
+    match lang {
+        Lang::En => en,
+        Lang::De => de,
+    }
+}
+
+fn tenths(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0
+}

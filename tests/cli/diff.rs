@@ -1,0 +1,201 @@
+//! `diff`: what a change of drawings does to the moves.
+
+use std::fs;
+use std::process::Command;
+
+use crate::support::{Place, Run};
+use pathbuild_testkit::sheet;
+
+fn dxf(name: &str, depth: &str, elements: &str) -> Vec<u8> {
+    let text =
+        format!("layer {name}\nstart 0,0 \"T5 O2 I9 B{depth} MPlate S10 F200\"\n{elements}\nend 40,0\n");
+    sheet(&text).unwrap().to_dxf()
+}
+
+const LINE: &str = "mill 0,0 40,0";
+
+/// Two directories with a path each.
+fn two(old: Vec<u8>, new: Vec<u8>) -> Place {
+    let configuration = "rapid = 1000\nlibrary = [\"parts\"]\n";
+    Place::new()
+        .file("old/pathbuild.toml", configuration)
+        .file("new/pathbuild.toml", configuration)
+        .file("old/parts/1001.1P.dxf", old)
+        .file("new/parts/1001.1P.dxf", new)
+}
+
+#[track_caller]
+fn told(run: &Run, status: i32, lines: &[&str]) {
+    assert_eq!(run.status, status, "{run}");
+    for line in lines {
+        assert!(run.stdout.contains(line), "{line:?} not in {run}");
+    }
+}
+
+#[test]
+fn nothing_has_changed() {
+    let drawing = dxf("1001.1P", "1", LINE);
+    let run = two(drawing.clone(), drawing).run("diff old new");
+    told(&run, 0, &["0 of 1 paths changed\n"]);
+    assert_eq!(run.stdout.lines().count(), 1, "{run}");
+}
+
+#[test]
+fn a_drawing_that_lies_elsewhere_on_its_sheet_mills_the_same() {
+    let shifted =
+        "layer 1001.1P\nstart 100,50 \"T5 O2 I9 B1 MPlate S10 F200\"\nmill 100,50 140,50\nend 140,50\n";
+    let place = two(dxf("1001.1P", "1", LINE), sheet(shifted).unwrap().to_dxf());
+    told(&place.run("diff old new"), 0, &["0 of 1 paths changed"]);
+}
+
+#[test]
+fn deeper_faster_added_and_gone() {
+    let old = dxf("1001.1P", "1", LINE);
+    let deeper = two(old.clone(), dxf("1001.1P", "0.5", LINE)).run("diff old new");
+    told(&deeper, 0, &["1001.1P · parts/1001.1P.dxf: changed", "  0.5 mm deeper: ", "1 of 1 paths changed"]);
+    let faster = two(old.clone(), dxf("1001.1P", "1", "mill 0,0 40,0 F300")).run("diff old new");
+    told(&faster, 0, &["faster: F300 instead of F200"]);
+    let place = two(old.clone(), old.clone())
+        .file("new/parts/1002.1P.dxf", dxf("1002.1P", "1", LINE))
+        .file("old/parts/1003.1P.dxf", dxf("1003.1P", "1", LINE));
+    let run = place.run("diff old new");
+    told(
+        &run,
+        0,
+        &["1002.1P · parts/1002.1P.dxf: new", "1003.1P · parts/1003.1P.dxf: gone", ", 1 new, 1 gone"],
+    );
+    let german = place.run("diff old new --lang de");
+    told(&german, 0, &["0 von 2 Pfaden geändert, 1 neu, 1 weg"]);
+}
+
+#[test]
+fn what_embeds_a_changed_path_has_changed_as_well() {
+    let project = dxf("8001.1P", "1", "subpath 0,0 40,0 \">1001.1P\"");
+    let part = |depth| {
+        let text = format!("layer 1001.1P\nstart 0,0 \"T5 O2 I9 B{depth} MPlate F200\"\n{LINE}\nend 40,0\n");
+        sheet(&text).unwrap().to_dxf()
+    };
+    let place = two(part("1"), part("0.5"))
+        .file("old/parts/8001.1P.dxf", project.clone())
+        .file("new/parts/8001.1P.dxf", project);
+    told(&place.run("diff old new"), 0, &["1001.1P · ", "8001.1P · ", "2 of 2 paths changed"]);
+}
+
+#[test]
+fn errors_are_seen_and_make_the_status() {
+    let (fine, broken) = (dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", "mill 0,0 30,0"));
+    told(&two(fine.clone(), broken.clone()).run("diff old new"), 1, &["has errors now"]);
+    told(&two(broken.clone(), fine).run("diff old new"), 0, &["had errors, has none now"]);
+    told(&two(broken.clone(), broken).run("diff old new"), 1, &["has errors, before and now"]);
+}
+
+#[test]
+fn a_path_that_moved_to_another_drawing() {
+    let drawing = dxf("1001.1P", "1", LINE);
+    let place = two(drawing.clone(), drawing.clone());
+    fs::rename(place.path().join("new/parts/1001.1P.dxf"), place.path().join("new/parts/1001.1-1001.2P.dxf"))
+        .unwrap();
+    told(&place.run("diff old new"), 0, &["parts/1001.1P.dxf → parts/1001.1-1001.2P.dxf: the same moves"]);
+}
+
+#[test]
+fn what_is_not_there_is_an_error() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", LINE));
+    assert_eq!(place.run("diff old elsewhere").status, 2);
+    fs::remove_dir_all(place.path().join("new/parts")).unwrap();
+    assert_eq!(place.run("diff old new").status, 1);
+}
+
+#[test]
+fn two_drawings() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    told(&place.run("diff old/parts/1001.1P.dxf new/parts/1001.1P.dxf"), 0, &["0.5 mm deeper"]);
+}
+
+#[test]
+fn a_program_and_the_path_that_it_was_made_from() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    let emit = place.run("emit ./old/parts/1001.1P.dxf --config old/pathbuild.toml --out-dir programs");
+    assert_eq!(emit.status, 0, "{emit}");
+    let diff = |config: &str| {
+        place.run(&format!("diff programs/1001.1P_Milling.gcode 1001.1P --config {config}/pathbuild.toml"))
+    };
+    told(&diff("old"), 0, &["0 of 1 paths changed"]);
+    told(&diff("new"), 0, &["0.5 mm deeper"]);
+    assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, 2);
+}
+
+fn git(place: &Place, arguments: &[&str]) {
+    let identity =
+        ["-c", "user.name=a", "-c", "user.email=a@example.invalid", "-c", "init.defaultBranch=main"];
+    let run = Command::new("git").args(identity).args(arguments).current_dir(place.path()).output().unwrap();
+    assert!(run.status.success(), "git {arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
+}
+
+#[test]
+fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
+    let place = Place::new()
+        .file("pathbuild.toml", "rapid = 1000\nlibrary = [\"parts\"]\n")
+        .file("parts/1001.1P.dxf", dxf("1001.1P", "1", LINE));
+    git(&place, &["init", "-q"]);
+    git(&place, &["add", "-A"]);
+    git(&place, &["commit", "-q", "-m", "all"]);
+    fs::write(place.path().join("parts/1001.1P.dxf"), dxf("1001.1P", "0.5", LINE)).unwrap();
+    told(&place.run("diff HEAD"), 0, &["1001.1P · parts/1001.1P.dxf: changed", "0.5 mm deeper"]);
+    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 paths changed"]);
+    git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
+    told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
+    // The configuration is that of each revision.
+    fs::write(place.path().join("pathbuild.toml"), "rapid = 1000\nlibrary = [\"gone\"]\n").unwrap();
+    let run = place.run("diff HEAD~1 HEAD");
+    told(&run, 0, &["0.5 mm deeper"]);
+    let unknown = place.run("diff nothing");
+    assert!(unknown.status == 2 && unknown.stderr.contains("neither a directory"), "{unknown}");
+    assert_eq!(place.run("diff --output=x.html -- --help").status, 2);
+    let status =
+        Command::new("git").args(["status", "--porcelain"]).current_dir(place.path()).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&status.stdout), " M pathbuild.toml\n");
+}
+
+#[test]
+fn json_markdown_and_a_page() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    let json = place.run("diff old new --format json");
+    let data: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(data["schema"], "pathbuild-diff");
+    assert_eq!(data["paths"][0]["changes"][0]["raised"], -0.5);
+    assert_eq!(data["paths"][0]["new_file"], "parts/1001.1P.dxf");
+    for name in ["d.json", "d.md", "d.html"] {
+        told(&place.run(&format!("diff old new -o {name}")), 0, &[]);
+    }
+    let read = |name: &str| fs::read_to_string(place.path().join(name)).unwrap();
+    assert_eq!(read("d.json"), json.stdout);
+    let markdown = read("d.md");
+    assert!(markdown.contains("| 1001.1P | parts/1001.1P.dxf | 0.5 mm deeper&#58; "), "{markdown}");
+    let page = read("d.html");
+    // Changes once, old and new side by side and over each other.
+    assert_eq!(page.matches("<svg").count(), 5);
+    assert!(!page.contains("{{") && page.contains("0.5 mm deeper"));
+    assert!(
+        !page.contains("http://")
+            || page.matches("http://").count()
+                == page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count()
+    );
+    assert_eq!(place.run("diff old new -o d.txt").status, 2);
+}
+
+#[test]
+fn names_are_no_markup() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    for side in ["old", "new"] {
+        let parts = place.path().join(side).join("parts");
+        fs::rename(parts.join("1001.1P.dxf"), parts.join("1001.1P [x](y) @z _b_ &c.dxf")).unwrap();
+    }
+    for name in ["d.md", "d.html"] {
+        place.run(&format!("diff old new -o {name}"));
+    }
+    let read = |name: &str| fs::read_to_string(place.path().join(name)).unwrap();
+    let markdown = read("d.md");
+    assert!(!markdown.contains("[x]") && !markdown.contains('@') && !markdown.contains("_b_"), "{markdown}");
+    assert!(read("d.html").contains("@z _b_ &amp;c.dxf"));
+}
