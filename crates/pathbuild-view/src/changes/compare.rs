@@ -1,13 +1,13 @@
-//! Finding the changes. What is the same in both programs is set aside first; what is left between is looked at more and more leniently:
-//! the same moves elsewhere, moves along the same lines, and at last moves that were added or removed.
+//! Finding the changes. What is the same in both programs is set aside. Of the rest a row that is the same elsewhere is shifted; every other
+//! move is judged by its line in the plane: how deep it is milled at last, how fast and in how many passes, before and after.
 
 use std::collections::HashMap;
-use std::hash::Hash;
 use std::ops::Range;
 
-use imara_diff::{Algorithm, Diff, Hunk, InternedInput, Interner};
+use imara_diff::{Algorithm, Diff, InternedInput, Interner};
+use pathbuild_gcode::interpret::Axes;
 
-use super::identity::{Deed, Trail};
+use super::identity::{Deed, Line, Milled, is_rapid, lines};
 use super::{Change, ChangeKind};
 use crate::scene::{Move, Point};
 
@@ -16,70 +16,49 @@ const ORIGIN: Point = [0.0; 2];
 
 /// The changes from one program to another, in the order of the new one. Empty where both do the same.
 pub fn compare(old: &[Move], new: &[Move]) -> Vec<Change> {
-    let comparison = Comparison { old, new };
-    let hunks = hunks(old, new, |it| Deed::of(it, ORIGIN));
-    let mut changes: Vec<Change> = hunks.into_iter().flat_map(|hunk| comparison.changed(&hunk)).collect();
-    comparison.pair_reordered(&mut changes);
-    changes
+    let rows = differing(old, new);
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let comparison = Comparison { old, new, was: lines(old), is: lines(new) };
+    rows.into_iter().flat_map(|(old, new)| comparison.changed(&old, &new)).collect()
+}
+
+/// The rows of moves in which two programs differ.
+fn differing(old: &[Move], new: &[Move]) -> Vec<(Range<usize>, Range<usize>)> {
+    // How the tool comes to the first place that is wholly known is the machine's business.
+    let begin = |moves: &[Move]| moves.iter().take_while(|it| !it.way.from.known.has(Axes::ALL)).count();
+    let (was, is) = (begin(old), begin(new));
+    let interner = Interner::new(old.len() + new.len());
+    let mut input = InternedInput { before: Vec::new(), after: Vec::new(), interner };
+    input.update_before(old[was..].iter().map(|it| Deed::of(it, ORIGIN)));
+    input.update_after(new[is..].iter().map(|it| Deed::of(it, ORIGIN)));
+    let row = |start: usize, row: &Range<u32>| start + row.start as usize..start + row.end as usize;
+    let diff = Diff::compute(Algorithm::Histogram, &input);
+    diff.hunks().map(|hunk| (row(was, &hunk.before), row(is, &hunk.after))).collect()
 }
 
 struct Comparison<'a> {
     old: &'a [Move],
     new: &'a [Move],
+    was: HashMap<Line, Milled>,
+    is: HashMap<Line, Milled>,
 }
 
 impl Comparison<'_> {
-    /// What became of the moves of a hunk.
-    fn changed(&self, hunk: &Hunk) -> Vec<Change> {
-        let (old, new) = ranges(hunk);
+    /// What became of the moves where both programs differ.
+    fn changed(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
         let mut changes = Vec::new();
-        if let Some(core) = self.shifted(&old, &new) {
-            self.replaced(old.start..core.old.start, new.start..core.new.start, &mut changes);
-            let ends = (core.old.end, core.new.end);
-            changes.push(core);
-            self.replaced(ends.0..old.end, ends.1..new.end, &mut changes);
-            return changes;
-        }
-        let (mut before, mut after) = (old.start, new.start);
-        for hunk in hunks(&self.old[old.clone()], &self.new[new.clone()], |it| Trail::of(it, ORIGIN)) {
-            let (was, is) = ranges(&hunk);
-            let (was, is) =
-                (old.start + was.start..old.start + was.end, new.start + is.start..new.start + is.end);
-            self.altered(before..was.start, after..is.start, &mut changes);
-            (before, after) = (was.end, is.end);
-            self.replaced(was, is, &mut changes);
-        }
-        self.altered(before..old.end, after..new.end, &mut changes);
-        changes
-    }
-
-    /// Moves along the same lines, one for one.
-    fn altered(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
-        for (was, is) in old.zip(new) {
-            let (a, b) = (&self.old[was], &self.new[is]);
-            let kind = ChangeKind::Altered { raised: raised(a, b), feed: feed(a, b) };
-            match changes.last_mut() {
-                _ if kind == (ChangeKind::Altered { raised: 0.0, feed: None }) => {}
-                Some(last) if last.kind == kind && last.old.end == was && last.new.end == is => {
-                    (last.old.end, last.new.end) = (was + 1, is + 1);
-                }
-                _ => changes.push(Change { kind, old: was..was + 1, new: is..is + 1 }),
+        match self.shifted(old, new) {
+            Some(core) => {
+                self.judge(old.start..core.old.start, new.start..core.new.start, &mut changes);
+                let behind = (core.old.end..old.end, core.new.end..new.end);
+                changes.push(core);
+                self.judge(behind.0, behind.1, &mut changes);
             }
+            None => self.judge(old.clone(), new.clone(), &mut changes),
         }
-    }
-
-    /// Moves that have nothing in common.
-    fn replaced(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
-        if let Some(core) = self.shifted(&old, &new) {
-            return changes.push(core);
-        }
-        let behind = old.end;
-        for old in parts(self.old, old) {
-            changes.push(Change { kind: ChangeKind::Removed, old, new: new.start..new.start });
-        }
-        for new in parts(self.new, new) {
-            changes.push(Change { kind: ChangeKind::Added, old: behind..behind, new });
-        }
+        changes
     }
 
     /// The cuts of both rows with what is between them, where all of them are the same but elsewhere. The ways there and back are left out:
@@ -93,28 +72,43 @@ impl Comparison<'_> {
         is_shifted.then_some(Change { kind: ChangeKind::Shifted(by), old, new })
     }
 
-    /// Moves that were removed here and added there.
-    fn pair_reordered(&self, changes: &mut Vec<Change>) {
-        let deeds = |moves: &[Move]| -> Vec<Deed> { moves.iter().map(|it| Deed::of(it, ORIGIN)).collect() };
-        let mut removed: HashMap<Vec<Deed>, Vec<(usize, Range<usize>)>> = HashMap::new();
-        for (index, change) in
-            changes.iter().enumerate().filter(|(_, change)| change.kind == ChangeKind::Removed)
-        {
-            removed
-                .entry(deeds(&self.old[change.old.clone()]))
-                .or_default()
-                .push((index, change.old.clone()));
-        }
-        let mut is_paired = vec![false; changes.len()];
-        for change in changes.iter_mut().filter(|change| change.kind == ChangeKind::Added) {
-            let from = removed.get_mut(&deeds(&self.new[change.new.clone()])).and_then(Vec::pop);
-            if let Some((from, old)) = from {
-                is_paired[from] = true;
-                (change.kind, change.old) = (ChangeKind::Reordered, old);
+    /// Each move by its line.
+    fn judge(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
+        let (behind, before) = (old.end, new.start);
+        for index in old {
+            let it = &self.old[index];
+            // What is still milled is judged where it is milled now.
+            if is_rapid(it) || !self.is.contains_key(&Line::of(it)) {
+                add(changes, ChangeKind::Removed, index..index + 1, before..before);
             }
         }
-        let mut is_paired = is_paired.into_iter();
-        changes.retain(|_| !is_paired.next().unwrap_or_default());
+        for index in new {
+            let it = &self.new[index];
+            let kind = if is_rapid(it) { ChangeKind::Added } else { self.kind(&Line::of(it)) };
+            add(changes, kind, behind..behind, index..index + 1);
+        }
+    }
+
+    /// What became of a line of the new program.
+    fn kind(&self, line: &Line) -> ChangeKind {
+        let (Some(was), Some(is)) = (self.was.get(line), self.is.get(line)) else { return ChangeKind::Added };
+        let raised = ((is.bottom - was.bottom) * 1000.0).round() / 1000.0 + 0.0;
+        let feed = ((is.feed - was.feed).abs() >= 0.001).then_some([was.feed, is.feed]);
+        let passes = (is.passes != was.passes).then_some([was.passes, is.passes]);
+        match (feed, passes) {
+            (None, None) if raised == 0.0 => ChangeKind::Reordered,
+            _ => ChangeKind::Altered { raised, feed, passes },
+        }
+    }
+}
+
+/// Adds a move; to the change before, if it is of the same kind and stands next to it.
+fn add(changes: &mut Vec<Change>, kind: ChangeKind, old: Range<usize>, new: Range<usize>) {
+    match changes.last_mut() {
+        Some(last) if last.kind == kind && last.old.end == old.start && last.new.end == new.start => {
+            (last.old.end, last.new.end) = (old.end, new.end);
+        }
+        _ => changes.push(Change { kind, old, new }),
     }
 }
 
@@ -124,39 +118,4 @@ fn cuts(moves: &[Move], row: &Range<usize>) -> Option<Range<usize>> {
     let first = row.clone().find(is_cut)?;
     let last = row.clone().rfind(is_cut)?;
     Some(first..last + 1)
-}
-
-/// A row in parts: the way to its first cut, the cuts with what is between them, and the way from its last. The cuts can be found again
-/// elsewhere, the ways there and back cannot.
-fn parts(moves: &[Move], row: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
-    let core = cuts(moves, &row).unwrap_or(row.start..row.start);
-    [row.start..core.start, core.clone(), core.end..row.end].into_iter().filter(|part| !part.is_empty())
-}
-
-/// By how many mm a move is higher than the one along the same line was: of its ends the one that differs more.
-fn raised(old: &Move, new: &Move) -> f64 {
-    let by = |from: f64, to: f64| ((to - from) * 1000.0).round() / 1000.0;
-    let start = by(old.way.from.z(), new.way.from.z());
-    let end = by(old.way.to.z(), new.way.to.z());
-    let raised = if start.abs() > end.abs() { start } else { end };
-    raised + 0.0
-}
-
-fn feed(old: &Move, new: &Move) -> Option<[f64; 2]> {
-    let (was, is) = (old.way.pace.feed()?, new.way.pace.feed()?);
-    let differs = (was - is).abs() >= 0.001;
-    differs.then_some([was, is])
-}
-
-/// Where two rows of moves differ, by what counts of each.
-fn hunks<K: Hash + Eq>(old: &[Move], new: &[Move], key: impl Fn(&Move) -> K) -> Vec<Hunk> {
-    let interner = Interner::new(old.len() + new.len());
-    let mut input = InternedInput { before: Vec::new(), after: Vec::new(), interner };
-    input.update_before(old.iter().map(&key));
-    input.update_after(new.iter().map(&key));
-    Diff::compute(Algorithm::Histogram, &input).hunks().collect()
-}
-
-fn ranges(hunk: &Hunk) -> (Range<usize>, Range<usize>) {
-    (hunk.before.start as usize..hunk.before.end as usize, hunk.after.start as usize..hunk.after.end as usize)
 }

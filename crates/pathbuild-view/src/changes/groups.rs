@@ -1,7 +1,8 @@
 //! Changes of one kind together, as people are told of them.
 
+use super::identity::is_rapid;
 use super::{Change, ChangeKind};
-use crate::scene::{Move, MoveKind, Point};
+use crate::scene::{Move, Point};
 
 /// All moves of a path that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +27,7 @@ pub fn groups(changes: &[Change], old: &[Move], new: &[Move]) -> Vec<Group> {
             _ => &new[change.new.clone()],
         };
         for it in moves {
-            let is_rapid = matches!(it.kind, MoveKind::Sweep | MoveKind::Lift);
-            let group = if is_rapid { &mut rapids } else { of_kind(&mut groups, change.kind) };
+            let group = if is_rapid(it) { &mut rapids } else { of_kind(&mut groups, change.kind) };
             group.moves += 1;
             group.length += it.length;
             if group.at.is_none() && it.is_placed() {

@@ -1,15 +1,18 @@
-//! When two moves are the same.
+//! When two moves are the same, and when they lie on one line.
+
+use std::collections::HashMap;
 
 use pathbuild_gcode::interpret::{Axes, Path, Position};
 
-use super::super::scene::{Move, MoveKind};
+use crate::scene::{Move, MoveKind, Point};
 
-/// What a move does in the plane, in µm. Two programs that were printed differ by less.
+/// All that a move does, in µm and µm/min: two programs that were printed differ by less.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Trail {
+pub(super) struct Deed {
     kind: MoveKind,
-    ends: [[Option<i64>; 2]; 2],
+    ends: [[Option<i64>; 3]; 2],
     arc: Option<Turn>,
+    feed: Option<i64>,
 }
 
 /// An arc without its ends.
@@ -21,47 +24,79 @@ struct Turn {
     extra_turns: u32,
 }
 
-/// All that a move does: where, how deep in µm, and how fast in µm/min.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Deed {
-    trail: Trail,
-    heights: [Option<i64>; 2],
-    feed: Option<i64>,
-}
-
-impl Trail {
-    /// That of a move which begins at (`origin`) of another program.
-    pub(super) fn of(it: &Move, origin: [f64; 2]) -> Self {
+impl Deed {
+    /// That of a move, seen from a place in the plane.
+    pub(super) fn of(it: &Move, origin: Point) -> Self {
+        let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
+        let end =
+            |end: &Position| [0, 1, 2].map(|axis| known(end, axis).map(|at| micrometres(at - shift(axis))));
+        // A rapid move is known by where it leads: it comes from where the move before ends, which at a program's beginning nobody knows.
+        let (kind, from) =
+            if is_rapid(it) { (MoveKind::Sweep, [None; 3]) } else { (it.kind, end(&it.way.from)) };
         let arc = match it.way.path {
             Path::Line => None,
             Path::Arc(arc) => {
                 let axes = arc.plane.axes();
-                let at =
-                    |index: usize| arc.centre[index] - origin.get(axes[index]).copied().unwrap_or_default();
-                Some(Turn {
-                    axes,
-                    centre: [at(0), at(1)].map(micrometres),
-                    is_clockwise: arc.clockwise,
-                    extra_turns: arc.extra_turns,
-                })
+                let centre = [0, 1].map(|index| micrometres(arc.centre[index] - shift(axes[index])));
+                let (is_clockwise, extra_turns) = (arc.clockwise, arc.extra_turns);
+                Some(Turn { axes, centre, is_clockwise, extra_turns })
             }
         };
-        let plane = |end: &Position| {
-            [0, 1].map(|axis| known(end, axis).map(|value| micrometres(value - origin[axis])))
-        };
-        Self { kind: it.kind, ends: [&it.way.from, &it.way.to].map(plane), arc }
+        Self { kind, ends: [from, end(&it.way.to)], arc, feed: it.way.pace.feed().map(micrometres) }
     }
 }
 
-impl Deed {
-    pub(super) fn of(it: &Move, origin: [f64; 2]) -> Self {
-        let height = |end: &Position| known(end, 2).map(micrometres);
-        Self {
-            trail: Trail::of(it, origin),
-            heights: [&it.way.from, &it.way.to].map(height),
-            feed: it.way.pace.feed().map(micrometres),
+/// Where in the plane a move leads along, in whatever direction and at whatever height.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Line {
+    kind: MoveKind,
+    ends: [[i64; 2]; 2],
+    centre: Option<[i64; 2]>,
+    /// Of the two arcs with these ends and this centre the one that runs clockwise from the first end.
+    is_clockwise: bool,
+}
+
+impl Line {
+    pub(super) fn of(it: &Move) -> Self {
+        let drawn = [it.from(), it.to()].map(|end| end.map(micrometres));
+        let mut ends = drawn;
+        ends.sort_unstable();
+        let (centre, is_clockwise) = match it.way.path {
+            Path::Line => (None, false),
+            Path::Arc(arc) => (Some(arc.centre.map(micrometres)), arc.clockwise == (drawn == ends)),
+        };
+        Self { kind: it.kind, ends, centre, is_clockwise }
+    }
+}
+
+/// What is milled along a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Milled {
+    /// The lowest Z in mm.
+    pub(super) bottom: f64,
+    /// The feed of the lowest pass in mm/min.
+    pub(super) feed: f64,
+    /// How often the tool goes along.
+    pub(super) passes: u32,
+}
+
+/// What is milled along each line of a program; rapid moves aside.
+pub(super) fn lines(moves: &[Move]) -> HashMap<Line, Milled> {
+    let mut lines: HashMap<Line, Milled> = HashMap::new();
+    for it in moves.iter().filter(|it| !is_rapid(it)) {
+        let (bottom, feed) = (it.depth().unwrap_or_default(), it.way.pace.feed().unwrap_or_default());
+        let milled = lines.entry(Line::of(it)).or_insert(Milled { bottom, feed, passes: 0 });
+        milled.passes += 1;
+        if bottom < milled.bottom {
+            (milled.bottom, milled.feed) = (bottom, feed);
         }
     }
+    lines
+}
+
+/// Whether a move is rapid, in whatever direction.
+pub(super) fn is_rapid(it: &Move) -> bool {
+    matches!(it.kind, MoveKind::Sweep | MoveKind::Lift)
 }
 
 fn known(end: &Position, axis: usize) -> Option<f64> {

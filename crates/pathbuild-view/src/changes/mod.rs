@@ -35,15 +35,17 @@ pub enum ChangeKind {
     Added,
     /// They are only in the old program.
     Removed,
-    /// They lead along the same lines, at another height or with another feed.
+    /// They lead along the same lines as before, but what is milled there in the end has changed.
     Altered {
-        /// By how many mm they are higher; below 0 they are deeper.
+        /// By how many mm the lowest pass is higher; below 0 it is deeper.
         raised: f64,
-        /// The feed in mm/min before and after, where it changed.
+        /// Its feed in mm/min before and after, where that changed.
         feed: Option<[f64; 2]>,
+        /// How often the tool goes along before and after, where that changed.
+        passes: Option<[u32; 2]>,
     },
     /// They are the same moves elsewhere, by so many mm in X and Y.
     Shifted(Point),
-    /// They are the same moves, but earlier or later in the program.
+    /// What is milled along their lines in the end is what it was; when, in which direction or over which heights has changed.
     Reordered,
 }

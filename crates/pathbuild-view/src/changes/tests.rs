@@ -36,10 +36,7 @@ fn the_same_moves_are_no_change() {
 
 #[test]
 fn depth_and_feed() {
-    assert_eq!(
-        said(LINE, &LINE.replace("Z-1", "Z-1.5")),
-        ["0.5 mm deeper 3 26.5", "other rapid moves 1 6.5"]
-    );
+    assert_eq!(said(LINE, &LINE.replace("Z-1", "Z-1.5")), ["0.5 mm deeper 3 26.5"]);
     assert_eq!(said(LINE, &LINE.replace("Z-1", "Z-0.5"))[0], "0.5 mm higher 3 25.5");
     assert_eq!(said(LINE, &LINE.replace("Y10 F150", "Y10 F300")), ["faster: F300 instead of F150 1 10"]);
     assert_eq!(said(LINE, &LINE.replace("Y10 F150", "Y10 F100")), ["slower: F100 instead of F150 1 10"]);
@@ -67,7 +64,27 @@ fn another_order() {
     let third = OTHER.replace("X20", "X50").replace("X30", "X60");
     let (before, after) = (format!("{OTHER}{third}"), format!("{third}{OTHER}"));
     let said = said(&before, &after);
-    assert!(said.iter().any(|line| line.starts_with("at another place in the order 2")), "{said:?}");
+    assert!(
+        said.iter()
+            .any(|line| line.starts_with("the same in the end, in another order or by other passes 2")),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn passes_count_and_only_the_lowest_is_compared() {
+    let groove = |levels: &[&str]| {
+        let pass = |z: &&str| format!("G0 X20 Y0\nG1 Z{z} F150\nG1 X30 Y0 F150\nG0 Z5\n");
+        levels.iter().map(pass).collect::<String>()
+    };
+    let passes = said(&groove(&["-1", "-2"]), &groove(&["-0.5", "-1", "-1.5", "-2"]));
+    assert_eq!(passes.len(), 2, "{passes:?}");
+    assert!(passes[0].starts_with("passes: 4 instead of 2"), "{passes:?}");
+    let deeper = said(&groove(&["-1", "-2"]), &groove(&["-1", "-2.2"]));
+    assert!(deeper[0].starts_with("0.2 mm deeper"), "{deeper:?}");
+    // Other heights on the way to the same depth.
+    let other = said(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
+    assert!(other[0].starts_with("the same in the end"), "{other:?}");
 }
 
 #[test]

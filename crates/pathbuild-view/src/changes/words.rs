@@ -17,9 +17,9 @@ fn english(kind: Option<ChangeKind>) -> String {
         None => "other rapid moves".into(),
         Some(ChangeKind::Added) => "added".into(),
         Some(ChangeKind::Removed) => "removed".into(),
-        Some(ChangeKind::Reordered) => "at another place in the order".into(),
+        Some(ChangeKind::Reordered) => "the same in the end, in another order or by other passes".into(),
         Some(ChangeKind::Shifted([x, y])) => format!("shifted by ({}, {}) mm", Number(x), Number(y)),
-        Some(ChangeKind::Altered { raised, feed }) => {
+        Some(ChangeKind::Altered { raised, feed, passes }) => {
             let height = (raised != 0.0).then(|| {
                 let way = if raised < 0.0 { "deeper" } else { "higher" };
                 format!("{} mm {way}", Number(raised.abs()))
@@ -28,7 +28,8 @@ fn english(kind: Option<ChangeKind>) -> String {
                 let way = if is > was { "faster" } else { "slower" };
                 format!("{way}: F{} instead of F{}", Number(is), Number(was))
             });
-            height.into_iter().chain(feed).collect::<Vec<_>>().join(", ")
+            let passes = passes.map(|[was, is]| format!("passes: {is} instead of {was}"));
+            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
         }
     }
 }
@@ -38,9 +39,11 @@ fn german(kind: Option<ChangeKind>) -> String {
         None => "andere Eilgänge".into(),
         Some(ChangeKind::Added) => "dazugekommen".into(),
         Some(ChangeKind::Removed) => "weggefallen".into(),
-        Some(ChangeKind::Reordered) => "an anderer Stelle der Reihenfolge".into(),
+        Some(ChangeKind::Reordered) => {
+            "am Ende dasselbe, in anderer Reihenfolge oder anderen Durchgängen".into()
+        }
         Some(ChangeKind::Shifted([x, y])) => format!("um ({}, {}) mm verschoben", Number(x), Number(y)),
-        Some(ChangeKind::Altered { raised, feed }) => {
+        Some(ChangeKind::Altered { raised, feed, passes }) => {
             let height = (raised != 0.0).then(|| {
                 let way = if raised < 0.0 { "tiefer" } else { "höher" };
                 format!("{} mm {way}", Number(raised.abs()))
@@ -49,7 +52,8 @@ fn german(kind: Option<ChangeKind>) -> String {
                 let way = if is > was { "schneller" } else { "langsamer" };
                 format!("{way}: F{} statt F{}", Number(is), Number(was))
             });
-            height.into_iter().chain(feed).collect::<Vec<_>>().join(", ")
+            let passes = passes.map(|[was, is]| format!("Durchgänge: {is} statt {was}"));
+            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
         }
     }
 }

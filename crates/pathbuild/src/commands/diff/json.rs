@@ -18,7 +18,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
         "looked_at": comparison.looked_at,
         "paths": paths,
     });
-    format!("{whole}\n")
+    whole.to_string()
 }
 
 fn path(path: &PathDiff) -> Value {
@@ -53,9 +53,10 @@ fn group(group: &Group) -> Value {
             value["by"] = json!(by.map(thousandths));
             "shifted"
         }
-        Some(ChangeKind::Altered { raised, feed }) => {
+        Some(ChangeKind::Altered { raised, feed, passes }) => {
             value["raised"] = json!(raised);
             value["feed"] = json!(feed);
+            value["passes"] = json!(passes);
             "altered"
         }
     };

@@ -54,7 +54,7 @@ impl Output {
         let text = match format {
             Format::Html => page::page(comparison, context.lang()),
             Format::Markdown => markdown::markdown(comparison, context.lang()),
-            Format::Json => json::json(comparison),
+            Format::Json => json::json(comparison) + "\n",
         };
         let refused = |reason: Box<str>| Box::new(cannot_write(file, &reason));
         let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {

@@ -3,6 +3,8 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Kind;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
@@ -137,6 +139,14 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
             return Err(Failure::Found(seen.diagnostics));
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
-        Ok(Seen { path, problems: seen.diagnostics })
+        Ok(Seen { path: as_printed(path), problems: seen.diagnostics })
     })
+}
+
+/// A path's program as it is read back from its text: rounded as it is printed, and with lengths as they are counted in programs.
+fn as_printed(path: ScenePath) -> ScenePath {
+    let text = path.gcode.unwrap_or_default();
+    let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
+    let source = GcodeSource { file: &path.file, steps: &read.steps, text: text.as_bytes(), tool: path.tool };
+    ScenePath { name: path.name, ..gcode_path(&source) }
 }

@@ -43,7 +43,9 @@ pub(super) fn outcome(path: &PathDiff, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
-        Outcome::Broken => ("has errors now", "hat jetzt Fehler"),
+        Outcome::Broken => {
+            ("has errors now (pathbuild check shows them)", "hat jetzt Fehler (pathbuild check zeigt sie)")
+        }
         Outcome::Mended => ("had errors, has none now", "hatte Fehler, jetzt keine mehr"),
         Outcome::StillBroken => ("has errors, before and now", "hat Fehler, vorher und jetzt"),
         Outcome::OtherDrawing => {
