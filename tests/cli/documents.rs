@@ -38,7 +38,7 @@ fn run(place: &Place, line: &str) -> Run {
     place.run_in("work", &line.split_whitespace().collect::<Vec<_>>())
 }
 
-const COMMANDS: [&str; 24] = [
+const COMMANDS: [&str; 25] = [
     "check",
     "check 1235.1P --lang de",
     "check nothing.dxf",
@@ -48,6 +48,7 @@ const COMMANDS: [&str; 24] = [
     "emit 1234.1P --check",
     "list",
     "stats",
+    "diff . parts",
     "where 1234.1P",
     "graph",
     "deps 8001.1P",

@@ -39,7 +39,7 @@ pub struct DiffArgs {
     /// What there is: the same, or for a program a path; else the working directory
     #[arg(value_name = "NEW")]
     pub new: Option<String>,
-    /// File to write as well: .html (with pictures), .md (for a pull request) or .json
+    /// File to write as well: .html (with pictures) or .md (for a pull request)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// How programs are read.

@@ -1,24 +1,18 @@
-//! A comparison as data.
+//! A comparison as data: lines of the run's document.
 
 use camino::Utf8Path;
 use pathbuild_view::{ChangeKind, Group};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff};
 use serde_json::{Value, json};
 
-/// The name and version of the form.
-const SCHEMA: &str = "pathbuild-diff";
-const VERSION: u32 = 1;
+use crate::context::Context;
 
-/// One object, on one line.
-pub(super) fn json(comparison: &Comparison) -> String {
-    let paths: Vec<Value> = comparison.paths.iter().map(path).collect();
-    let whole = json!({
-        "schema": SCHEMA,
-        "version": VERSION,
-        "looked_at": comparison.looked_at,
-        "paths": paths,
-    });
-    whole.to_string()
+/// A line for each path that changed, and one for the whole.
+pub(super) fn rows(context: &Context, comparison: &Comparison) {
+    for changed in &comparison.paths {
+        context.row("path_change", path(changed));
+    }
+    context.row("comparison", json!({ "paths": comparison.looked_at, "changed": comparison.paths.len() }));
 }
 
 fn path(path: &PathDiff) -> Value {

@@ -73,7 +73,8 @@ fn finish(context: &Context, output: &Output, mut comparison: Comparison) -> Exi
     let problems = comparison.problems.each_mut().map(std::mem::take);
     let findings = context.findings(problems.into_iter().flatten().collect());
     match context.format {
-        Format::Json => context.printer.result_json(json::json(&comparison)),
+        Format::Json => json::rows(context, &comparison),
+        format if format.is_for_machines() => {}
         _ => context.printer.result(text::text(&comparison, context.lang())),
     }
     context.show(&findings);

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_workspace::diff::Comparison;
 use pathbuild_workspace::files::cannot_write;
 
-use super::{json, markdown, page};
+use super::{markdown, page};
 use crate::context::Context;
 
 /// A file, and as what.
@@ -16,7 +16,6 @@ pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
 enum Format {
     Html,
     Markdown,
-    Json,
 }
 
 impl Output {
@@ -29,12 +28,8 @@ impl Output {
         let format = match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
             "html" => Format::Html,
             "md" => Format::Markdown,
-            "json" => Format::Json,
             _ => {
-                return Err(format!(
-                    "-o {}: the name must end in .html, .md or .json",
-                    shown::line(file.as_str())
-                ));
+                return Err(format!("-o {}: the name must end in .html or .md", shown::line(file.as_str())));
             }
         };
         Ok(Self(Some((format, file.to_owned()))))
@@ -54,7 +49,6 @@ impl Output {
         let text = match format {
             Format::Html => page::page(comparison, context.lang()),
             Format::Markdown => markdown::markdown(comparison, context.lang()),
-            Format::Json => json::json(comparison) + "\n",
         };
         let refused = |reason: Box<str>| Box::new(cannot_write(file, &reason));
         let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
