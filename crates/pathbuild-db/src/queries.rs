@@ -6,6 +6,8 @@
 //!                            \-> resolve_path -> name_table
 //! ```
 //!
+//! Where drawings have clamps, `program` also asks `entered_keep_outs`, which holds the moves of `traced_program` against `keep_outs`.
+//!
 //! `file_index` is all that a check of most drawings asks: what was read is dropped when the index is made. `raw_file` reads a drawing
 //! again, for programs, other values of variables, and the places of findings.
 
@@ -17,6 +19,7 @@ mod embedding;
 mod hints;
 mod index;
 mod instance;
+mod keep_outs;
 mod lookup;
 mod names;
 mod prefetch;
@@ -37,6 +40,7 @@ pub use edges::{Destination, Edge};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use index::{FileIndex, NameKey, PathIndex, content, content_hash, file_index, path_index, path_names};
 pub use instance::{Instance, chains, path, summary};
+pub use keep_outs::{PlacedKeepOut, keep_outs, placed_keep_outs};
 pub use lookup::{Resolved, holders, may_hold, resolve_path, search_path};
 pub use names::{drawing_names, name_table};
 pub use prefetch::{embeds_others, likely_file, prefetch};
@@ -47,4 +51,4 @@ pub use report::{check_file, check_target, locate};
 pub use summary::PathSummary;
 pub use texts::assigned_texts;
 pub use traces::{Sought, Trace, trace};
-pub use views::{DrawnPath, Part, Traced, drawn_path, other_layers, traced_program};
+pub use views::{DrawnPath, Part, Traced, drawn_path, in_force, other_layers, traced_program};

@@ -64,6 +64,7 @@ codes! {
     114 TurnMarkerWithoutEffect "turn-marker-without-effect" Warning "PB114: turn marker without effect";
     115 JoinedEnds "joined-ends" Warning "PB115: ends joined within join-tolerance";
     116 DoubtfulText "doubtful-text" Warning "PB116: a text that nearly belongs to another element";
+    117 InvalidKeepOut "invalid-keep-out" Error "PB117: a clamp whose outline or height is not clear";
     201 MissingParameter "missing-parameter" Error "PB201: needed, neither given nor inherited";
     202 UnknownParameter "unknown-parameter" Error "PB202: letter not known for this element";
     203 ParameterOutOfRange "parameter-out-of-range" Error "PB203: a value against its limits";
@@ -86,6 +87,7 @@ codes! {
     404 EmptyPath "empty-path" Error "PB404: empty path";
     405 HelixTooLarge "helix-too-large" Error "PB405: a helical circle larger than A";
     406 NoRoomBetweenBars "no-room-between-bars" Error "PB406: the cutter does not fit between two support bars";
+    407 InsideKeepOut "inside-keep-out" Error "PB407: the tool comes into a clamp";
     501 MissingSubpathName "missing-subpath-name" Error "PB501: missing subpath name";
     502 InvalidPathName "invalid-path-name" Error "PB502: invalid path name";
     503 PathNotFound "path-not-found" Error "PB503: path not found";

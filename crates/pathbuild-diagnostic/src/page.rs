@@ -67,6 +67,7 @@ pages! {
     TurnMarkerWithoutEffect "PB114" example;
     JoinedEnds "PB115" example;
     DoubtfulText "PB116" example;
+    InvalidKeepOut "PB117" example;
     MissingParameter "PB201" example;
     UnknownParameter "PB202" example;
     ParameterOutOfRange "PB203" example;
@@ -89,6 +90,7 @@ pages! {
     EmptyPath "PB404" example;
     HelixTooLarge "PB405" example;
     NoRoomBetweenBars "PB406" example;
+    InsideKeepOut "PB407" example;
     MissingSubpathName "PB501" example;
     InvalidPathName "PB502" example;
     PathNotFound "PB503" example;

@@ -43,4 +43,24 @@ words! {
     LINE: "a line", "eine Linie";
     /// An arc as such.
     ARC: "an arc", "ein Bogen";
+    /// G00.
+    RAPID_MOVE: "rapid move", "Eilgang";
+    /// G01 straight down.
+    PLUNGE: "plunge", "Eintauchen";
+    /// G01, G02, G03.
+    CUT: "cut", "Schnitt";
+    /// G38.2, G31.
+    PROBING_MOVE: "probing move", "Messbewegung";
+    /// The element says it.
+    OWN_TEXT: "own text", "eigener Text";
+    /// The first segment of the chain says it.
+    CHAIN_TEXT: "first segment of the chain", "erstes Segment der Kette";
+    /// The path's start says it.
+    PATH_TEXT: "text of the path", "Text des Pfads";
+    /// The path that @ names says it.
+    LENDER_TEXT: "text of the path that @ names", "Text des Pfads, den @ nennt";
+    /// An option or the configuration says it.
+    OPTION: "option", "Option";
+    /// Nobody says it.
+    DEFAULT: "default", "Vorgabe";
 }

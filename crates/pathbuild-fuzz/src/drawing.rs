@@ -8,7 +8,7 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathKey, PathPattern};
+use pathbuild_path::{FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathPattern};
 use pathbuild_post::{Job, PostOptions, ToolTable};
 use pathbuild_toolpath::{Correction, FoldOptions, Program};
 
@@ -76,6 +76,7 @@ fn compile(bytes: &[u8]) {
 fn settle(db: &Database) {
     let language = Language {
         path_pattern: PathPattern::default(),
+        keep_out: KeepOutPattern::new("clamps").ok(),
         line_types: LineTypeAliases::default(),
         text_limit: 4096,
         doubts: pathbuild_path::Doubts::default(),
@@ -89,7 +90,7 @@ fn settle(db: &Database) {
 }
 
 /// What is said can be shown, and is no bug.
-fn judge(found: &[Diagnostic]) {
+fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     for diagnostic in found {
         let text = diagnostic.text(Lang::En) + &diagnostic.text(Lang::De);
         assert!(diagnostic.code() != Code::InternalError, "{text}");

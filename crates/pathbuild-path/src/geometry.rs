@@ -1,5 +1,7 @@
 //! Lines, arcs and circles in the plane, and the turn-and-move that places an embedded path.
 
+mod distance;
+
 use nalgebra::{Point2, UnitComplex, Vector2};
 
 use crate::approx::coincide;

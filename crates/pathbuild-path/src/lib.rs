@@ -18,6 +18,8 @@ mod file_name;
 mod files;
 mod geometry;
 mod group;
+mod in_force;
+mod keep_out;
 mod letter;
 mod limits;
 mod line_type;
@@ -50,6 +52,8 @@ pub use embedding::{
 pub use file_name::{is_q_project, judge_file_name};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
+pub use in_force::{Fallbacks, InForce, Parameter, Provider, parameters_in_force};
+pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use letter::Letter;
 pub use line_type::{LineType, LineTypeAliases};
 pub use matrix::{ElementClass, Use};
@@ -62,7 +66,7 @@ pub use path::{
 pub use pattern::PatternError;
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
-pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines, raw_file};
+pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, keep_outs, proxy_lines, raw_file};
 pub use table::RangeTable;
 pub use text::{ParameterText, ParameterTexts, Piece, TextId};
 pub use text_circle::TextCircle;

@@ -209,7 +209,7 @@ impl LazyRegex {
         Ok(())
     }
 
-    fn get(&self) -> &Regex {
+    pub(crate) fn get(&self) -> &Regex {
         self.compiled.get_or_init(|| compile(&self.source).expect("the pattern was checked"))
     }
 }

@@ -8,6 +8,7 @@ use smol_str::SmolStr;
 use crate::definition::Definition;
 use crate::doubts::Doubts;
 use crate::element::{Element, Marker, Origin, Role};
+use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern};
@@ -68,6 +69,8 @@ pub struct Position {
 pub struct Language {
     /// Which layers are path layers.
     pub path_pattern: PathPattern,
+    /// Which layers hold clamps, where somebody says so.
+    pub keep_out: Option<KeepOutPattern>,
     /// Names of line types.
     pub line_types: LineTypeAliases,
     /// How far apart ends may be, in mm, that the walk joins with a warning (PB115); 0: only ends that coincide meet.
@@ -85,6 +88,13 @@ pub struct RawFile {
     pub paths: Vec<(RawPath, SourceMap)>,
     /// What belongs to the file and to none of its paths.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Language {
+    /// Whether a layer holds clamps.
+    pub fn is_keep_out(&self, layer: &str) -> bool {
+        self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
+    }
 }
 
 impl RawPath {

@@ -3,11 +3,13 @@
 mod checked;
 mod collect;
 mod found_text;
+mod keep_outs;
 mod layers;
 mod listing;
 mod meaning;
 mod parameters;
 mod proxies;
+mod rings;
 mod texts;
 
 use std::collections::BTreeMap;
@@ -23,6 +25,7 @@ use collect::Collected;
 
 pub(crate) use collect::Owner;
 
+pub use keep_outs::keep_outs;
 pub use listing::{AssignedElement, AssignedText, assigned_texts};
 pub use proxies::{ProxyLine, proxy_lines};
 

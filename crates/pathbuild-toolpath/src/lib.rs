@@ -16,6 +16,7 @@ mod probes;
 mod program;
 mod statistics;
 mod trace;
+mod ways;
 mod z_model;
 
 pub use bars::support_bars;
@@ -28,4 +29,5 @@ pub use program::{
 };
 pub use statistics::{Statistics, Total};
 pub use trace::{Drawn, Occurrence, Trace};
+pub use ways::Ways;
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

@@ -68,6 +68,8 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.match(await text(page, ".row.now"), /G0/);
   // Hovering tells of the element.
   assert.match(found, /(LINE|CIRCLE|ARC) /);
+  // Each parameter with where it comes from.
+  assert.match(found, /\n[A-Z]\s+\S+ · (own text|first segment of the chain|text of the path|option --|default)/);
   await shot(page, "picked");
   // Order numbers, rapids and arrows can be hidden.
   await page.keyboard.press("End");
@@ -102,6 +104,17 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.equal(await page.locator("#labels .finding").count(), 1);
   await page.waitForTimeout(200);
   await shot(page, "mistake-390");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // A clamp stands in the picture with its height.
+  const { page, faults } = await open("mistakes/3011.1P.dxf");
+  assert.equal(await text(page, "#labels .clamp"), "Z25");
+  assert.match(await text(page, "#findings"), /PB407/);
+  await page.keyboard.press("3");
+  await page.waitForTimeout(200);
+  await shot(page, "clamp");
   assert.deepEqual(faults, []);
   await page.close();
 }

@@ -6,7 +6,7 @@ mod gcode;
 mod other;
 mod program;
 
-pub use drawn::{DrawnSource, drawn_path};
+pub use drawn::{DrawnSource, drawn_path, keep_out};
 pub use finding::findings;
 pub use gcode::{GcodeSource, gcode_path};
 pub use other::other_layers;

@@ -13,7 +13,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, other_layers, program_path,
+    DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, keep_out, other_layers,
+    program_path,
 };
 pub use changes::{Change, ChangeKind, Group, compare, groups, phrase};
 #[cfg(feature = "pictures")]
@@ -21,7 +22,7 @@ pub use page::page;
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png};
 pub use scene::{
-    Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Point,
-    ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
+    Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Parameter,
+    Point, ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
 };
 pub use svg::{Picture, Shown, changes_svg, escaped, svg};

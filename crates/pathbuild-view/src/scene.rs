@@ -114,6 +114,23 @@ pub struct Element {
     pub shape: Shape,
     /// The how manieth it is that the tool cuts, from 1.
     pub order: Option<u32>,
+    /// The parameters that hold for it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<Parameter>,
+}
+
+/// A parameter that holds for an element.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Parameter {
+    /// Its letter.
+    pub letter: char,
+    /// Its value, with variables put in.
+    pub value: String,
+    /// Where it comes from: own, chain, path, lender, option, default.
+    pub from: &'static str,
+    /// Which path lends it, or which option gives it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub which: Option<String>,
 }
 
 /// What an element means.

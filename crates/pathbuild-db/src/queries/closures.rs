@@ -14,6 +14,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::embedding::{Embedding, Outcome, embeds};
 use super::index::{NameKey, path_index};
 use super::instance::{Instance, path, summary};
+use super::keep_outs::keep_out_problems;
 use super::raw::raw_path;
 use super::summary::PathSummary;
 use crate::db::Db;
@@ -94,7 +95,8 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
 fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
     let has_raised = own.signature.as_ref().is_some_and(|it| !it.raised_probes.is_empty());
-    let is_lone = *target.role(db) == Role::Checked && own.is_clean() && !own.has_subpaths() && !has_raised;
+    let is_plain = own.is_clean() && keep_out_problems(db, target.file(db)).is_empty();
+    let is_lone = *target.role(db) == Role::Checked && is_plain && !own.has_subpaths() && !has_raised;
     let is_within = too_much(own.moves, limits).is_none() && limits.paths > 0;
     let reached = vec![Reached { instance: root, depth: 0 }];
     let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
@@ -201,7 +203,8 @@ impl<'db> Walk<'db> {
     /// The stages of one path: a stage runs only when earlier stages found no error.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
         let summary = summary(self.db, instance);
-        let mut has_errors = self.report_all(instance, &summary.problems);
+        let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
+        has_errors |= self.report_all(instance, &summary.problems);
         let Some(signature) = &summary.signature else { return true };
         self.check_feed(instance, signature);
         let sweep_problems = self.sweep_problems(summary, signature, depth);

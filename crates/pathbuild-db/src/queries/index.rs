@@ -1,10 +1,11 @@
 //! What is known of a drawing without keeping it: the names of its paths, and what other paths and a check ask of each.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, PathHeader, PathName, RawFile, RawPath, judge_file_name};
+use pathbuild_path::{Bindings, KeepOuts, Language, PathHeader, PathName, RawFile, RawPath, judge_file_name};
 
 use super::hints::LayerEnds;
 use super::reading::{Fingerprint, entities, read, read_entities};
@@ -22,6 +23,8 @@ pub struct FileIndex {
     /// In order of name: a drawing may have as many paths as it has layers.
     paths: Vec<Arc<PathIndex>>,
     diagnostics: Vec<Diagnostic>,
+    /// Where there is anything on layers with clamps.
+    keep_outs: Option<Arc<KeepOuts>>,
     content: Content,
 }
 
@@ -58,15 +61,24 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let settings = Settings::get(db);
     let (reading, language) = (settings.reading(db), settings.language(db));
     let index = read(db, file, |bytes, stamp, drawing| {
+        let has_keep_outs = Cell::new(false);
+        let is_wanted = |layer: &str| {
+            if language.is_keep_out(layer) {
+                has_keep_outs.set(true);
+            }
+            language.path_pattern.is_layer(layer)
+        };
         let read = catch_bugs(|| {
-            read_entities(bytes, drawing, reading, &|layer| language.path_pattern.is_layer(layer));
-            pathbuild_path::raw_file(drawing, language)
+            read_entities(bytes, drawing, reading, &is_wanted);
+            let raw = pathbuild_path::raw_file(drawing, language);
+            (raw, has_keep_outs.get().then(|| keep_outs(bytes, reading, language)))
         });
         let content = Content::of(bytes, stamp, reading);
         match read {
-            Ok(raw) => {
+            Ok((raw, keep_outs)) => {
                 let read_all = || entities(bytes, reading, &|_| true);
-                FileIndex::new(db, raw, &LayerEnds::new(&read_all), content).with_name_judged(db, file)
+                let index = FileIndex::new(db, raw, &LayerEnds::new(&read_all), content);
+                index.with_name_judged(db, file).with_keep_outs(keep_outs)
             }
             Err(bug) => FileIndex::failed(*bug, content),
         }
@@ -76,6 +88,12 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
         diagnostic.file = Some(file.path(db).clone());
     }
     index
+}
+
+/// Reads clamps. No curve is left out without a word, also where paths are read as PathDxf2GCode reads them.
+fn keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepOuts {
+    let reading = Reading { compatible: false, ..reading.clone() };
+    pathbuild_path::keep_outs(&entities(bytes, &reading, &|layer| language.is_keep_out(layer)), language)
 }
 
 /// A path of a drawing in short: unchanged by edits of other paths in the drawing.
@@ -107,7 +125,7 @@ impl FileIndex {
         let mut paths: Vec<Arc<PathIndex>> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
-        Self { names, paths, diagnostics: raw.diagnostics, content }
+        Self { names, paths, diagnostics: raw.diagnostics, keep_outs: None, content }
     }
 
     /// With what is wrong with the file's name, if the drawing's paths are known.
@@ -118,6 +136,13 @@ impl FileIndex {
             let (files, paths) = (settings.file_pattern(db), &settings.language(db).path_pattern);
             self.diagnostics.extend(judge_file_name(stem, &self.names, files, paths));
         }
+        self
+    }
+
+    /// With its clamps. What is wrong with them is wrong with the drawing.
+    fn with_keep_outs(mut self, keep_outs: Option<KeepOuts>) -> Self {
+        self.diagnostics.extend(keep_outs.iter().flat_map(|found| found.problems.iter().cloned()));
+        self.keep_outs = keep_outs.map(Arc::new);
         self
     }
 
@@ -147,6 +172,11 @@ impl FileIndex {
         &self.diagnostics
     }
 
+    /// Its clamps, where there is anything on layers with clamps.
+    pub(super) fn keep_outs(&self) -> Option<&Arc<KeepOuts>> {
+        self.keep_outs.as_ref()
+    }
+
     /// The bytes that it was made from; `None` where there are none.
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
@@ -155,8 +185,11 @@ impl FileIndex {
 
 impl PartialEq for FileIndex {
     fn eq(&self, other: &Self) -> bool {
-        let Self { names, paths, diagnostics, content: _ } = self;
-        *names == other.names && *paths == other.paths && *diagnostics == other.diagnostics
+        let Self { names, paths, diagnostics, keep_outs, content: _ } = self;
+        *names == other.names
+            && *paths == other.paths
+            && *diagnostics == other.diagnostics
+            && *keep_outs == other.keep_outs
     }
 }
 

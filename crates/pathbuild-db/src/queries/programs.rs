@@ -8,17 +8,18 @@ use pathbuild_toolpath::{Parts, Program, fold};
 use super::closures::closure;
 use super::embedding::{Outcome, embeds};
 use super::instance::{Instance, chains, path};
+use super::keep_outs::entered_keep_outs;
 use crate::db::Db;
 use crate::inputs::Target;
 use crate::settings::Settings;
 
-/// Joins a path and all that it embeds into a program; `None` where any of them has errors or an option
-/// is missing. Programs are large and used once: only
-/// the last few are kept.
+/// Joins a path and all that it embeds into a program; `None` where any of them has errors, an option is missing, or the tool comes into a
+/// clamp. Programs are large and used once: only the last few are kept.
 #[salsa::tracked(lru = 16)]
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);
-    if closure.has_errors() || !closure.missing_options.is_empty() {
+    let is_right = !closure.has_errors() && closure.missing_options.is_empty();
+    if !is_right || !entered_keep_outs(db, target).is_empty() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();

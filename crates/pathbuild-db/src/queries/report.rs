@@ -5,6 +5,7 @@ use pathbuild_path::PathName;
 
 use super::closures::closure;
 use super::index::file_index;
+use super::keep_outs::entered_keep_outs;
 use super::raw::locate_in;
 use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
@@ -14,9 +15,9 @@ pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     file_index(db, file).diagnostics()
 }
 
-/// What is wrong with a path and all it embeds, not located yet.
-pub fn check_target(db: &dyn Db, target: Target) -> &[Diagnostic] {
-    &closure(db, target).diagnostics
+/// What is wrong with a path and all it embeds, and with the way of its tool past clamps; not located yet.
+pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
+    closure(db, target).diagnostics.iter().chain(entered_keep_outs(db, target))
 }
 
 /// Fills in the line and handle of the element that a diagnostic is about. Asked at the very end, so that no query depends on lines.

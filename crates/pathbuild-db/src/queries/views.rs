@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use pathbuild_dxf::Drawing;
-use pathbuild_path::{Path, PathName, RawPath, SourceMap};
-use pathbuild_toolpath::{Occurrence, Program, Trace, fold_traced};
+use pathbuild_path::{Bindings, Fallbacks, InForce, Path, PathName, RawPath, SourceMap};
+use pathbuild_toolpath::{FoldOptions, Occurrence, Program, Trace, fold_traced};
 use rustc_hash::FxHashMap;
 
 use super::closures::closure;
@@ -34,6 +34,8 @@ pub struct Part {
     pub file: SourceFile,
     /// The path, every parameter known.
     pub path: Path,
+    /// The values.
+    pub bindings: Bindings,
 }
 
 /// A path as it is drawn, and where in the file.
@@ -55,7 +57,8 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
     let root = closure.root?;
     let mut options = Settings::get(db).fold(db);
-    if *target.role(db) != Role::Emitted {
+    let is_only_embedded = !root.bindings(db).is_empty();
+    if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
         // As a check has it.
         options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
     }
@@ -73,7 +76,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
     let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps };
     let part = |instance: Instance<'_>| {
         let path = path(db, instance).path.clone()?;
-        Some(Part { file: instance.file(db), path })
+        Some(Part { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
     };
     let parts = instances.into_iter().map(part).collect::<Option<Vec<_>>>()?;
     Some(Arc::new(Traced { program, trace, parts }))
@@ -85,9 +88,28 @@ pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Op
     Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
 }
 
-/// What is on the layers of a drawing that are no path layers. The drawing is read once more for that. One is kept.
+/// The parameters that hold for each element of a path, with these values of its variables. S is that of the path where it is emitted, or that of
+/// an embedded one.
+pub fn in_force(
+    db: &dyn Db,
+    file: SourceFile,
+    name: &PathName,
+    bindings: &Bindings,
+    is_emitted: bool,
+) -> Vec<InForce> {
+    let settings = Settings::get(db);
+    let FoldOptions { feed, sweep_height, probe_feed, .. } = settings.fold(db);
+    let sweep_height = sweep_height.filter(|_| is_emitted);
+    let fallbacks = Fallbacks { feed, sweep_height, probe_feed };
+    let of_path =
+        |raw: &RawPath| pathbuild_path::parameters_in_force(raw, bindings, &fallbacks, settings.language(db));
+    raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
+}
+
+/// What is on the layers of a drawing that hold neither paths nor clamps. The drawing is read once more for that. One is kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn other_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     let language = Settings::get(db).language(db);
-    Arc::new(read_layers(db, file, &|layer| !language.path_pattern.is_layer(layer)))
+    let is_other = |layer: &str| !language.path_pattern.is_layer(layer) && !language.is_keep_out(layer);
+    Arc::new(read_layers(db, file, &is_other))
 }

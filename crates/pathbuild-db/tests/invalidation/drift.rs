@@ -14,7 +14,7 @@ fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
         rounds += 1;
         let target = world.db.target(world.file(FILE), "1111.1P", role.clone());
         let found = world.guarded(|db| {
-            let located = check_target(db, target).iter().cloned().map(|it| pathbuild_db::locate(db, it));
+            let located = check_target(db, target).cloned().map(|it| pathbuild_db::locate(db, it));
             let codes = located.map(|found| found.code().to_string()).collect::<Vec<_>>();
             (codes, program(db, target).is_some())
         });

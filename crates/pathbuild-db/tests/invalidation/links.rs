@@ -16,7 +16,7 @@ fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
     let db = Database::new(Arc::new(OsSystem));
     set_up(&db, &[]);
     let target = db.target(db.file(drawing), path, Role::Checked);
-    check_target(&db, target).iter().map(|found| found.code().to_string()).collect()
+    check_target(&db, target).map(|found| found.code().to_string()).collect()
 }
 
 /// A drawing that is reached under two names is one drawing.

@@ -5,6 +5,7 @@ mod drift;
 mod embedding;
 mod incremental;
 mod judged;
+mod keep_outs;
 mod library;
 mod links;
 mod listing;

@@ -44,6 +44,7 @@ pub(crate) fn dxf(text: &str) -> Vec<u8> {
 pub(crate) fn set_up(db: &Database, search: &[&str]) {
     let language = Language {
         path_pattern: PathPattern::default(),
+        keep_out: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::Doubts::default(),
@@ -66,7 +67,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
 /// What somebody who asks for a target gets.
 pub(crate) fn outcome(db: &Database, target: Target) -> Outcome {
     Outcome {
-        diagnostics: check_target(db, target).to_vec(),
+        diagnostics: check_target(db, target).cloned().collect(),
         program: program(db, target).as_ref().map(|program| format!("{program:?}")),
     }
 }
@@ -94,7 +95,7 @@ impl World {
     /// Asks what is wrong with a path, and no more: the codes.
     pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Vec<String> {
         let target = self.new_target(label, file, path, role);
-        let codes = check_target(&self.db, target).iter().map(|found| found.code().to_string()).collect();
+        let codes = check_target(&self.db, target).map(|found| found.code().to_string()).collect();
         self.note(label);
         codes
     }

@@ -38,6 +38,13 @@ messages! {
         help_en: "remove it; with `{new} = true` programs are as PathDxf2GCode writes them, without it support bars are left whole",
         help_de: "entfernen; mit `{new} = true` werden Programme so, wie PathDxf2GCode sie schreibt, ohne bleiben Stützstege ganz",
     }
+    /// A layer that is a path and holds clamps.
+    KEEP_OUT_IS_PATH: InvalidConfiguration {
+        en: "layer {layer} is a path by `path-pattern`, and holds clamps by `keep-out`",
+        de: "Layer {layer} ist nach `path-pattern` ein Pfad, und enthält nach `keep-out` Spannmittel",
+        help_en: "write `keep-out` so that it matches the whole names of layers with clamps only, or rename the layer",
+        help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
+    }
     /// A table for something that is not there yet.
     NOT_BUILT: InvalidConfiguration {
         en: "`{key}` is not built yet",

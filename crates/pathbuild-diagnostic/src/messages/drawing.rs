@@ -1,4 +1,4 @@
-//! Entities of a path: markers, line types, texts. (PB101 to PB115)
+//! Entities of a path: markers, line types, texts. (PB101 to PB117)
 
 messages! {
     /// No start marker.
@@ -122,5 +122,61 @@ messages! {
         de: "zwei Enden im Abstand von {distance} mm wurden verbunden",
         help_en: "snap the end to the other with the CAD's object snap; join-tolerance in pathbuild.toml allows it meanwhile",
         help_de: "das Ende im CAD auf das andere fangen; join-tolerance in pathbuild.toml erlaubt es bis dahin",
+    }
+    /// Frozen or off, a layer with clamps.
+    CLAMPS_NOT_VISIBLE: LayerNotVisible {
+        en: "a layer with clamps is frozen or off, but its clamps count all the same",
+        de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel zählen trotzdem",
+        help_en: "make it visible, or move the clamps that are gone to a layer that `keep-out` does not name",
+        help_de: "sichtbar machen, oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
+    }
+    /// A gap in a clamp's outline.
+    OUTLINE_OPEN: InvalidKeepOut {
+        en: "the outline of a clamp does not close: it ends at {point} and at {other}, {distance} mm apart",
+        de: "der Umriss eines Spannmittels ist nicht geschlossen: er endet bei {point} und bei {other}, {distance} mm auseinander",
+        help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
+        help_de: "einen Kreis, eine geschlossene Polylinie, oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
+    }
+    /// Three ends in one point.
+    OUTLINE_BRANCHES: InvalidKeepOut {
+        en: "at {point} more than two lines or arcs of clamps meet: it is not clear what is inside",
+        de: "bei {point} treffen sich mehr als zwei Linien oder Bögen von Spannmitteln: was innen liegt, ist nicht eindeutig",
+        help_en: "remove what is drawn twice; draw clamps that touch as closed polylines, each for itself",
+        help_de: "doppelt Gezeichnetes löschen; Spannmittel, die sich berühren, jeweils als geschlossene Polylinie zeichnen",
+    }
+    /// A clamp without a height.
+    CLAMP_WITHOUT_TEXT: InvalidKeepOut {
+        en: "no text says how high this clamp is",
+        de: "kein Text sagt, wie hoch dieses Spannmittel ist",
+        help_en: "put a text such as Z25 (mm above the plate) inside the outline, on the same layer",
+        help_de: "einen Text wie Z25 (mm über der Platte) in den Umriss setzen, auf demselben Layer",
+    }
+    /// A clamp with several heights.
+    CLAMP_WITH_TEXTS: InvalidKeepOut {
+        en: "several texts are inside the outline of this clamp or overlap it: {texts}",
+        de: "mehrere Texte liegen im Umriss dieses Spannmittels oder überlappen ihn: {texts}",
+        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and what is only a note to another layer",
+        help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
+    }
+    /// A text that says no height.
+    NO_CLAMP_HEIGHT: InvalidKeepOut {
+        en: "the text \"{text}\" does not say how high this clamp is",
+        de: "der Text \"{text}\" sagt nicht, wie hoch dieses Spannmittel ist",
+        help_en: "write Z and the height above the plate in mm, greater than 0, and nothing else: Z25",
+        help_de: "Z und die Höhe über der Platte in mm schreiben, größer als 0, und sonst nichts: Z25",
+    }
+    /// A text without an outline.
+    TEXT_OUTSIDE_CLAMPS: InvalidKeepOut {
+        en: "the text \"{text}\" is on a layer with clamps, but inside the outline of none and overlaps none",
+        de: "der Text \"{text}\" ist auf einem Layer mit Spannmitteln, liegt aber in keinem Umriss und überlappt keinen",
+        help_en: "move it into the outline whose height it says, or to another layer",
+        help_de: "in den Umriss schieben, dessen Höhe er sagt, oder auf einen anderen Layer legen",
+    }
+    /// A curve that is not understood.
+    NO_OUTLINE: InvalidKeepOut {
+        en: "this {entity} on a layer with clamps is not understood, so it is not known where the clamp is",
+        de: "{entity} auf einem Layer mit Spannmitteln wird nicht verstanden; wo das Spannmittel ist, ist also nicht bekannt",
+        help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
+        help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
 }

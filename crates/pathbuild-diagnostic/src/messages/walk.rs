@@ -1,4 +1,4 @@
-//! The walk along a path. (PB401 to PB406)
+//! The walk along a path. (PB401 to PB407)
 
 messages! {
     /// A dead end without a turn marker.
@@ -90,5 +90,19 @@ messages! {
         de: "zwischen zwei der {count} Stützstege sind {gap} mm, zu wenig für den Fräser, O{tool}",
         help_en: "raise U, the least distance between bars, or shorten P",
         help_de: "U, den Mindestabstand der Stege, erhöhen, oder P verkleinern",
+    }
+    /// A program comes into a clamp; said at the drawn element.
+    MOVES_INTO_CLAMP: InsideKeepOut {
+        en: "the tool, O{tool}, comes into the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, kommt in das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "raise S to {height} or more (rapids at S go straight), draw cuts half of O and more away from the outline, or move the clamp",
+        help_de: "S auf {height} oder mehr legen (Eilgänge auf S gehen geradeaus), Schnitte um O/2 und mehr vom Umriss entfernt zeichnen, oder das Spannmittel versetzen",
+    }
+    /// The same of a G-code program, at its line.
+    LINE_INTO_CLAMP: InsideKeepOut {
+        en: "here the tool, O{tool}, comes into the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
+        de: "hier kommt der Fräser, O{tool}, in das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
+        help_en: "the clamp stands there by the drawing; do not run this program",
+        help_de: "nach der Zeichnung steht dort das Spannmittel; dieses Programm nicht ausführen",
     }
 }

@@ -20,7 +20,7 @@ mod walk;
 
 use pathbuild_diagnostic::Diagnostic;
 
-pub use against::{Against, Drawn, ToolUse};
+pub use against::{Against, Clamps, Drawn, PastClamps, ToolUse};
 pub use coarse::coarse_arcs;
 pub use compare::{Difference, Ends, Kind, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};

@@ -1,6 +1,6 @@
 //! A text of the drawing, TEXT or MTEXT, before it is known what it belongs to.
 
-use pathbuild_dxf::{MText, Text};
+use pathbuild_dxf::{Geometry, MText, Text};
 
 use super::meaning::xy;
 use crate::element::Source;
@@ -24,25 +24,49 @@ pub(super) enum AnyText<'d> {
 impl<'d> FoundText<'d> {
     /// As the drawing has it.
     pub(super) fn string(&self) -> &'d str {
-        match self.text {
-            AnyText::Text(text) => &text.string,
-            AnyText::MText(text) => &text.plain,
-        }
+        self.text.string()
     }
 
     pub(super) fn circle(&self) -> TextCircle {
-        match self.text {
-            AnyText::Text(text) => TextCircle::of_text(text),
-            AnyText::MText(text) => TextCircle::of_mtext(text),
-        }
+        self.text.circle()
     }
 
     pub(super) fn anchor(&self) -> Xy {
-        let (AnyText::Text(Text { anchor, .. }) | AnyText::MText(MText { anchor, .. })) = self.text;
-        xy(*anchor)
+        self.text.anchor()
     }
 
     pub(super) fn is_mtext(&self) -> bool {
         matches!(self.text, AnyText::MText(_))
+    }
+}
+
+impl<'d> AnyText<'d> {
+    /// The text, if an entity is one.
+    pub(super) fn of(geometry: &'d Geometry) -> Option<Self> {
+        match geometry {
+            Geometry::Text(text) => Some(Self::Text(text)),
+            Geometry::MText(text) => Some(Self::MText(text)),
+            Geometry::Line(_) | Geometry::Arc(_) | Geometry::Circle(_) => None,
+        }
+    }
+
+    /// As the drawing has it.
+    pub(super) fn string(self) -> &'d str {
+        match self {
+            Self::Text(text) => &text.string,
+            Self::MText(text) => &text.plain,
+        }
+    }
+
+    pub(super) fn circle(self) -> TextCircle {
+        match self {
+            Self::Text(text) => TextCircle::of_text(text),
+            Self::MText(text) => TextCircle::of_mtext(text),
+        }
+    }
+
+    pub(super) fn anchor(self) -> Xy {
+        let (Self::Text(Text { anchor, .. }) | Self::MText(MText { anchor, .. })) = self;
+        xy(*anchor)
     }
 }

@@ -12,6 +12,7 @@ mod embedding;
 mod file_name;
 mod files;
 mod full_circles;
+mod keep_outs;
 mod letters;
 mod limits;
 mod line_types;

@@ -34,6 +34,7 @@ const NO_DOUBTS: Doubts =
 pub(crate) fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
+        keep_out: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: NO_DOUBTS,

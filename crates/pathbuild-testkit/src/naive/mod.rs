@@ -53,6 +53,7 @@ type Instance = (usize, usize, Bindings);
 pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
+        keep_out: None,
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,

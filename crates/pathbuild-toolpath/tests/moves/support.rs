@@ -58,6 +58,7 @@ fn drawn(drawing: &str) -> Drawn {
     let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let language = Language {
         path_pattern: PathPattern::default(),
+        keep_out: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::Doubts::default(),

@@ -1,7 +1,7 @@
 // The page: a scene, its G-code, and what goes between them.
 
 import { Model, model } from "./model.js";
-import { Scene } from "./scene.js";
+import { Parameter, Scene, pointsOfShape } from "./scene.js";
 import { Stage, Spot } from "./stage.js";
 import { Lang, Word, mm, say, sayKind } from "./words.js";
 
@@ -95,6 +95,11 @@ function spots(): void {
     const zero = path.elements.find((element) => element.path === 0 && element.kind === "start");
     if (zero || path.moves.length > 0) add(place([0, 0]), 0, text("span", "X0 Y0", "zero"));
   }
+  for (const { outline, height } of scene.keep_outs) {
+    const corners = outline.flatMap((shape) => pointsOfShape(shape).slice(1));
+    const mean = (axis: 0 | 1) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length;
+    add([mean(0), mean(1)], height, text("span", `Z${mm(height)}`, "clamp"));
+  }
   for (const finding of scene.findings) {
     if (!finding.at) continue;
     const node = text("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
@@ -181,8 +186,15 @@ function describe(at: number | null): void {
     if (element.line !== null) list.push([say("line", lang), `${inside?.file ?? path.file}:${element.line}`]);
     list.push([say("text", lang), joined(own)]);
     list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
+    for (const parameter of element.parameters ?? []) list.push([parameter.letter, `${parameter.value} · ${provider(parameter)}`]);
   }
   fill(list);
+}
+
+/** Where a parameter comes from. */
+function provider({ from, which }: Parameter): string {
+  const words = { own: "fromOwn", chain: "fromChain", path: "fromPath", lender: "fromLender", option: "fromOption", default: "fromDefault" } as const;
+  return `${say(words[from], lang)}${from === "option" ? "" : " "}${which ?? ""}`.trim();
 }
 
 /** What there is to say of the whole. */

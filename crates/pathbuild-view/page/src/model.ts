@@ -1,6 +1,6 @@
 // The moves of all paths behind each other, flattened once.
 
-import { Move, Path, Scene, isCut, pointsOfMove } from "./scene.js";
+import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape } from "./scene.js";
 
 export interface Step {
   path: Path;
@@ -82,6 +82,7 @@ export function model(scene: Scene, dark: boolean): Model {
       for (const [x, y] of ends) grow([x + path.zero[0], y + path.zero[1], 0]);
     }
   }
+  for (const shape of scene.keep_outs.flatMap((it) => it.outline)) for (const [x, y] of pointsOfShape(shape)) grow([x, y, 0]);
   for (const [x, y] of scene.findings.flatMap((it) => (it.at ? [it.at] : []))) grow([x, y, 0]);
   const flat = steps.map(({ path, move }) =>
     pointsOfMove(move).map(([x, y, z]): [number, number, number] => [x + path.zero[0], y + path.zero[1], z]),

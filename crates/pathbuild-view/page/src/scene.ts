@@ -37,6 +37,14 @@ export interface Element {
   line: number | null;
   shape: Shape;
   order: number | null;
+  parameters?: Parameter[];
+}
+
+export interface Parameter {
+  letter: string;
+  value: string;
+  from: "own" | "chain" | "path" | "lender" | "option" | "default";
+  which?: string;
 }
 
 export interface Label {
@@ -72,6 +80,12 @@ export interface Path {
   gcode: string | null;
 }
 
+export interface KeepOut {
+  layer: string;
+  outline: Shape[];
+  height: number;
+}
+
 export interface Finding {
   number: number;
   code: string;
@@ -89,7 +103,7 @@ export interface Scene {
   title: string;
   paths: Path[];
   other_layers: ({ type: "shape"; layer: string; shape: Shape } | { type: "text"; text: string; at: Point })[];
-  keep_outs: { layer: string; outline: Shape[]; height: number }[];
+  keep_outs: KeepOut[];
   findings: Finding[];
 }
 

@@ -8,7 +8,7 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
 import { Model, Pieces } from "./model.js";
-import { Point, Scene, Shape, pointsOfShape } from "./scene.js";
+import { KeepOut, Point, Scene, Shape, pointsOfShape } from "./scene.js";
 
 export interface Spot {
   at: [number, number, number];
@@ -66,7 +66,8 @@ export class Stage {
     this.unit = Math.max(high[0] - low[0], high[1] - low[1], 1);
     this.other = this.thin(otherShapes(scene), dark ? 0x4a5560 : 0xb8bfc6);
     this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
-    this.scene.add(this.thin(keepOuts(scene), 0xd55e00));
+    for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), 0xd55e00));
+    for (const it of scene.keep_outs) this.scene.add(clamp(it));
     this.scene.add(this.fat(bars(scene), 6));
     this.rapids = this.strokes(model.rapids, 1.1);
     this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
@@ -279,8 +280,17 @@ function otherShapes(scene: Scene): number[] {
   return scene.other_layers.flatMap((it) => (it.type === "shape" ? strokes(it.shape, [0, 0], 0) : []));
 }
 
-function keepOuts(scene: Scene): number[] {
-  return scene.keep_outs.flatMap((it) => it.outline.flatMap((shape) => strokes(shape, [0, 0], it.height)));
+/** The outlines of clamps on the plate, or at their heights. */
+function keepOuts(scene: Scene, high: boolean): number[] {
+  return scene.keep_outs.flatMap((it) => it.outline.flatMap((shape) => strokes(shape, [0, 0], high ? it.height : 0)));
+}
+
+/** A clamp, which can be seen through. */
+function clamp(it: KeepOut): THREE.Mesh {
+  const corners = it.outline.flatMap((shape) => pointsOfShape(shape).slice(1)).map(([x, y]) => new THREE.Vector2(x, y));
+  const body = new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: it.height, bevelEnabled: false });
+  const material = new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.16, depthWrite: false });
+  return new THREE.Mesh(body, material);
 }
 
 /** What is drawn and is no move: all of a path without a program, else what embeds. */

@@ -30,6 +30,12 @@ const words = {
   text: ["its text", "eigener Text"],
   pathText: ["text of path", "Text des Pfads"],
   none: ["none", "keiner"],
+  fromOwn: ["own text", "eigener Text"],
+  fromChain: ["first segment of the chain", "erstes Segment der Kette"],
+  fromPath: ["text of the path", "Text des Pfads"],
+  fromLender: ["@, text of path", "@, Text des Pfads"],
+  fromOption: ["option --", "Option --"],
+  fromDefault: ["default", "Vorgabe"],
   feed: ["feed", "Vorschub"],
   pick: ["Click two points to measure.", "Zum Messen zwei Punkte anklicken."],
   keys: [

@@ -1,11 +1,14 @@
 //! What is drawn on a path's layers.
 
+use std::collections::BTreeMap;
+
 use pathbuild_diagnostic::ElementId;
 use pathbuild_path::{
-    AssignedText, Curve, Marker, Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, Xy,
+    AssignedText, Curve, InForce, Marker, Parameter as InForceParameter, Placement, Position, RawPath, Role,
+    Shape as DrawnShape, SourceMap, Xy,
 };
 
-use crate::scene::{Arc, Element, ElementKind, Embedded, Label, Point, ScenePath, Shape};
+use crate::scene::{Arc, Element, ElementKind, Embedded, KeepOut, Label, Parameter, Point, ScenePath, Shape};
 
 /// A path as it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +21,8 @@ pub struct DrawnSource<'a> {
     pub positions: &'a SourceMap,
     /// The texts of its drawing, also those of other paths.
     pub texts: &'a [AssignedText],
+    /// What holds for its elements.
+    pub in_force: &'a [InForce],
 }
 
 /// A path without a program: what is drawn, where it is drawn.
@@ -49,7 +54,8 @@ impl ScenePath {
     pub(super) fn draw(&mut self, source: &DrawnSource<'_>, placement: &Placement) -> u32 {
         let path = number(self.embedded.len()).saturating_sub(1);
         let first = self.elements.len();
-        let drawn = Drawn { source, placement, path };
+        let in_force = source.in_force.iter().map(|it| (it.origin.id, &*it.parameters)).collect();
+        let drawn = Drawn { source, placement, path, in_force };
         let shapes = drawn.add_elements(&mut self.elements);
         let own = |text: &&AssignedText| text.path == source.raw.name;
         let texts = source.texts.iter().filter(own);
@@ -65,6 +71,8 @@ struct Drawn<'a> {
     source: &'a DrawnSource<'a>,
     placement: &'a Placement,
     path: u32,
+    /// By element.
+    in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
 }
 
 impl Drawn<'_> {
@@ -108,6 +116,7 @@ impl Drawn<'_> {
             line: position.map(|position| position.line),
             shape: placed(&shape, self.placement),
             order: None,
+            parameters: self.in_force.get(&origin.id).into_iter().copied().flatten().map(parameter).collect(),
         });
         (position, shape)
     }
@@ -131,6 +140,25 @@ impl Drawn<'_> {
             radius: text.circle.radius,
             elements: owners.map(|(index, _)| number(first + index)).collect(),
         }
+    }
+}
+
+fn parameter(known: &InForceParameter) -> Parameter {
+    Parameter {
+        letter: known.letter.as_char(),
+        value: known.value.to_string(),
+        from: known.from.name(),
+        which: known.from.which().map(str::to_owned),
+    }
+}
+
+/// A clamp, moved by that much.
+pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
+    let placement = Placement::from_origin(Xy::new(-x, -y));
+    KeepOut {
+        layer: clamp.layer.to_string(),
+        outline: clamp.outline.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect(),
+        height: clamp.height,
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Place {
 }
 
 impl Frame {
-    /// The frame round all that belongs to paths; round other layers where there are none.
+    /// The frame round all that belongs to paths, and clamps; round other layers where there are no paths.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut corners: Option<[Point; 2]> = None;
         for path in &scene.paths {
@@ -43,6 +43,9 @@ impl Frame {
             for extent in shapes {
                 widen(&mut corners, extent);
             }
+        }
+        for shape in scene.keep_outs.iter().flat_map(|clamp| &clamp.outline) {
+            widen(&mut corners, shape.extent());
         }
         for at in scene.findings.iter().filter_map(|finding| finding.at) {
             widen(&mut corners, [at, at]);

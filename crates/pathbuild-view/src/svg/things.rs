@@ -26,23 +26,41 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame) {
         }
     }
     canvas.close();
+    keep_outs(canvas, scene, &place);
+}
+
+/// Clamps, with their heights in the middle.
+fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &Place) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
-    for keep_out in &scene.keep_outs {
-        for it in &keep_out.outline {
-            canvas.path(&shape(it, &place), "stroke-dasharray=\"8 2 2 2\"");
-        }
-        if let Some(it) = keep_out.outline.first() {
-            let label = format!("Z{}", keep_out.height);
-            canvas.text(
-                place.at(it.start()),
-                10.0,
-                Anchor::Start,
-                &format!("stroke=\"none\" fill=\"{ERROR}\""),
-                &label,
-            );
-        }
+    let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
+    for clamp in &scene.keep_outs {
+        canvas.path(&outline(&clamp.outline, place), &style);
+    }
+    let style = format!("stroke=\"none\" fill=\"{ERROR}\"");
+    for clamp in &scene.keep_outs {
+        let corners = clamp.outline.iter().flat_map(Shape::extent);
+        let hull = |[low, high]: [Point; 2], at: Point| {
+            [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
+        };
+        let Some([low, high]) = corners.map(|at| [at, at]).reduce(|all, [at, _]| hull(all, at)) else {
+            continue;
+        };
+        let [x, y] = place.at([0, 1].map(|axis| f64::midpoint(low[axis], high[axis])));
+        let label = format!("Z{}", n(clamp.height));
+        canvas.text([x, y + 4.0], 11.0, Anchor::Middle, &style, &label);
     }
     canvas.close();
+}
+
+/// Shapes that meet all around as one piece of path data.
+fn outline(shapes: &[Shape], place: &Place) -> String {
+    let mut data = String::new();
+    for it in shapes {
+        let next = shape(it, place);
+        let begin = if data.is_empty() { 0 } else { next.find(['L', 'A']).unwrap_or(0) };
+        data.push_str(&next[begin..]);
+    }
+    data + "Z"
 }
 
 fn other_text(canvas: &mut Canvas, place: &Place, text: &str, at: Point, height: f64, rotation: f64) {

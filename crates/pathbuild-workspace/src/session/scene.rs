@@ -3,13 +3,13 @@
 use std::slice;
 
 use pathbuild_db::{
-    Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, other_layers,
-    path_names, program, traced_program,
+    Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index, in_force,
+    keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_path::PathName;
+use pathbuild_path::{InForce, KeepOut, PathName};
 use pathbuild_toolpath::Correction;
 use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
 
@@ -36,8 +36,13 @@ impl Session<'_> {
         };
         let mut scene = Scene::new(title);
         let mut diagnostics = check_file(&self.db, file).to_vec();
+        scene
+            .keep_outs
+            .extend(keep_outs(&self.db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
         for path in names {
-            let (seen, found) = self.scene_path(file, path);
+            let (seen, found, clamps) = self.scene_path(file, path);
+            let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
+            scene.keep_outs.extend(clamps.iter().map(|clamp| view::keep_out(clamp, zero)));
             scene.paths.extend(seen);
             diagnostics.extend(found);
         }
@@ -45,26 +50,36 @@ impl Session<'_> {
         Seen { scene, diagnostics }
     }
 
-    fn scene_path(&self, file: SourceFile, name: &PathName) -> (Option<ScenePath>, Vec<Diagnostic>) {
+    /// A path, what is wrong with it, and the clamps that it embeds, where they stand in its program.
+    fn scene_path(
+        &self,
+        file: SourceFile,
+        name: &PathName,
+    ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
         let checked =
             self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
-        let Some(checked) = checked else { return (None, Vec::new()) };
+        let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(self.context);
-        let work = |db: &pathbuild_db::Database, target: &Target| {
-            let traced = traced_program(db, *target);
-            traced.as_deref().map_or(Ok(None), |traced| program_scene(db, traced, writing))
+        let work = |db: &pathbuild_db::Database, target: &Target| -> Result<_, Box<Diagnostic>> {
+            let Some(traced) = traced_program(db, *target) else { return Ok(None) };
+            let scene = program_scene(db, traced, writing)?;
+            let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
+            Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
         };
         let mut diagnostics = checked.diagnostics;
         let at = |problem: Diagnostic| problem.in_file(file.path(&self.db)).in_path(name.as_str());
         let made = self.guarded(slice::from_ref(&checked.target), work).pop();
         match made {
-            Some(Ok(Ok(Some(scene)))) => return (Some(scene), diagnostics),
+            Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
             Some(Err(problem)) => diagnostics.push(at(*problem)),
             Some(Ok(Err(problem))) => diagnostics.push(at(*problem)),
             Some(Ok(Ok(None))) | None => {}
         }
         let drawn = drawn_path(&self.db, file, name);
-        (drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn))), diagnostics)
+        let examples = file_index(&self.db, file).path(name).map(|path| path.examples.clone());
+        let known = in_force(&self.db, file, name, &examples.unwrap_or_default(), true);
+        let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn, &known)));
+        (drawn, diagnostics, Vec::new())
     }
 
     /// A hash of the moves of each path of some drawings, of the programs that [`scene`](Self::scene) shows; `None` where a path has errors.
@@ -94,9 +109,15 @@ fn program_scene(
     writing: &Writing,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let Traced { program, trace, parts } = traced;
-    let sources = parts.iter().map(|part| {
+    // The first is the path that is emitted.
+    let known = parts
+        .iter()
+        .zip(0..)
+        .map(|(part, number)| in_force(db, part.file, &part.path.name, &part.bindings, number == 0));
+    let known: Vec<Vec<InForce>> = known.collect();
+    let sources = parts.iter().zip(&known).map(|(part, known)| {
         let drawn = drawn_path(db, part.file, &part.path.name)?;
-        Some((drawn_source(db, part.file, drawn), &part.path))
+        Some((drawn_source(db, part.file, drawn, known), &part.path))
     });
     let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
     // Each line is to be one move.
@@ -107,7 +128,12 @@ fn program_scene(
     Ok(Some(view::program_path(&ProgramSource { program, trace, parts: &sources, text: &text, rapid })))
 }
 
-fn drawn_source<'db>(db: &'db dyn Db, file: SourceFile, drawn: DrawnPath<'db>) -> DrawnSource<'db> {
+fn drawn_source<'db>(
+    db: &'db dyn Db,
+    file: SourceFile,
+    drawn: DrawnPath<'db>,
+    in_force: &'db [InForce],
+) -> DrawnSource<'db> {
     let DrawnPath { raw, positions } = drawn;
-    DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file) }
+    DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file), in_force }
 }

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_dxf::Units;
-use pathbuild_path::{Doubts, FilePattern, Language, LineTypeAliases, PathPattern, Restriction};
+use pathbuild_path::{
+    Doubts, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathPattern, Restriction,
+};
 use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
@@ -31,6 +33,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     };
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
+        keep_out: general.keep_out.value.as_deref().and_then(|pattern| KeepOutPattern::new(pattern).ok()),
         line_types: aliases(context),
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,

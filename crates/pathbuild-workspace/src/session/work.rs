@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 use std::time::Duration;
 
 use pathbuild_db::{
-    Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, closure, file_index, locate,
-    path_names, summary, trace,
+    Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, check_target, closure,
+    file_index, locate, path_names, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{PathName, PathSignature};
@@ -228,19 +228,20 @@ fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget
 
 fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {
     let reached = closure(db, target);
-    let located = reached.diagnostics.iter().map(|diagnostic| locate(db, diagnostic.clone()));
+    let located = check_target(db, target).map(|diagnostic| locate(db, diagnostic.clone()));
+    let diagnostics: Vec<Diagnostic> = located.collect();
     CheckedTarget {
         target,
-        diagnostics: located.collect(),
+        emitted: emitted(db, reached, &diagnostics),
+        diagnostics,
         files: reached.files(db),
         missing_options: reached.missing_options.clone(),
-        emitted: emitted(db, reached),
         trace: is_traced.then(|| trace(db, target).clone()),
     }
 }
 
-fn emitted(db: &Database, reached: &Closure<'_>) -> Option<Emitted> {
-    if reached.has_errors() {
+fn emitted(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> Option<Emitted> {
+    if found.iter().any(Diagnostic::is_error) {
         return None;
     }
     let root = signature(db, reached.root?)?;

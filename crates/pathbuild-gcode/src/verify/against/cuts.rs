@@ -12,7 +12,7 @@ use crate::verify::is_near;
 use crate::verify::walk::Stretch;
 
 /// Two roundings to the third decimal, and a unit by which an arc may be written longer lest it be a full circle.
-const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
+pub(super) const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
 
 /// One unit of the last printed digit.
 const FEED: f64 = 0.001 * (1.0 + 1e-6);
@@ -21,7 +21,7 @@ const FEED: f64 = 0.001 * (1.0 + 1e-6);
 const CENTRE: f64 = 3.0 * PLACE;
 
 /// How far chords may leave their arc, in mm, for a control that takes no helices; on steep ones roundings in the plane change the height.
-const CHORD: f64 = 0.03;
+pub(super) const CHORD: f64 = 0.03;
 
 #[derive(Debug)]
 pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {

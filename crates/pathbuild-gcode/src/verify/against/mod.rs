@@ -4,6 +4,7 @@
 //! program says that could change where, how deep or how fast the tool cuts is a difference. What its header claims counts for nothing.
 
 mod chain;
+mod clamps;
 mod cuts;
 mod setup;
 
@@ -13,6 +14,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{Action, Move, Step, Turning};
 use crate::read::Problems;
 
+pub use clamps::{Clamps, PastClamps};
 use cuts::Cuts;
 use setup::Setup;
 

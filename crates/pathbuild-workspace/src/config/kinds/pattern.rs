@@ -21,6 +21,13 @@ pub(in crate::config) const REGEX: Kind<Box<str>> = Kind {
     schema: || json!({ "type": "string", "format": "regex" }),
 };
 
+/// A regular expression, where there is one.
+pub(in crate::config) const OPTIONAL_REGEX: Kind<Option<Box<str>>> = Kind {
+    read: |value, reader| (REGEX.read)(value, reader).map(Some),
+    show: |text| text.as_deref().map(literal),
+    schema: REGEX.schema,
+};
+
 /// A list of PARENT:CHILD.
 pub(in crate::config) const RESTRICTIONS: Kind<Vec<Restriction>> = Kind {
     read: |value, reader| {

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::Lang;
 use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
-use crate::config::kinds::pattern::{REGEX, RESTRICTIONS};
+use crate::config::kinds::pattern::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
 use crate::config::kinds::table::POST;
 use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, choice};
 use crate::config::origin::Sourced;
@@ -39,6 +39,9 @@ section! {
     path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check;
     /// what path names in a file name are
     file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check;
+    /// layers with clamps, by their whole names: no move may come into their outlines below the height
+    /// that a text such as Z25 says (PB407)
+    keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
     /// PARENT:CHILD, split at the first colon: what may embed what, such as "^8:P$"
     restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check;
     /// en | de: of messages; --lang, PATHBUILD_LANG and your own config.toml come first

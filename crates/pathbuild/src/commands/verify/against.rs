@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, program};
+use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, placed_keep_outs, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Move, Turning};
-use pathbuild_gcode::verify::{self, ToolUse};
-use pathbuild_path::PathName;
+use pathbuild_gcode::verify::{self, Clamps, PastClamps, ToolUse};
+use pathbuild_path::{KeepOut, PathName};
 use pathbuild_post::Spindle;
 use pathbuild_toolpath::Program as Drawn;
 
@@ -20,6 +20,8 @@ use pathbuild_workspace::session::Session;
 /// The program of a path.
 pub(super) struct Against {
     drawn: Arc<Drawn>,
+    /// Those around it, where its drawings have some.
+    clamps: Option<Clamps>,
 }
 
 /// Why there is none.
@@ -42,7 +44,10 @@ impl Against {
             return Err(Failure::Usage(missing(context, &checked.missing_options)));
         }
         let drawn = program(session.db(), target).clone().ok_or_else(|| Failure::Found(Vec::new()))?;
-        Ok(Self { drawn })
+        let placed = placed_keep_outs(session.db(), target).into_iter().map(|clamp| clamp.placed);
+        let placed: Vec<KeepOut> = placed.collect();
+        let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
+        Ok(Self { drawn, clamps })
     }
 
     /// O in mm, if everything is milled with the same.
@@ -68,6 +73,11 @@ impl Against {
             spin_up: context.settings.machine.spin_up.value,
         };
         verify::Against::new(drawn, dialect)
+    }
+
+    /// What holds a program of a dialect against the clamps around it, where there are some.
+    pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
+        self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
     }
 
     /// The cutter as the configuration has it.

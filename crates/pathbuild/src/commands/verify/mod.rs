@@ -5,7 +5,7 @@ mod stock;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
-use pathbuild_gcode::verify::{self, Checks, MachineRules, coarse_arcs, verify_with};
+use pathbuild_gcode::verify::{self, Checks, MachineRules, PastClamps, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
@@ -86,11 +86,16 @@ fn check(
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
     let mut comparison = against.map(|against| against.comparison(context, program.dialect));
+    let mut past = against.and_then(|against| against.past_clamps(program.dialect));
     let mut found = verify_with(&drawn, &Checks { stock: stock.as_ref(), machine: None }, &mut |step| {
         if let Some(comparison) = &mut comparison {
             comparison.step(step);
         }
+        if let Some(past) = &mut past {
+            past.step(step);
+        }
     });
+    found.extend(past.into_iter().flat_map(PastClamps::finish));
     found.extend(coarse_arcs(&program.text, program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
     found.extend(stock::unknown_tools(context, &program, &tools));

@@ -1,8 +1,11 @@
-//! `pathbuild texts`: which element each parameter text belongs to. (book: language/parameter-texts)
+//! `pathbuild texts`: which element each parameter text belongs to, and which parameters hold for each element.
+//! (book: language/parameter-texts)
+
+mod table;
 
 use std::fmt::Write;
 
-use pathbuild_db::{assigned_texts, check_file};
+use pathbuild_db::{assigned_texts, check_file, path_names};
 use pathbuild_diagnostic::{Diagnostic, Handle, Number, shown};
 use pathbuild_path::{AssignedElement, AssignedText, Curve, Position, Shape, TextCircle, Xy};
 use regex::Regex;
@@ -57,10 +60,14 @@ fn texts(
                 && pattern.is_none_or(|pattern| pattern.is_match(&text.text))
         };
         let name = file.path(db).as_str();
+        let of_whole = path.is_none().then(|| path_names(db, file)).into_iter().flatten();
+        // Who looks for a text wants to see that.
+        let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
             Format::Json => object(name, text).to_string(),
             _ => lines(context, name, text),
         }));
+        shown.extend(paths.flat_map(|path| table::shown(context, db, file, path)));
     }
     (shown, problems)
 }

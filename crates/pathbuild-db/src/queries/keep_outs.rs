@@ -1,0 +1,200 @@
+//! Clamps: those of a drawing, where they stand in a program, and which moves come into them. (spec/10-drawing.md, "Keep-outs")
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use pathbuild_diagnostic::messages::walk as messages;
+use pathbuild_diagnostic::{Diagnostic, Number, Point, TraceStep, Word};
+use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
+use pathbuild_toolpath::{Drawn, Ways};
+use rustc_hash::FxHashSet;
+
+use super::closures::closure;
+use super::index::file_index;
+use super::views::{Traced, traced_program};
+use crate::db::Db;
+use crate::inputs::{SourceFile, Target};
+use crate::settings::Settings;
+
+/// A clamp where it stands in a program.
+#[derive(Clone, Debug)]
+pub struct PlacedKeepOut {
+    /// The clamp, placed and raised.
+    pub placed: KeepOut,
+    /// As its drawing has it.
+    pub drawn: KeepOut,
+    /// The path of that drawing that brings it: index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences).
+    pub occurrence: u32,
+}
+
+/// The clamps of a drawing.
+pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
+    of_file(db, file).map_or(&[], |found| &found.all)
+}
+
+/// What is wrong with the clamps of a drawing; while there is an error, none of its paths becomes a program.
+pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
+    of_file(db, file).map_or(&[], |found| &found.problems)
+}
+
+fn of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
+    // Most have none, and need no query for that.
+    Settings::get(db).language(db).keep_out.as_ref()?;
+    indexed_keep_outs(db, file).as_deref()
+}
+
+/// The clamps in a drawing's index: unchanged by edits of its paths.
+#[salsa::tracked]
+fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
+    file_index(db, file).keep_outs().cloned()
+}
+
+/// The clamps around the program of a target: those of each drawing in it, wherever that lies; one that stands twice in the same place is
+/// there once. None where there is no program.
+pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
+    with_keep_outs(db, target).map(|traced| placed(db, traced)).unwrap_or_default()
+}
+
+/// The program of a target in whose drawings there are clamps.
+fn with_keep_outs(db: &dyn Db, target: Target) -> Option<&Traced> {
+    if has_keep_outs(db, target) { traced_program(db, target).as_deref() } else { None }
+}
+
+fn has_keep_outs(db: &dyn Db, target: Target) -> bool {
+    let has_some = |file| !keep_outs(db, file).is_empty();
+    Settings::get(db).language(db).keep_out.is_some()
+        && closure(db, target).files(db).into_iter().any(has_some)
+}
+
+fn placed(db: &dyn Db, traced: &Traced) -> Vec<PlacedKeepOut> {
+    let mut known = FxHashSet::default();
+    let mut all = Vec::new();
+    for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
+        for drawn in keep_outs(db, traced.parts[occurrence.id].file) {
+            let placed = drawn.placed(&occurrence.placement, occurrence.raised);
+            let start = placed.outline.first().map_or(placed.at, Curve::start);
+            let place = [placed.at.x, placed.at.y, start.x, start.y, placed.height].map(Number);
+            if known.insert(place) {
+                all.push(PlacedKeepOut { placed, drawn: drawn.clone(), occurrence: number });
+            }
+        }
+    }
+    all
+}
+
+/// Where the tool comes into clamps: PB407, one for each kind of move, element and clamp, in the path that holds both.
+pub(super) fn entered_keep_outs(db: &dyn Db, target: Target) -> &[Diagnostic] {
+    // Around most there is none, and they need no query for that.
+    if has_keep_outs(db, target) { moves_into_keep_outs(db, target) } else { &[] }
+}
+
+#[salsa::tracked]
+fn moves_into_keep_outs(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
+    with_keep_outs(db, target).map(|traced| Search::new(db, traced).findings()).unwrap_or_default()
+}
+
+/// A program and the clamps around it.
+struct Search<'t> {
+    db: &'t dyn Db,
+    traced: &'t Traced,
+    clamps: Vec<PlacedKeepOut>,
+}
+
+/// Moves of one kind along one element into one clamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry {
+    clamp: usize,
+    /// The path that holds both the clamp and the element.
+    occurrence: u32,
+    /// The element there.
+    element: Option<u32>,
+    what: &'static str,
+}
+
+/// How many moves, and how deep in mm.
+struct Extent {
+    what: &'static Word,
+    moves: u64,
+    lowest: f64,
+}
+
+impl<'t> Search<'t> {
+    fn new(db: &'t dyn Db, traced: &'t Traced) -> Self {
+        Self { db, traced, clamps: placed(db, traced) }
+    }
+
+    fn findings(&self) -> Vec<Diagnostic> {
+        let Traced { program, trace, .. } = self.traced;
+        let map =
+            KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
+        let radius = program.largest_cutter() / 2.0;
+        let mut entries: BTreeMap<Entry, Extent> = BTreeMap::new();
+        for (step, what, way) in Ways::of(program) {
+            for clamp in map.entered(&way, radius, 0.0) {
+                let (occurrence, element) = self.common(trace.steps[step], self.clamps[clamp].occurrence);
+                let entry = Entry { clamp, occurrence, element, what: what.en };
+                let extent = entries.entry(entry).or_insert(Extent { what, moves: 0, lowest: f64::INFINITY });
+                extent.moves += 1;
+                extent.lowest = extent.lowest.min(way.lowest());
+            }
+        }
+        entries.iter().map(|(entry, extent)| self.finding(entry, extent)).collect()
+    }
+
+    /// The innermost path that holds an element and a clamp, and the element in it that leads there.
+    fn common(&self, mut at: Drawn, clamp: u32) -> (u32, Option<u32>) {
+        let around_clamp: Vec<u32> = self.outwards(clamp).collect();
+        while !around_clamp.contains(&at.occurrence) {
+            let Some(parent) = self.parent(at.occurrence) else { break };
+            at = parent;
+        }
+        (at.occurrence, at.element)
+    }
+
+    /// A path and those around it.
+    fn outwards(&self, occurrence: u32) -> impl Iterator<Item = u32> {
+        let parent = |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
+        std::iter::successors(Some(occurrence), parent)
+    }
+
+    fn parent(&self, occurrence: u32) -> Option<Drawn> {
+        self.traced.trace.occurrences[occurrence as usize].parent
+    }
+
+    fn finding(&self, entry: &Entry, extent: &Extent) -> Diagnostic {
+        let Traced { program, trace, parts } = self.traced;
+        let around = &trace.occurrences[entry.occurrence as usize];
+        let (part, clamp) = (&parts[around.id], &self.clamps[entry.clamp]);
+        let found = Diagnostic::new(&messages::MOVES_INTO_CLAMP)
+            .with("tool", program.largest_cutter())
+            .with("layer", clamp.drawn.layer.as_str())
+            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
+            .with("height", clamp.placed.height - around.raised)
+            .with("what", extent.what)
+            .with("z", extent.lowest - around.raised)
+            .with("count", extent.moves)
+            .in_file(part.file.path(self.db))
+            .in_path(part.path.name.as_str());
+        let element = entry.element.and_then(|element| part.path.drawn.elements.get(element as usize));
+        let origin =
+            element.map_or(part.path.start_origin.clone(), |element| part.path.drawn.origin(element));
+        Diagnostic { trace: self.way_to(entry.occurrence), ..origin.at(found) }
+    }
+
+    /// The embeddings that lead to a path, outermost first.
+    fn way_to(&self, occurrence: u32) -> Vec<TraceStep> {
+        let step = |inner: u32| {
+            let Drawn { occurrence, element } = self.parent(inner)?;
+            let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
+            let element = part.path.drawn.elements.get(element? as usize)?;
+            Some(TraceStep {
+                file: part.file.path(self.db).clone(),
+                path: part.path.name.as_str().into(),
+                point: part.path.drawn.origin(element).point,
+            })
+        };
+        let mut steps: Vec<TraceStep> = self.outwards(occurrence).filter_map(step).collect();
+        steps.reverse();
+        steps
+    }
+}

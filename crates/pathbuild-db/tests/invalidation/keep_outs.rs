@@ -1,0 +1,41 @@
+//! Clamps: an edit of one reaches every program around it. (spec/10-drawing.md, "Keep-outs")
+
+use std::sync::Arc;
+
+use pathbuild_db::Settings;
+use pathbuild_path::{KeepOutPattern, Language};
+use salsa::Setter;
+
+use crate::embedding::component;
+use crate::world::World;
+
+const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
+
+fn with_clamp(y: &str) -> String {
+    format!("{}\nlayer clamps\ncircle 10,{y} d 6\ntext 8,{y} \"Z90\"", component("1111.1P", "0"))
+}
+
+#[test]
+fn an_edited_clamp_reaches_what_embeds_its_path() {
+    let mut world = World::new(&[("lib/1111.1P.dxf", &with_clamp("8")), ("lib/8001.1P.dxf", PROJECT)]);
+    let settings = Settings::get(&world.db);
+    let language = Language::clone(settings.language(&world.db));
+    let keep_out = KeepOutPattern::new("clamps").ok();
+    settings.set_language(&mut world.db).to(Arc::new(Language { keep_out, ..language.clone() }));
+    world.ask("component", "lib/1111.1P.dxf", "1111.1P");
+    world.ask("project", "lib/8001.1P.dxf", "8001.1P");
+    let right = world.outcome("project");
+    assert!(right.program.is_some(), "{right:?}");
+    world.draw("lib/1111.1P.dxf", &with_clamp("2"));
+    for label in ["component", "project"] {
+        assert_eq!(world.codes(label), ["PB407"]);
+        assert_eq!(world.outcome(label).program, None);
+    }
+    world.draw("lib/1111.1P.dxf", &with_clamp("8"));
+    assert_eq!(world.outcome("project"), right);
+    // What is not clear stops both; without the setting it is not looked at.
+    world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
+    assert_eq!(world.codes("project"), ["PB117", "PB511"]);
+    settings.set_language(&mut world.db).to(Arc::new(language));
+    assert_eq!(world.outcome("project").program, right.program);
+}

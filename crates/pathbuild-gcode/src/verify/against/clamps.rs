@@ -1,0 +1,104 @@
+//! Whether a program comes into the clamps of its drawing. (spec/10-drawing.md, "Keep-outs")
+
+use pathbuild_diagnostic::messages::walk as say;
+use pathbuild_diagnostic::{Diagnostic, Point, Word, words};
+use pathbuild_path::{Arc, Curve, KeepOut, KeepOutMap, Line, Way, Xy};
+
+use super::cuts::{CHORD, PLACE};
+use crate::dialect::Dialect;
+use crate::interpret::{Action, Axes, Move, Pace, Path, Plane, Step};
+use crate::read::Problems;
+
+/// Clamps in a program's coordinates, and the tool that must stay out of them.
+#[derive(Debug)]
+pub struct Clamps {
+    all: Vec<KeepOut>,
+    map: KeepOutMap,
+    radius: f64,
+}
+
+/// Holds a program's steps against clamps; give it every step, then [`finish`](Self::finish) it.
+#[derive(Debug)]
+pub struct PastClamps<'c> {
+    clamps: &'c Clamps,
+    /// What rounding makes of a way, in mm: one that touches a clamp may be written so.
+    slack: f64,
+    problems: Problems,
+}
+
+impl Clamps {
+    /// Clamps where they stand, with a cutter of that diameter in mm.
+    pub fn new(clamps: Vec<KeepOut>, cutter: f64) -> Self {
+        let map = KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)));
+        Self { all: clamps, map, radius: cutter / 2.0 }
+    }
+}
+
+impl<'c> PastClamps<'c> {
+    /// At the beginning of a program of this dialect.
+    pub fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
+        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
+        Self { clamps, slack: PLACE + chord, problems: Problems::default() }
+    }
+
+    /// The next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        let Action::Move(it) = &step.action else { return };
+        let Some(way) = way(it) else { return };
+        let Clamps { all, map, radius } = self.clamps;
+        for clamp in map.entered(&way, *radius, self.slack) {
+            let KeepOut { layer, at, height, .. } = &all[clamp];
+            self.problems.add_at_line(&say::LINE_INTO_CLAMP, step.line, |found| {
+                found
+                    .with("tool", 2.0 * radius)
+                    .with("layer", layer.as_str())
+                    .with("clamp", Point::new(at.x, at.y))
+                    .with("height", *height)
+                    .with("what", word(it))
+                    .with("z", way.lowest())
+            });
+        }
+    }
+
+    /// What was found, by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
+    }
+}
+
+/// The way of a move, as far as it is known: of one from an unknown place its end. `None` where that is not known either.
+fn way(it: &Move) -> Option<Way> {
+    let [from, to] = [it.from, it.to].map(|end| Xy::new(end.x(), end.y()));
+    if !it.to.known.has(Axes::ALL) {
+        return None;
+    }
+    let to_z = it.to.z();
+    let from_z = if it.from.known.has(Axes::Z) { it.from.z() } else { to_z };
+    if !it.from.known.has(Axes::XY) {
+        return Some(Way { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
+    }
+    let straight = Curve::Line(Line { start: from, end: to });
+    let Path::Arc(arc) = it.path else { return Some(Way { curve: straight, from_z, to_z }) };
+    let radius = arc.radius(&it.from);
+    if arc.plane != Plane::Xy {
+        // Seen from above it goes straight. It is below none of its points.
+        let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
+        return Some(Way { curve: straight, from_z: lowest, to_z: lowest });
+    }
+    let degrees = arc.sweep(&it.from, &it.to).to_degrees().min(360.0);
+    let centre = Xy::new(arc.centre[0], arc.centre[1]);
+    let curve = Curve::Arc(Arc { centre, radius, start: from, end: to, clockwise: arc.clockwise, degrees });
+    let lowest = from_z.min(to_z);
+    // Turn upon turn it comes to each place at several heights.
+    let (from_z, to_z) = if arc.extra_turns > 0 { (lowest, lowest) } else { (from_z, to_z) };
+    Some(Way { curve, from_z, to_z })
+}
+
+fn word(it: &Move) -> &'static Word {
+    match it.pace {
+        Pace::Rapid => &words::RAPID_MOVE,
+        Pace::Probe { .. } => &words::PROBING_MOVE,
+        Pace::Feed(_) if it.from.at[..2] == it.to.at[..2] && it.path == Path::Line => &words::PLUNGE,
+        Pace::Feed(_) => &words::CUT,
+    }
+}

@@ -1,0 +1,117 @@
+//! The outline of a clamp: how near something comes to it, and what is inside.
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use crate::approx::above;
+use crate::geometry::{Arc, Curve, Line, Xy};
+
+/// A closed outline, ready to be asked.
+#[derive(Clone, Debug)]
+pub(crate) struct Outline {
+    pieces: RTree<Boxed>,
+}
+
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, Piece>;
+
+/// A part of the outline that only rises or only falls.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    curve: Curve,
+    /// The heights between which it counts as a side of the outline. Where one piece ends the next begins, without the gap that rounding
+    /// leaves between them.
+    from: f64,
+    to: f64,
+}
+
+/// Boxes are larger by this than what they hold, in mm: more than the gap between ends that meet.
+const SLACK: f64 = 1e-4;
+
+impl Outline {
+    /// An outline of curves that meet, end to start, all around. There is one at least.
+    pub(crate) fn new(curves: &[Curve]) -> Self {
+        let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
+        let mut from = monotone.last().map_or(0.0, |last| last.end().y);
+        let pieces = monotone.into_iter().map(|curve| {
+            let piece = Piece { curve, from, to: curve.end().y };
+            from = piece.to;
+            GeomWithData::new(Rectangle::from_aabb(around(&curve, SLACK)), piece)
+        });
+        Self { pieces: RTree::bulk_load(pieces.collect()) }
+    }
+
+    /// The box around it.
+    pub(super) fn extent(&self) -> AABB<[f64; 2]> {
+        self.pieces.root().envelope()
+    }
+
+    /// Whether a disc of that radius, in mm, is anywhere inside while its centre goes along a curve. A disc that only touches the outline is
+    /// not.
+    pub(crate) fn is_entered(&self, way: &Curve, radius: f64) -> bool {
+        let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + SLACK));
+        near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
+    }
+
+    /// Whether a point that is not on the outline is inside: whether a ray to the right of it crosses the outline more often upwards than
+    /// downwards, or the other way round.
+    fn contains(&self, point: Xy) -> bool {
+        let [right, _] = self.extent().upper();
+        let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
+        let crossings = self.pieces.locate_in_envelope_intersecting(ray);
+        crossings.map(|piece| piece.data.crossing(point)).sum::<i32>() != 0
+    }
+}
+
+impl Piece {
+    /// 1 where it crosses the ray to the right of a point upwards, -1 downwards, 0 where it does not.
+    fn crossing(&self, point: Xy) -> i32 {
+        let up = self.from <= point.y && point.y < self.to;
+        let down = self.to <= point.y && point.y < self.from;
+        if (up || down) && self.x_at(point.y) > point.x { i32::from(up) - i32::from(down) } else { 0 }
+    }
+
+    fn x_at(&self, y: f64) -> f64 {
+        match &self.curve {
+            Curve::Line(Line { start, end }) => {
+                let share = ((y - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+                start.x + (end.x - start.x) * share
+            }
+            Curve::Arc(Arc { centre, radius, start, end, clockwise, .. }) => {
+                let up = y - centre.y;
+                let out = libm::sqrt((radius * radius - up * up).max(0.0));
+                // On its right side a circle falls clockwise.
+                if (start.y > end.y) == *clockwise { centre.x + out } else { centre.x - out }
+            }
+        }
+    }
+}
+
+/// The pieces of a curve that only rise or only fall: an arc is cut where it is highest and lowest.
+fn monotone(curve: &Curve) -> Vec<Curve> {
+    let Curve::Arc(arc) = curve else { return vec![*curve] };
+    let out = arc.start - arc.centre;
+    let start = libm::atan2(out.y, out.x).to_degrees();
+    let ahead = |angle: f64| {
+        let ahead = if arc.clockwise { start - angle } else { angle - start };
+        ahead - 360.0 * (ahead / 360.0).floor()
+    };
+    let mut cuts = vec![0.0];
+    cuts.extend([90.0, 270.0].map(ahead).into_iter().filter(|angle| 0.0 < *angle && *angle < arc.degrees));
+    cuts.push(arc.degrees);
+    cuts.sort_by(f64::total_cmp);
+    let along = |degrees: f64| degrees.to_radians() * arc.radius;
+    cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
+}
+
+/// A box around a curve and what is so near it; of an arc around its whole circle.
+pub(super) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
+    let (a, b) = match curve {
+        Curve::Line(line) => (line.start, line.end),
+        Curve::Arc(arc) => {
+            let out = nalgebra::Vector2::new(arc.radius, arc.radius);
+            (arc.centre - out, arc.centre + out)
+        }
+    };
+    let low = [a.x.min(b.x) - near, a.y.min(b.y) - near];
+    AABB::from_corners(low, [a.x.max(b.x) + near, a.y.max(b.y) + near])
+}

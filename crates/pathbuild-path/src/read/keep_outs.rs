@@ -1,0 +1,254 @@
+//! The clamps of a drawing: closed outlines, each with its height as a text. (spec/10-drawing.md, "Keep-outs")
+
+use std::collections::HashSet;
+
+use pathbuild_diagnostic::messages::{configuration, drawing as messages};
+use pathbuild_diagnostic::{Diagnostic, Place, Value};
+use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
+use smol_str::SmolStr;
+
+use super::found_text::AnyText;
+use super::meaning::{plane_arc, xy};
+use super::rings::{Part, Ring, rings};
+use crate::approx::near;
+use crate::element::shown;
+use crate::geometry::{Arc, Curve, Line, Xy};
+use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
+use crate::letter::Letter;
+use crate::raw::Language;
+use crate::text::{ParameterText, ParameterTexts, Written, without_percent_codes};
+use crate::text_circle::TextCircle;
+
+/// The clamps of a drawing of which at least the layers with clamps were read.
+pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
+    let mut found = KeepOuts::default();
+    let Some(pattern) = &language.keep_out else { return found };
+    let of_layers = by_layer(drawing);
+    for ((number, layer), entities) in (0..).zip(&drawing.layers).zip(of_layers) {
+        if !pattern.is_layer(&layer.name) {
+            continue;
+        }
+        let mut reading = Reading { drawing, layer, number, problems: Vec::new() };
+        if language.path_pattern.is_layer(&layer.name) {
+            reading.report_path();
+        } else {
+            found.all.extend(reading.clamps(&entities));
+        }
+        found.problems.append(&mut reading.problems);
+    }
+    found
+}
+
+/// The entities on each layer, by their numbers.
+fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
+    let mut layers = vec![Vec::new(); drawing.layers.len()];
+    for (number, entity) in drawing.entities.iter().enumerate() {
+        layers[entity.layer as usize].push(number);
+    }
+    layers
+}
+
+/// A layer while its clamps are looked for.
+struct Reading<'d> {
+    drawing: &'d Drawing,
+    layer: &'d Layer,
+    number: u32,
+    problems: Vec<Diagnostic>,
+}
+
+/// An outline before it is known how high it is.
+struct Closed {
+    outline: Vec<Curve>,
+    /// Which entity it begins with.
+    entity: usize,
+    at: Xy,
+}
+
+impl Reading<'_> {
+    /// The clamps on the layer, where nothing is wrong with it.
+    fn clamps(&mut self, entities: &[usize]) -> Vec<KeepOut> {
+        if self.layer.hidden {
+            self.report(on_layer(&self.layer.name, Diagnostic::new(&messages::CLAMPS_NOT_VISIBLE)));
+        }
+        self.check_whole();
+        if self.problems.iter().any(Diagnostic::is_error) {
+            // What is missing may be the rest of an outline, or its text.
+            return Vec::new();
+        }
+        for entity in entities {
+            self.check_plane(*entity);
+        }
+        let outlines = self.outlines(entities);
+        let heights = self.heights(entities, &outlines);
+        let clamp = |(closed, height): (Closed, Option<f64>)| {
+            let (layer, height) = (SmolStr::new(&self.layer.name), height?);
+            Some(KeepOut { layer, at: closed.at, height, outline: closed.outline })
+        };
+        outlines.into_iter().zip(heights).filter_map(clamp).collect()
+    }
+
+    fn report(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+
+    /// PB003 where the layer is a path's as well.
+    fn report_path(&mut self) {
+        let problem = Diagnostic::new(&configuration::KEEP_OUT_IS_PATH).with("layer", &*self.layer.name);
+        self.report(on_layer(&self.layer.name, problem));
+    }
+
+    /// What was not read of the layer, and may be a part of a clamp.
+    fn check_whole(&mut self) {
+        let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
+        let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
+        for left_out in self.drawing.left_out.iter().filter(|left_out| left_out.layer == self.number) {
+            let problem = Diagnostic::new(&messages::NO_OUTLINE).with("entity", left_out.kind.name());
+            problems.push(Diagnostic { place: left_out.diagnostic.place.clone(), ..problem });
+        }
+        self.problems.append(&mut problems);
+    }
+
+    fn check_plane(&mut self, entity: usize) {
+        let points: &[Point3] = match &self.drawing.entities[entity].geometry {
+            Geometry::Line(line) => &[line.start, line.end],
+            Geometry::Arc(arc) => &[arc.centre],
+            Geometry::Circle(circle) => &[circle.centre],
+            Geometry::Text(_) | Geometry::MText(_) => &[],
+        };
+        if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
+            let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
+            let problem = self.at(entity, xy(*point), problem);
+            self.report(problem);
+        }
+    }
+
+    /// The outlines that close; PB117 for what does not.
+    fn outlines(&mut self, entities: &[usize]) -> Vec<Closed> {
+        let (mut outlines, mut parts) = (Vec::new(), Vec::new());
+        for number in entities {
+            let Entity { group, geometry, .. } = &self.drawing.entities[*number];
+            let mut part = |curve| parts.push(Part { curve, group: *group, entity: *number });
+            match geometry {
+                Geometry::Line(line) => part(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
+                Geometry::Arc(arc) => part(Curve::Arc(plane_arc(arc))),
+                Geometry::Circle(circle) => {
+                    let at = xy(circle.centre);
+                    let arc = Arc::from_angles(at, circle.radius, 0.0, 360.0, false);
+                    outlines.push(Closed { outline: vec![Curve::Arc(arc)], entity: *number, at });
+                }
+                Geometry::Text(_) | Geometry::MText(_) => {}
+            }
+        }
+        let mut branches = HashSet::new();
+        for ring in rings(&parts) {
+            match ring {
+                Ring::Closed(ring) => outlines.push(Closed {
+                    at: ring[0].curve.start(),
+                    entity: ring[0].entity,
+                    outline: ring.iter().map(|part| part.curve).collect(),
+                }),
+                Ring::Open { part, end, other } => self.report_open(&part, end, other),
+                Ring::Branch { part, at } if branches.insert(shown(at)) => {
+                    let problem = Diagnostic::new(&messages::OUTLINE_BRANCHES).with("point", shown(at));
+                    let problem = self.at(part.entity, at, problem);
+                    self.report(problem);
+                }
+                // Several parts break off in one point.
+                Ring::Branch { .. } => {}
+            }
+        }
+        outlines
+    }
+
+    fn report_open(&mut self, part: &Part, end: Xy, other: Xy) {
+        let problem = Diagnostic::new(&messages::OUTLINE_OPEN)
+            .with("point", shown(end))
+            .with("other", shown(other))
+            .with("distance", (other - end).norm());
+        let problem = self.at(part.entity, end, problem);
+        self.report(problem);
+    }
+
+    /// The height of each outline: of the one text inside it or overlapping it. PB117 where there is none, or several, or a text says none.
+    fn heights(&mut self, entities: &[usize], outlines: &[Closed]) -> Vec<Option<f64>> {
+        // Texts lie below any height.
+        let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
+        let mut texts: Vec<Vec<(usize, AnyText<'_>)>> = vec![Vec::new(); outlines.len()];
+        for number in entities {
+            let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
+            let TextCircle { centre, radius } = text.circle();
+            let way = Way { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
+            let over = map.entered(&way, radius, 0.0);
+            if over.is_empty() {
+                let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).with("text", one_line(text));
+                let problem = self.at(*number, centre, problem);
+                self.report(problem);
+            }
+            for outline in over {
+                texts[outline].push((*number, text));
+            }
+        }
+        outlines.iter().zip(texts).map(|(closed, texts)| self.height(closed, &texts)).collect()
+    }
+
+    fn height(&mut self, closed: &Closed, texts: &[(usize, AnyText<'_>)]) -> Option<f64> {
+        let problem = match texts {
+            [(number, text)] => return self.height_in(*number, *text),
+            [] => Diagnostic::new(&messages::CLAMP_WITHOUT_TEXT),
+            several => {
+                let strings: Value = several.iter().map(|(_, text)| one_line(*text)).collect();
+                Diagnostic::new(&messages::CLAMP_WITH_TEXTS).with("texts", strings)
+            }
+        };
+        let problem = self.at(closed.entity, closed.at, problem);
+        self.report(problem);
+        None
+    }
+
+    /// The height that a text says.
+    fn height_in(&mut self, number: usize, text: AnyText<'_>) -> Option<f64> {
+        let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+        let read = texts.first().unwrap_or_default();
+        let height = height(read);
+        if height.is_none() {
+            let problem = Diagnostic::new(&messages::NO_CLAMP_HEIGHT).with("text", one_line(text));
+            let problem = self.at(number, text.anchor(), problem.with_text(read.whole()));
+            self.report(problem);
+        }
+        height
+    }
+
+    /// A problem at an entity.
+    fn at(&self, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
+        let (kind, origin) = (self.drawing.entities[entity].kind, self.drawing.origins[entity]);
+        let place = Place {
+            line: Some(origin.line),
+            handle: origin.handle,
+            entity: Some(kind),
+            layer: Some(self.layer.name.clone()),
+            point: Some(shown(point)),
+            ..Place::default()
+        };
+        Diagnostic { place, ..problem }
+    }
+}
+
+/// `Z25`, and nothing else.
+fn height(text: ParameterText<'_>) -> Option<f64> {
+    let [piece] = text.pieces() else { return None };
+    match (piece.letter, piece.written) {
+        (Some(Letter::Z), Written::Number(height)) if height > 0.0 => Some(height),
+        _ => None,
+    }
+}
+
+/// A text without its line ends, for messages.
+fn one_line(text: AnyText<'_>) -> String {
+    without_percent_codes(text.string()).trim_end().replace('\n', " ")
+}
+
+/// A problem of a whole layer.
+fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
+    problem.place.layer = Some(layer.into());
+    problem
+}

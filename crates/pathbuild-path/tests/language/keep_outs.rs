@@ -1,0 +1,315 @@
+//! Clamps: what is read of a drawing, and what is in their way. (spec/10-drawing.md, "Keep-outs")
+
+use pathbuild_diagnostic::{Code, Lang};
+use pathbuild_dxf::{Options, Units};
+use pathbuild_path::{
+    Arc, Curve, KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Language, Line, Way, Xy, keep_outs,
+};
+use pathbuild_testkit::sheet;
+use proptest::prelude::*;
+
+use crate::support::language;
+
+fn clamps_of(drawing: &str) -> KeepOuts {
+    let language = Language { keep_out: KeepOutPattern::new("clamps?|2000[.]1P").ok(), ..language() };
+    let options = Options {
+        keep_layer: &|layer| language.is_keep_out(layer),
+        units: Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 10_000,
+        max_text: 65_536,
+        compatible: false,
+    };
+    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    keep_outs(&pathbuild_dxf::read(&sheet.to_dxf(), &options), &language)
+}
+
+/// The clamps of a drawing with nothing wrong.
+#[track_caller]
+fn right(drawing: &str) -> Vec<KeepOut> {
+    let KeepOuts { all, problems } = clamps_of(drawing);
+    assert!(problems.is_empty(), "{problems:?}");
+    all
+}
+
+/// What is said of a drawing, in short.
+fn wrong(drawing: &str) -> Vec<(Code, String)> {
+    let KeepOuts { problems, .. } = clamps_of(drawing);
+    problems.iter().map(|problem| (problem.code(), problem.text(Lang::En))).collect()
+}
+
+#[track_caller]
+fn assert_wrong(drawing: &str, parts: &[&str]) {
+    let found = wrong(drawing);
+    assert_eq!(found.len(), parts.len(), "{found:?}");
+    for ((code, text), part) in found.iter().zip(parts) {
+        assert!(*code == Code::InvalidKeepOut && text.contains(part), "{found:?}");
+    }
+}
+
+fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
+    Curve::Line(Line { start: from.into(), end: to.into() })
+}
+
+fn flat(curve: Curve, z: f64) -> Way {
+    Way { curve, from_z: z, to_z: z }
+}
+
+fn map(clamps: &[KeepOut]) -> KeepOutMap {
+    KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)))
+}
+
+/// Whether a tool of 2 mm comes into a clamp.
+fn enters(clamps: &[KeepOut], way: &Way) -> bool {
+    !map(clamps).entered(way, 1.0, 0.0).is_empty()
+}
+
+const SQUARE: &str = "layer clamps\nline 10,0 20,0 20,10 10,10 10,0\ntext 12,4 \"Z25\"\n";
+
+#[test]
+fn closed_outlines_are_clamps() {
+    let outlines = [
+        "line 10,0 20,0 20,10 10,10 10,0",
+        // In any order and direction.
+        "line 10,0 20,0\nline 10,10 20,10\nline 20,10 20,0\nline 10,10 10,0",
+        "polyline 10,0 20,0 20,10 10,10 closed",
+        // Closed by its last corner, or by a line.
+        "polyline 10,0 20,0 20,10 10,10 10,0",
+        "polyline 20,0 20,10 10,10 10,0\nline 10,0 20,0",
+        "circle 15,5 d 10",
+        // A half circle and its diameter.
+        "line 10,0 20,0\narc 20,0 to 10,0 centre 15,0",
+        "polyline 10,0 20,0 bulge 1 closed",
+    ];
+    for outline in outlines {
+        for text in ["text 13,2 \"Z25\"", "mtext 13,4 \"Z25\""] {
+            let found = right(&format!("layer clamps\n{outline}\n{text}\n"));
+            assert!(matches!(&found[..], [KeepOut { height: 25.0, .. }]), "{outline}: {found:?}");
+            assert!(enters(&found, &flat(line([15.0, 2.0], [15.0, 2.0]), 20.0)), "{outline}");
+            assert!(!enters(&found, &flat(line([30.0, 2.0], [30.0, 2.0]), 20.0)), "{outline}");
+        }
+    }
+}
+
+#[test]
+fn a_name_counts_as_a_whole_and_in_any_case() {
+    assert_eq!(right(&SQUARE.replace("clamps", "CLAMP")).len(), 1);
+    assert_eq!(right(&SQUARE.replace("clamps", "\"clamps old\"")).len(), 0);
+}
+
+#[test]
+fn heights_are_numbers_greater_than_0() {
+    for (text, height) in [("Z25", 25.0), ("Z0,5", 0.5), (" Z12.25 ", 12.25)] {
+        assert_eq!(right(&SQUARE.replace("Z25", text))[0].height, height);
+    }
+    for text in ["25", "z25", "Z", "Z0", "Z-3", "Z25 B0", "Z25mm", "Z=h", "clamp"] {
+        assert_wrong(&SQUARE.replace("Z25", text), &["does not say how high"]);
+    }
+}
+
+#[test]
+fn each_outline_has_one_text_inside_or_overlapping_it() {
+    assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text says how high"]);
+    assert_wrong(&format!("{SQUARE}text 12,7 \"Z30\"\n"), &["several texts"]);
+    // The circle of the text, of 2.57 mm, touches the outline from outside, or not quite.
+    let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
+    assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);
+    assert_wrong(&beside(10.0 - 2.25 - 2.58), &["inside the outline of none", "no text says how high"]);
+    // A text that two outlines share counts for both.
+    let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
+    let shared =
+        right(&format!("layer clamps\nline 10,0 20,0 20,10 10,10 10,0\n{neighbour}text 18,4 \"Z25\"\n"));
+    assert_eq!(shared.len(), 2);
+}
+
+#[test]
+fn an_outline_that_does_not_close_is_an_error() {
+    let gap = |to: &str| format!("layer clamps\nline 10,0 20,0 20,10 10,10 {to}\ntext 12,4 \"Z25\"\n");
+    assert_eq!(right(&gap("10,0.00003")).len(), 1);
+    let text = "inside the outline of none";
+    assert_wrong(&gap("10,0.00004"), &["does not close", text]);
+    assert_wrong(&gap("10,1"), &["ends at (10, 1) and at (10, 0), 1 mm apart", text]);
+    assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["does not close"]);
+    assert_wrong(
+        &format!("{SQUARE}line 20,0 20,10\n"),
+        &["at (20, 0) more than two", "at (20, 10) more than two", "inside the outline of none"],
+    );
+    assert_wrong("layer clamps\nline 0,0 5,0 5,5 0,0\nline 5,5 9,9\n", &["more than two"]);
+    // Closed polylines may touch.
+    let squares = "polyline 0,0 9,0 9,9 0,9 closed\ntext 2,4 \"Z5\"\npolyline 9,0 18,0 18,9 9,9 closed\ntext 11,4 \"Z7\"";
+    assert_eq!(right(&format!("layer clamps\n{squares}\n")).len(), 2);
+}
+
+#[test]
+fn a_curve_that_is_not_understood_is_an_error() {
+    let drawing = format!("{SQUARE}spline control 0,0 10,10 20,5 30,0\n");
+    assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not understood"]);
+    let [(code, _)] = &wrong("layer clamps\ncircle 0,0 d 20 z 5\ntext -3,-1 \"Z25\"\n")[..] else { panic!() };
+    assert_eq!(*code, Code::OffPlane);
+}
+
+#[test]
+fn a_layer_is_a_path_or_holds_clamps() {
+    let [(code, text)] = &wrong(&SQUARE.replace("clamps", "2000.1P"))[..] else { panic!() };
+    assert!(*code == Code::InvalidConfiguration && text.contains("2000.1P"), "{text}");
+}
+
+#[test]
+fn a_hidden_layer_counts() {
+    let KeepOuts { all, problems } = clamps_of(&SQUARE.replace("clamps\n", "clamps frozen\n"));
+    assert_eq!(all.len(), 1);
+    assert!(matches!(&problems[..], [problem] if problem.code() == Code::LayerNotVisible));
+}
+
+/// Half of O away from the outline is far enough, at each height below that of the clamp.
+#[test]
+fn the_tool_keeps_out_by_its_radius() {
+    let clamps = right(SQUARE);
+    let arc = |x: f64| {
+        let (start, end) = (Xy::new(x - 5.0, 0.0), Xy::new(x - 5.0, 10.0));
+        let centre = Xy::new(x - 5.0, 5.0);
+        Curve::Arc(Arc { centre, radius: 5.0, start, end, clockwise: false, degrees: 180.0 })
+    };
+    let beside = |x: f64| line([x, -50.0], [x, 50.0]);
+    for curve in [arc, beside, |x| line([x, 5.0], [x, 5.0]), |x| line([0.0, 5.0], [x, 5.0])] {
+        assert!(enters(&clamps, &flat(curve(9.001), 24.0)));
+        assert!(!enters(&clamps, &flat(curve(9.0), 24.0)));
+        assert!(!enters(&clamps, &flat(curve(8.999), 24.0)));
+    }
+    // Past a corner, and through the middle without coming near the outline's ends.
+    assert!(!enters(&clamps, &flat(line([9.2, -0.61], [9.2, -9.0]), 24.0)));
+    assert!(enters(&clamps, &flat(line([9.2, -0.59], [9.2, -9.0]), 24.0)));
+    assert!(enters(&clamps, &flat(line([14.0, 5.0], [16.0, 5.0]), 24.0)));
+}
+
+#[test]
+fn the_tool_may_go_over_a_clamp() {
+    let clamps = right(SQUARE);
+    let over = line([0.0, 5.0], [30.0, 5.0]);
+    assert!(!enters(&clamps, &flat(over, 25.0)));
+    assert!(enters(&clamps, &flat(over, 24.999)));
+    // Down beside it, and down into it.
+    let down = |x: f64| Way { curve: line([x, 5.0], [x, 5.0]), from_z: 30.0, to_z: 0.0 };
+    assert!(!enters(&clamps, &down(5.0)));
+    assert!(enters(&clamps, &down(15.0)));
+}
+
+/// A ramp or a helix counts where it is lower than the clamp.
+#[test]
+fn a_slope_counts_below_the_height() {
+    let clamps = right(SQUARE);
+    let ramp = |to_z| Way { curve: line([15.0, 5.0], [35.0, 5.0]), from_z: 35.0, to_z };
+    // At 21 mm, where the tool leaves the clamp, it is 6 mm farther: 35 - 6 / 20 * 32 = 25.4 mm high, and then 24.5 mm.
+    assert!(!enters(&clamps, &ramp(3.0)));
+    assert!(enters(&clamps, &ramp(0.0)));
+    let helix = |from_z: f64, to_z: f64| {
+        let (centre, start) = (Xy::new(20.0, 5.0), Xy::new(30.0, 5.0));
+        let arc =
+            Arc { centre, radius: 10.0, start, end: Xy::new(10.0, 5.0), clockwise: false, degrees: 180.0 };
+        Way { curve: Curve::Arc(arc), from_z, to_z }
+    };
+    // It comes to the clamp after 150 degrees or so.
+    assert!(!enters(&clamps, &helix(20.0, 26.5)));
+    assert!(enters(&clamps, &helix(26.0, 20.0)));
+}
+
+#[test]
+fn clamps_are_found_among_many() {
+    let clamp = |number: usize| {
+        let x = 30.0 * number as f64;
+        let at = Xy::new(x, 0.0);
+        let outline = vec![Curve::Arc(Arc::from_angles(at, 10.0, 0.0, 360.0, false))];
+        KeepOut { layer: "clamps".into(), at, height: 10.0, outline }
+    };
+    let clamps: Vec<KeepOut> = (0..1000).map(clamp).collect();
+    let map = map(&clamps);
+    let entered = |curve| map.entered(&flat(curve, 5.0), 1.0, 0.0);
+    assert_eq!(entered(line([100.0, 5.0], [200.0, 5.0])), [4, 5, 6]);
+    assert_eq!(entered(line([105.0, -5.0], [105.0, 5.0])), [] as [usize; 0]);
+    // What rounding may do is allowed for.
+    let touching = flat(line([0.0, 10.9995], [5.0, 10.9995]), 5.0);
+    assert_eq!((map.entered(&touching, 1.0, 0.0).len(), map.entered(&touching, 1.0, 0.001).len()), (1, 0));
+}
+
+fn curve() -> impl Strategy<Value = Curve> {
+    let number = || (-20_i32..20).prop_map(|half| f64::from(half) / 2.0);
+    let straight = (number(), number(), number(), number()).prop_map(|(a, b, c, d)| line([a, b], [c, d]));
+    let angle = || (0..24).prop_map(|step| f64::from(step) * 15.0);
+    let round =
+        (number(), number(), 1..20, angle(), angle(), any::<bool>()).prop_map(|(x, y, r, from, to, cw)| {
+            Curve::Arc(Arc::from_angles(Xy::new(x, y), f64::from(r) / 2.0, from, to, cw))
+        });
+    prop_oneof![straight, round]
+}
+
+/// Points along a curve, near to each other.
+fn points(curve: &Curve) -> Vec<Xy> {
+    let length = curve.length();
+    let point = |step: i32| match length {
+        0.0 => curve.start(),
+        _ => curve.section(0.0, length * f64::from(step) / f64::from(STEPS)).end(),
+    };
+    (0..=STEPS).map(point).collect()
+}
+
+const STEPS: i32 = 240;
+
+proptest! {
+    /// The distance of two curves is that of their nearest points, as far as points along them can tell.
+    #[test]
+    fn distances_are_exact(one in curve(), other in curve()) {
+        let (ones, others) = (points(&one), points(&other));
+        let apart = |a: &Xy| others.iter().map(|b| (b - a).norm()).fold(f64::INFINITY, f64::min);
+        let sampled = ones.iter().map(apart).fold(f64::INFINITY, f64::min);
+        let (exact, step) = (one.distance(&other), (one.length() + other.length()) / f64::from(STEPS));
+        prop_assert!(exact <= sampled + 1e-9 && sampled <= exact + step, "{} {}", exact, sampled);
+        prop_assert!((exact - other.distance(&one)).abs() < 1e-9);
+    }
+
+    /// What is inside a ring of lines and arcs, turned anyhow: as a polygon of many corners has it.
+    #[test]
+    fn insides_are_those_of_polygons(
+        corners in prop::collection::vec((5_u32..20, any::<bool>()), 3..9),
+        at in (-25.0..25.0, -25.0..25.0),
+        turn in 0.0..360.0,
+    ) {
+        let count = corners.len();
+        let corner = |number: usize| {
+            let angle = f64::to_radians(turn + 360.0 * (number % count) as f64 / count as f64);
+            let (sin, cos) = libm::sincos(angle);
+            let out = f64::from(corners[number % count].0);
+            Xy::new(out * cos, out * sin)
+        };
+        let side = |number: usize| {
+            let (start, end) = (corner(number), corner(number + 1));
+            if !corners[number].1 {
+                return Curve::Line(Line { start, end });
+            }
+            // A half circle outwards.
+            let centre = middle(start, end);
+            Curve::Arc(Arc { centre, radius: (end - start).norm() / 2.0, start, end, clockwise: false, degrees: 180.0 })
+        };
+        let outline: Vec<Curve> = (0..count).map(side).collect();
+        let point = Xy::new(at.0, at.1);
+        let here = line([at.0, at.1], [at.0, at.1]);
+        let apart = outline.iter().map(|side| side.distance(&here)).fold(f64::INFINITY, f64::min);
+        prop_assume!(apart > 0.1);
+        let polygon: Vec<Xy> = outline.iter().flat_map(|side| points(side).into_iter().skip(1)).collect();
+        let map = KeepOutMap::new([(10.0, &*outline)]);
+        prop_assert_eq!(!map.entered(&flat(here, 0.0), 0.05, 0.0).is_empty(), winds(&polygon, point));
+    }
+}
+
+fn middle(start: Xy, end: Xy) -> Xy {
+    start + (end - start) / 2.0
+}
+
+/// Whether a polygon goes round a point: by the angles under which its sides are seen.
+fn winds(polygon: &[Xy], point: Xy) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let angle = |(a, b): (&Xy, &Xy)| {
+        let (a, b) = (a - point, b - point);
+        libm::atan2(a.perp(&b), a.dot(&b))
+    };
+    libm::fabs(sides.map(angle).sum::<f64>()) > 1.0
+}

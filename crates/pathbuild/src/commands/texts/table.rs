@@ -1,0 +1,74 @@
+//! The parameters that hold for each element of a path, with where each comes from.
+
+use std::fmt::Write;
+
+use pathbuild_db::{Database, SourceFile, drawn_path, file_index, in_force};
+use pathbuild_diagnostic::{Point, shown};
+use pathbuild_path::{InForce, Parameter, PathName, Position, Provider};
+use serde_json::{Value as Json, json};
+
+use super::{handle, named};
+use crate::args::Format;
+use crate::context::Context;
+
+/// What is shown of a path: a table, or as JSON one object for each element.
+pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<String> {
+    let index = file_index(db, file).path(path);
+    let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
+    let positions = drawn.positions.positions();
+    let elements = in_force(db, file, path, &index.examples, true);
+    let placed = elements.iter().filter_map(|it| Some((it, *positions.get(it.origin.id.0 as usize)?)));
+    let file = file.path(db).as_str();
+    match context.format {
+        Format::Json => placed.map(|(it, at)| object(file, path, it, at).to_string()).collect(),
+        _ => vec![table(context, file, path, placed)],
+    }
+}
+
+fn table<'a>(
+    context: &Context,
+    file: &str,
+    path: &PathName,
+    elements: impl Iterator<Item = (&'a InForce, Position)>,
+) -> String {
+    let title = context.choose("parameters of path", "Parameter des Pfads");
+    let mut text = format!("{}: {title} {}\n", shown::line(file), shown::line(path.as_str()));
+    for (InForce { origin, what, parameters }, position) in elements {
+        let element = named(origin.entity.name(), position);
+        let at = context.choose("at", "bei");
+        let Point { x, y } = origin.point;
+        _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", context.choose(what.en, what.de));
+        for Parameter { letter, value, from } in parameters {
+            let value = shown::line(value);
+            _ = writeln!(text, "    {} {value:<12} {}", letter.as_char(), source(context, from));
+        }
+    }
+    text
+}
+
+/// Where a parameter comes from, in words.
+fn source(context: &Context, from: &Provider) -> String {
+    let word = context.choose(from.word().en, from.word().de);
+    match from {
+        Provider::Option(name) => format!("{word} --{name}"),
+        Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
+        _ => word.to_owned(),
+    }
+}
+
+fn object(file: &str, path: &PathName, element: &InForce, position: Position) -> Json {
+    let InForce { origin, what, parameters } = element;
+    let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.which() });
+    json!({
+        "file": file,
+        "line": position.line,
+        "path": path.as_str(),
+        "entity": origin.entity.name(),
+        "handle": handle(position.handle),
+        "layer": origin.layer.as_str(),
+        "x": origin.point.x.0,
+        "y": origin.point.y.0,
+        "element": what.en,
+        "parameters": parameters.iter().map(parameter).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,237 @@
+//! Clamps on the table: what comes into them is an error, in each command that looks at moves. (spec/10-drawing.md, "Keep-outs")
+
+use std::fs;
+
+use crate::support::{Place, Run};
+
+const OPTIONS: &str =
+    "feed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'clamps?'\nspindle = \"manual\"\n";
+
+/// A clamp of 20 mm from (20, 10) to (30, 20).
+const CLAMP: &str = "layer clamps\npolyline 20,10 30,10 30,20 20,20 closed\ntext 21,14 \"Z20\"\n";
+
+fn dxf(drawing: &str) -> Vec<u8> {
+    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
+}
+
+/// A path with these statements, starting at (0, 0) with O2 and S `sweep`, and a clamp.
+fn path(sweep: &str, statements: &str) -> String {
+    format!("layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S{sweep} MAl\"\n{statements}\n{CLAMP}")
+}
+
+fn place(drawing: &str) -> Place {
+    Place::new().file("pathbuild.toml", OPTIONS).file("1234.1P.dxf", dxf(drawing))
+}
+
+fn codes(run: &Run) -> Vec<String> {
+    let found = run.stdout.split("[PB").skip(1).chain(run.stderr.split("[PB").skip(1));
+    found.map(|rest| rest[..3].to_owned()).collect()
+}
+
+/// `check` and `emit` find this, from what is kept or not; with an error `emit` writes nothing.
+#[track_caller]
+fn assert_found(place: &Place, expected: &[&str]) {
+    for command in
+        ["check .", "check . --no-cache", "check 1234.1P.dxf", "emit .", "emit . --no-cache", "emit 1234.1P"]
+    {
+        let run = place.run(&format!("{command} --format concise"));
+        assert_eq!(codes(&run), expected, "{command}: {run}");
+        assert_eq!(run.status, Some(i32::from(!expected.is_empty())), "{run}");
+    }
+    assert_eq!(place.path().join("1234.1P_Milling.gcode").exists(), expected.is_empty());
+}
+
+#[track_caller]
+fn assert_hits(drawing: &str, what: &str) {
+    let place = place(drawing);
+    let run = place.run("check . --format concise");
+    assert_found(&place, &codes(&run).iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(codes(&run).contains(&"407".to_owned()) && run.stderr.contains(what), "{run}");
+}
+
+#[track_caller]
+fn assert_passes(drawing: &str) {
+    assert_found(&place(drawing), &[]);
+}
+
+#[test]
+fn cuts_keep_half_of_o_away() {
+    let cut = |y: &str| path("21", &format!("mill 0,0 0,{y}\nmill 0,{y} 50,{y}\nend 50,{y}"));
+    assert_passes(&cut("9"));
+    assert_hits(&cut("9.01"), "cut, lowest Z 0, moves: 1");
+}
+
+#[test]
+fn rapids_are_above_or_beside() {
+    let rapid =
+        |sweep: &str, y: &str| path(sweep, &format!("mill 0,0 0,{y}\nsweep 0,{y} 50,{y}\nend 50,{y}"));
+    assert_hits(&rapid("19.99", "15"), "rapid move, lowest Z 19.99, moves: 1");
+    assert_passes(&rapid("20", "15"));
+    assert_passes(&rapid("10", "9"));
+    assert_hits(&rapid("10", "9.01"), "rapid move");
+}
+
+#[test]
+fn arcs_are_arcs() {
+    // A half circle to the right, whose highest point is at (25, 12.5 + ...): its chord is far from the clamp.
+    let arc = |radius: f64| {
+        let (left, right) = (25.0 - radius, 25.0 + radius);
+        path(
+            "21",
+            &format!("sweep 0,0 {left},0\nmill arc {left},0 to {right},0 centre 25,0 cw\nend {right},0"),
+        )
+    };
+    assert_passes(&arc(9.0));
+    assert_hits(&arc(9.01), "cut");
+}
+
+#[test]
+fn holes_and_helical_circles_count() {
+    let circle = |x: &str, diameter: &str| {
+        path(
+            "21",
+            &format!("sweep 0,0 {x},15\nmill circle {x},15 d {diameter}\nsweep {x},15 50,15\nend 50,15"),
+        )
+    };
+    assert_passes(&circle("19", "2"));
+    assert_hits(&circle("19.01", "2"), "plunge");
+    assert_passes(&circle("17", "6"));
+    assert_hits(&circle("17.01", "6"), "cut");
+}
+
+/// One fault for each element, however many passes it takes.
+#[test]
+fn passes_are_counted() {
+    let drawing = path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15").replace("I5", "I1");
+    let place = place(&drawing);
+    let run = place.run("check . --format concise");
+    assert_eq!(codes(&run), ["407"], "{run}");
+    assert!(run.stderr.contains("cut, lowest Z 0, moves: 5"), "{run}");
+}
+
+#[test]
+fn without_the_setting_nothing_is_looked_at() {
+    let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));
+    assert_eq!(codes(&place.run("check . --format concise")), ["407"]);
+    fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "other")).unwrap();
+    assert_found(&place, &[]);
+    fs::write(place.path().join("pathbuild.toml"), OPTIONS).unwrap();
+    for command in ["check .", "emit .", "emit . --check"] {
+        assert_eq!(codes(&place.run(&format!("{command} --format concise")))[0], "407");
+    }
+}
+
+/// An edit of the clamp alone is noticed, in both directions.
+#[test]
+fn an_edited_clamp_is_a_change() {
+    let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");
+    let place = place(&drawing);
+    assert_found(&place, &[]);
+    for (clamp, found) in [("20,8 30,8", 1), ("20,10 30,10", 0)] {
+        let edited = drawing.replace("20,10 30,10", clamp);
+        fs::write(place.path().join("1234.1P.dxf"), dxf(&edited)).unwrap();
+        for command in ["check .", "emit ."] {
+            let run = place.run(&format!("{command} --format concise"));
+            let hits = codes(&run).iter().filter(|code| *code == "407").count();
+            assert_eq!(hits, found, "{run}");
+        }
+    }
+}
+
+#[test]
+fn a_clamp_that_is_not_clear_stops_its_paths() {
+    let drawing = path("21", "mill 0,0 9,0\nend 9,0");
+    assert_found(&place(&drawing.replace("Z20", "20")), &["117"]);
+    assert_found(&place(&drawing.replace(" closed", "")), &["117", "117"]);
+    assert_found(&place(&drawing.replace("layer clamps", "layer clamp")), &[]);
+    // Nothing of the drawing is written, nor what embeds it.
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O2 S21 MAl\"\nsubpath 0,0 9,0 \">1234.1P\"\nend 9,0\n";
+    let place = place(&drawing.replace("Z20", "20")).file("8001.1P.dxf", dxf(project));
+    assert_eq!(codes(&place.run("emit 8001.1P.dxf --search . --format concise")), ["117", "511"]);
+    assert!(!place.path().join("8001.1P_Milling.gcode").exists());
+}
+
+#[test]
+fn a_layer_that_is_both_is_a_wrong_configuration() {
+    let place = place(&path("21", "mill 0,0 9,0\nend 9,0"));
+    fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "1234.*")).unwrap();
+    assert_found(&place, &["003"]);
+    fs::write(place.path().join("pathbuild.toml"), OPTIONS.replace("clamps?", "(")).unwrap();
+    assert!(place.run("check .").stderr.contains("PB003"));
+}
+
+/// A component of 9 mm with a clamp beside it, from (2, 3) to (7, 8).
+const COMPONENT: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S21 MAl\"\nmill 0,0 9,0\nend 9,0\nlayer clamps\n\
+    polyline 2,3 7,3 7,8 2,8 closed\ntext 2.5,4 \"Z20\" height 2\n";
+
+fn embedding(project: &str) -> Place {
+    Place::new()
+        .file("pathbuild.toml", OPTIONS)
+        .file("1234.1P.dxf", dxf(COMPONENT))
+        .file("8001.1P.dxf", dxf(&format!("layer 8001.1P\nstart 0,0 \"T5 O2 I5 B0 S22 MAl\"\n{project}")))
+}
+
+/// The clamps of a component are moved, turned and raised with it, and stand in the way of everything in the program.
+#[test]
+fn clamps_of_components_lie_where_they_are_embedded() {
+    // Embedded upwards from (20, 0): its clamp is from (12, 2) to (17, 7).
+    let project = |y: &str, more: &str| {
+        format!(
+            "sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P{more}\"\nsweep 20,9 30,9\nsweep 30,9 30,{y}\n\
+             mill 30,{y} 0,{y}\nend 0,{y}\n"
+        )
+    };
+    for (project, expected) in
+        [(project("1", ""), 0), (project("1.01", ""), 1), (project("8", ""), 0), (project("7.99", ""), 1)]
+    {
+        let place = embedding(&project);
+        for command in ["check . ", "check 8001.1P.dxf", "emit 8001.1P"] {
+            let run = place.run(&format!("{command} --format concise"));
+            assert_eq!(codes(&run).len(), expected, "{run}");
+            assert!(codes(&run).iter().all(|code| code == "407"), "{run}");
+            assert!(expected == 0 || format!("{run}").contains("8001.1P.dxf"), "{run}");
+        }
+    }
+    // Raised by 2 mm it is higher than S.
+    let over = |height: &str| {
+        project("8", height)
+            .replace("mill 30,8 0,8", "sweep 30,8 30,5\nsweep 30,5 0,5")
+            .replace("end 0,8", "end 0,5")
+    };
+    assert_eq!(codes(&embedding(&over(" H2")).run("check 8001.1P.dxf --format concise")), [] as [&str; 0]);
+    assert_eq!(codes(&embedding(&over(" H2.01")).run("check 8001.1P.dxf --format concise")), ["407"]);
+}
+
+/// A component that comes into its own clamp is one fault, wherever it is embedded.
+#[test]
+fn a_fault_within_a_component_is_said_once() {
+    let project = "sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P\"\nsweep 20,9 50,9\nsubpath 50,9 50,18 \">1234.1P\"\nend 50,18\n";
+    let place = embedding(project).file("1234.1P.dxf", dxf(&COMPONENT.replace("2,3 7,3", "2,0.5 7,0.5")));
+    let run = place.run("check . --format concise");
+    assert_eq!(codes(&run), ["407"], "{run}");
+    assert!(run.stderr.contains("1234.1P.dxf:"), "{run}");
+}
+
+/// Through a post too, and the program of a post is held against clamps as the native one is.
+#[test]
+fn posts_and_verify_know_clamps() {
+    let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");
+    let place = place(&drawing);
+    for options in ["", "--post grbl"] {
+        let program = "1234.1P_Milling.gcode";
+        let emitted = place.run(&format!("emit 1234.1P {options}"));
+        assert_eq!(emitted.status, Some(0), "{emitted}");
+        let verified = place.run(&format!("verify {program} --against 1234.1P.dxf --format concise"));
+        assert_eq!(verified.status, Some(0), "{verified}");
+        // One line of the program goes through the clamp.
+        let moved = place.read(program).replace("Y8.0", "Y12.0");
+        fs::write(place.path().join("moved.nc"), moved).unwrap();
+        let verified = place.run("verify moved.nc --against 1234.1P.dxf --format concise");
+        assert!(codes(&verified).contains(&"407".to_owned()), "{verified}");
+    }
+    fs::write(place.path().join("1234.1P.dxf"), dxf(&drawing.replace(" 50,8", " 50,12"))).unwrap();
+    for options in ["", "--post grbl", "-o -"] {
+        let refused = place.run(&format!("emit 1234.1P {options} --format concise"));
+        assert!(refused.status == Some(1) && codes(&refused).contains(&"407".to_owned()), "{refused}");
+    }
+}
