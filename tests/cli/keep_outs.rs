@@ -1,4 +1,4 @@
-//! Clamps on the table: what comes into them is an error, in each command that looks at moves. (spec/10-drawing.md, "Keep-outs")
+//! Clamps on the table: what comes into them is an error, in each command that looks at moves. (book: language/keep-outs)
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Which parameters hold for each element, and where each comes from. (spec/30-parameters.md)
+//! Which parameters hold for each element, and where each comes from. (book: language/letters)
 
 use std::collections::BTreeMap;
 

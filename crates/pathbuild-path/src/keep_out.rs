@@ -1,4 +1,4 @@
-//! Keep-outs: clamps that the tool must not come into below their height. (spec/10-drawing.md, "Keep-outs")
+//! Keep-outs: clamps that the tool must not come into below their height. (book: language/keep-outs)
 
 mod map;
 mod outline;

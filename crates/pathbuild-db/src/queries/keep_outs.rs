@@ -1,4 +1,4 @@
-//! Clamps: those of a drawing, where they stand in a program, and which moves come into them. (spec/10-drawing.md, "Keep-outs")
+//! Clamps: those of a drawing, where they stand in a program, and which moves come into them. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Clamps: an edit of one reaches every program around it. (spec/10-drawing.md, "Keep-outs")
+//! Clamps: an edit of one reaches every program around it. (book: language/keep-outs)
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The clamps of a drawing: closed outlines, each with its height as a text. (spec/10-drawing.md, "Keep-outs")
+//! The clamps of a drawing: closed outlines, each with its height as a text. (book: language/keep-outs)
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! Closed rings of lines and arcs: the outlines of clamps. (spec/10-drawing.md, "Keep-outs")
+//! Closed rings of lines and arcs: the outlines of clamps. (book: language/keep-outs)
 
 use rstar::RTree;
 use rstar::primitives::GeomWithData;

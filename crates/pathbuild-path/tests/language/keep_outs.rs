@@ -1,4 +1,4 @@
-//! Clamps: what is read of a drawing, and what is in their way. (spec/10-drawing.md, "Keep-outs")
+//! Clamps: what is read of a drawing, and what is in their way. (book: language/keep-outs)
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Options, Units};

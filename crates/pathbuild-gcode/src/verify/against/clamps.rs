@@ -1,4 +1,4 @@
-//! Whether a program comes into the clamps of its drawing. (spec/10-drawing.md, "Keep-outs")
+//! Whether a program comes into the clamps of its drawing. (book: language/keep-outs)
 
 use pathbuild_diagnostic::messages::walk as say;
 use pathbuild_diagnostic::{Diagnostic, Point, Word, words};
