@@ -70,7 +70,7 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
         let mut cold = Asked::new(Arc::clone(&system), workshop.rules());
         let found = cold.library(&workshop);
         same(&expected, &findings(&found), &said("the model and a new database"));
-        let [again, found] = [told.library(&workshop), found].map(|found| in_lower_case(&found));
+        let [again, found] = [told.library(&workshop), found].map(|found| in_order(&found));
         let differing = again.iter().zip(&found).find(|(a, b)| a != b);
         assert!(again == found, "{}: {differing:#?}", said("a database that was told of the edits"));
         let paths = model.paths("lib");
@@ -106,9 +106,8 @@ fn findings(found: &[Diagnostic]) -> Vec<Finding> {
     found.iter().map(Finding::of).collect()
 }
 
-/// A path that is only spelt in another case counts as unchanged, so that findings of others keep its old spelling.
-fn in_lower_case(found: &[Diagnostic]) -> Vec<String> {
-    let mut found: Vec<String> = found.iter().map(|it| format!("{it:?}").to_lowercase()).collect();
+fn in_order(found: &[Diagnostic]) -> Vec<String> {
+    let mut found: Vec<String> = found.iter().map(|it| format!("{it:?}")).collect();
     found.sort();
     found
 }

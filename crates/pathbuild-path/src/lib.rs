@@ -57,7 +57,7 @@ pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use letter::Letter;
 pub use line_type::{LineType, LineTypeAliases};
 pub use matrix::{ElementClass, Use};
-pub use name::{PathLayer, PathName, PathPattern};
+pub use name::{PathLayer, PathName, PathPattern, SpeltName};
 pub use number::{parse_integer, parse_number};
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
+use std::ops::Deref;
 
 use regex::Regex;
 use smol_str::SmolStr;
@@ -16,6 +17,10 @@ use crate::pattern::{Pattern, PatternError};
 #[derive(Clone)]
 pub struct PathName(SmolStr);
 
+/// A path's name of which the spelling counts: whatever shows it is made again when only its case changes.
+#[derive(Clone)]
+pub struct SpeltName(PathName);
+
 /// What makes a layer a path layer: its name matches as a whole, without regard to case.
 #[derive(Clone, Debug)]
 pub struct PathPattern(Pattern);
@@ -27,6 +32,40 @@ pub struct PathLayer {
     pub path: PathName,
     /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements find only each other.
     pub tilde: bool,
+}
+
+impl From<PathName> for SpeltName {
+    fn from(name: PathName) -> Self {
+        Self(name)
+    }
+}
+
+impl Deref for SpeltName {
+    type Target = PathName;
+
+    fn deref(&self) -> &PathName {
+        &self.0
+    }
+}
+
+impl PartialEq for SpeltName {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_str() == other.as_str()
+    }
+}
+
+impl Eq for SpeltName {}
+
+impl fmt::Display for SpeltName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Debug for SpeltName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
 }
 
 impl Default for PathPattern {

@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
-use crate::name::PathName;
+use crate::name::{PathName, SpeltName};
 use crate::raw::Drawn;
 use crate::text::TextId;
 
@@ -16,7 +16,7 @@ use crate::text::TextId;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// As its layer spells it.
-    pub name: PathName,
+    pub name: SpeltName,
     /// O in mm.
     pub tool: f64,
     /// T in mm.
@@ -230,7 +230,7 @@ pub enum SubpathName {
     },
     /// `has_more`: the whole value, where there is more in it than the name.
     Found {
-        name: PathName,
+        name: SpeltName,
         has_more: Option<Box<str>>,
     },
 }

@@ -43,11 +43,11 @@ impl<'a> Component<'a> {
     }
 
     fn names(&self) -> impl Iterator<Item = &'a PathName> {
-        self.paths.iter().map(|path| &path.name)
+        self.paths.iter().map(|path| &*path.name)
     }
 
     fn raw(&self, name: &PathName) -> Option<&'a RawPath> {
-        self.paths.iter().copied().find(|path| path.name == *name)
+        self.paths.iter().copied().find(|path| *path.name == *name)
     }
 
     /// The proxy lines that stand for a path.

@@ -11,14 +11,14 @@ use crate::element::{Element, Marker, Origin, Role};
 use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
-use crate::name::{PathName, PathPattern};
+use crate::name::{PathName, PathPattern, SpeltName};
 use crate::text::{ParameterText, ParameterTexts, TextId, Written};
 
 /// A path as it is drawn. It knows no lines and handles of the file: see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
     /// Its name, as its first layer in the file spells it.
-    pub name: PathName,
+    pub name: SpeltName,
     /// The start marker. Its text is that of the path itself, also where @ refers to another's.
     pub start: Option<Marker>,
     /// The end marker.

@@ -72,7 +72,8 @@ impl FromIterator<(NameRange, u32)> for RangeTable {
                 Err(other) => others.push(other),
             }
         }
-        sorted.sort_by(|a, b| a.from.cmp(&b.from));
+        // Entries are large: their keys are sorted.
+        sorted.sort_by_cached_key(|entry| entry.from.clone());
         for index in 1..sorted.len() {
             if sorted[index - 1].latest > sorted[index].latest {
                 sorted[index].latest = sorted[index - 1].latest.clone();

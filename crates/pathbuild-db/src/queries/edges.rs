@@ -43,7 +43,7 @@ impl<'db> Closure<'db> {
 }
 
 fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
-    let nowhere = |code| Destination::Nowhere { name: embedding.name.clone(), code };
+    let nowhere = |code| Destination::Nowhere { name: embedding.name.as_deref().cloned(), code };
     let to = match &embedding.outcome {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),

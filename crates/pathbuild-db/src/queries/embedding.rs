@@ -2,7 +2,7 @@
 //! (book: language/embedding; the order of errors: book: reference/diagnostics)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_path::{Judge, Origin, PathName, PathSignature, SubpathCall, SubpathName};
+use pathbuild_path::{Judge, Origin, PathName, PathSignature, SpeltName, SubpathCall, SubpathName};
 
 use super::index::{NameKey, file_index, path_index};
 use super::instance::{Instance, summary};
@@ -19,7 +19,7 @@ pub struct Embedding<'db> {
     /// Where the segment is drawn.
     pub origin: Origin,
     /// The path that it names, where it names one.
-    pub name: Option<PathName>,
+    pub name: Option<SpeltName>,
     /// What came of it.
     pub outcome: Outcome<'db>,
     /// What is doubtful about it.

@@ -119,7 +119,7 @@ pub fn content(db: &dyn Db, file: SourceFile) -> Option<([u8; 32], Stamp)> {
 
 impl FileIndex {
     fn new(db: &dyn Db, raw: RawFile, ends: &LayerEnds<'_>, content: Content) -> Self {
-        let names = raw.paths.iter().map(|(raw, _)| raw.name.clone()).collect();
+        let names = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let path = |(raw, _): (RawPath, _)| Arc::new(PathIndex::new(db, &raw, ends));
         // Not collected: that would keep the memory of the raw paths.
         let mut paths: Vec<Arc<PathIndex>> = Vec::with_capacity(raw.paths.len());

@@ -39,7 +39,7 @@ pub fn prefetch(db: &dyn Db, file: SourceFile) {
 fn embedded_names(index: &FileIndex) -> impl Iterator<Item = &PathName> {
     let signatures = index.paths().filter_map(|path| path.summary.signature.as_ref());
     signatures.flat_map(|signature| &signature.subpaths).filter_map(|call| match &call.subpath.name {
-        SubpathName::Found { name, .. } => Some(name),
+        SubpathName::Found { name, .. } => Some(&**name),
         SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
     })
 }

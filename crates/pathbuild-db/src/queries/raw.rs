@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_path::{PathName, Position, RawPath, SourceMap};
+use pathbuild_path::{PathName, Position, RawPath, SourceMap, SpeltName};
 
 use super::index::NameKey;
 use super::reading::read_entities;
@@ -34,7 +34,7 @@ pub(super) struct PathEntry {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {
     /// The path, as its layer spells it.
-    pub name: PathName,
+    pub name: SpeltName,
     /// The first of its layers.
     pub layer: Box<str>,
     /// Its start marker, or its first element where it has none.

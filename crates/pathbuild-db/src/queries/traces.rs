@@ -41,7 +41,7 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
             let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
             resolved.searched.iter().for_each(|file| files.push(*file));
             let directories = search_path(db, own_directory(db, from)).iter().map(|it| it.path(db).clone());
-            lookups.push(Sought { name: name.clone(), directories: directories.collect() });
+            lookups.push(Sought { name: (**name).clone(), directories: directories.collect() });
         }
     }
     Trace { files: files.all, lookups: lookups.all }

@@ -1,6 +1,7 @@
 //! The files of the operating system. The one place of the program that does IO on drawings and programs.
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
+mod debris;
 mod directory;
 mod open;
 mod replace;

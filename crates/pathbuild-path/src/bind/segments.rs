@@ -89,7 +89,7 @@ impl Binder<'_> {
             None => SubpathName::Invalid { value: value.into() },
             Some((name, range)) => {
                 let has_more = range.len() < value.len();
-                SubpathName::Found { name, has_more: has_more.then(|| value.into()) }
+                SubpathName::Found { name: name.into(), has_more: has_more.then(|| value.into()) }
             }
         }
     }

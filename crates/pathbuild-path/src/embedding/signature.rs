@@ -8,7 +8,7 @@ use super::sweep::SweepLimits;
 use crate::definition::Definition;
 use crate::element::Origin;
 use crate::letter::Letter;
-use crate::name::PathName;
+use crate::name::SpeltName;
 use crate::path::{Path, Segment, SegmentKind, Subpath};
 use crate::raw::RawPath;
 use crate::variables::Bindings;
@@ -17,7 +17,7 @@ use crate::variables::Bindings;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathHeader {
     /// As its layer spells it.
-    pub name: PathName,
+    pub name: SpeltName,
     /// Whether the drawing of the path has no errors, values aside.
     pub is_sound: bool,
     /// The variables that it defines.
@@ -29,7 +29,7 @@ pub struct PathHeader {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSignature {
     /// As its layer spells it.
-    pub name: PathName,
+    pub name: SpeltName,
     /// O.
     pub tool: f64,
     /// T.

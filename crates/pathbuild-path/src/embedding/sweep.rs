@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 use crate::approx::above;
 use crate::element::Origin;
 use crate::letter::Letter;
-use crate::name::PathName;
+use crate::name::SpeltName;
 use crate::path::{Path, Segment, SegmentKind};
 use crate::text::TextId;
 
@@ -16,7 +16,7 @@ use crate::text::TextId;
 /// its other values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepLimits {
-    path: PathName,
+    path: SpeltName,
     faces: Box<[Face]>,
 }
 

@@ -86,7 +86,7 @@ impl<'a> Judge<'a> {
                 coincide(from, start) && coincide(to, end) || coincide(from, end) && coincide(to, start)
             })
         });
-        let joined: Vec<&PathName> = joined.map(|raw| &raw.name).collect();
+        let joined: Vec<&PathName> = joined.map(|raw| &*raw.name).collect();
         if joined.contains(&named) { None } else { joined.first().copied() }
     }
 

@@ -149,7 +149,7 @@ impl Collected<'_> {
         });
         let drawn = Drawn { elements: self.elements, texts: self.given, layers: self.texts.layer_names() };
         let mut raw = RawPath {
-            name: self.name,
+            name: self.name.into(),
             start: self.start,
             end: self.end,
             turns: self.turns,

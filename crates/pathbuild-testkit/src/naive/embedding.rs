@@ -101,7 +101,7 @@ impl<'m> Visit<'m> {
             }
         };
         let paths = &model.drawings[holder].content.paths;
-        let number = paths.iter().take_while(|(raw, _)| raw.name != *name).count();
+        let number = paths.iter().take_while(|(raw, _)| *raw.name != **name).count();
         let values = subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone())));
         let child = (holder, number, Bindings::new(values));
         let raw = model.raw(&child);

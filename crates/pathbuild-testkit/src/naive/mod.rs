@@ -92,7 +92,7 @@ impl Model {
             return Vec::new();
         };
         let path = self.drawings[number].content.paths.iter();
-        let path = path.take_while(|(raw, _)| raw.name != PathName::new(name)).count();
+        let path = path.take_while(|(raw, _)| *raw.name != PathName::new(name)).count();
         let mut found = self.drawings[number].faults();
         found.extend(self.check_path(number, path));
         finding::each_once(found)
@@ -150,7 +150,7 @@ impl Drawing {
 
     /// The handle of an element of a path.
     fn handle(&self, path: &PathName, element: ElementId) -> Option<String> {
-        let (_, map) = self.content.paths.iter().find(|(raw, _)| raw.name == *path)?;
+        let (_, map) = self.content.paths.iter().find(|(raw, _)| *raw.name == *path)?;
         map.positions().get(element.0 as usize)?.handle.map(|handle| handle.to_string())
     }
 }

@@ -33,7 +33,7 @@ impl Model {
     }
 
     fn defines(&self, drawing: usize, name: &PathName) -> bool {
-        self.drawings[drawing].content.paths.iter().any(|(raw, _)| raw.name == *name)
+        self.drawings[drawing].content.paths.iter().any(|(raw, _)| *raw.name == *name)
     }
 }
 

@@ -48,14 +48,14 @@ impl Model {
         let named: Vec<(&Path, &Segment, &Subpath, &PathName)> = subpaths
             .filter_map(|(path, segment)| match &segment.kind {
                 SegmentKind::Subpath(subpath) => match &subpath.name {
-                    SubpathName::Found { name, .. } => Some((path, segment, &**subpath, name)),
+                    SubpathName::Found { name, .. } => Some((path, segment, &**subpath, &**name)),
                     _ => None,
                 },
                 _ => None,
             })
             .collect();
         for (raw, _) in &component.content.paths {
-            let embedded = named.iter().filter(|(.., name)| **name == raw.name);
+            let embedded = named.iter().filter(|(.., name)| **name == *raw.name);
             if embedded.clone().count() == 0 {
                 found.push(Finding {
                     code: "PB515".to_owned(),
@@ -65,7 +65,7 @@ impl Model {
                 });
             }
             let of_path = |proxy: &&ProxyLine| {
-                proxy.name(&self.language).is_some_and(|name| name == raw.name)
+                proxy.name(&self.language).is_some_and(|name| name == *raw.name)
                     && self.proxy_faults(drawing, proxy).is_empty()
             };
             let right: Vec<&ProxyLine> = proxies.iter().filter(of_path).collect();
@@ -100,7 +100,7 @@ impl Model {
         let Some((written, _)) = proxy.value(Letter::Embed) else { return Vec::new() };
         let paths = &drawing.content.paths;
         let named = proxy.name(&self.language);
-        let Some(path) = paths.iter().position(|(raw, _)| Some(&raw.name) == named.as_ref()) else {
+        let Some(path) = paths.iter().position(|(raw, _)| Some(&*raw.name) == named.as_ref()) else {
             return vec![at(written)];
         };
         if let Some(other) = joined(drawing, proxy, path) {

@@ -57,7 +57,7 @@ impl ScenePath {
         let in_force = source.in_force.iter().map(|it| (it.origin.id, &*it.parameters)).collect();
         let drawn = Drawn { source, placement, path, in_force };
         let shapes = drawn.add_elements(&mut self.elements);
-        let own = |text: &&AssignedText| text.path == source.raw.name;
+        let own = |text: &&AssignedText| text.path == *source.raw.name;
         let texts = source.texts.iter().filter(own);
         self.texts.extend(texts.map(|text| drawn.label(text, &shapes, first)));
         number(first)

@@ -29,7 +29,7 @@ pub(super) fn deliver_all(
 }
 
 /// So many jobs are done before the paths that they were made from are dropped.
-const BATCH: usize = 256;
+const BATCH: usize = 48;
 
 /// How many jobs may wait for being written. Their texts are in memory meanwhile.
 const BEHIND: usize = 32;

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 
 use camino::Utf8Path;
 
+use super::debris;
 use crate::system::{Entry, EntryKind, Listing};
 
 /// The names in a directory, in the order in which the system gives them, some at a time.
@@ -17,11 +18,15 @@ use crate::system::{Entry, EntryKind, Listing};
 /// When there is no such directory, or it cannot be read.
 pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> io::Result<()> {
     let mut part = Listing::default();
+    let mut left = Vec::new();
     each_name(directory, |entry| {
         let Some(Name { spelling: name, kind, .. }) = entry else {
             take(mem::take(&mut part));
             return ControlFlow::Continue(());
         };
+        if debris::is_temporary(name) {
+            left.push(directory.join(name));
+        }
         // A link is what it leads to; one that leads nowhere is a file that cannot be read. Some file systems do not tell what a name is.
         let is_directory = match kind {
             Kind::Directory => true,
@@ -30,7 +35,9 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
         };
         if is_directory { &mut part.directories } else { &mut part.files }.push(name);
         ControlFlow::Continue(())
-    })
+    })?;
+    debris::listed(directory, left);
+    Ok(())
 }
 
 /// Each name in a directory with what the directory itself says of it, until `take` has enough.

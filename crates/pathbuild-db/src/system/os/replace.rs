@@ -5,16 +5,13 @@
 
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
-use std::collections::HashSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Write};
-use std::ops::ControlFlow;
-use std::sync::{LazyLock, Mutex, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{directory, open, readable};
-use crate::system::{EntryKind, Written};
+use super::{debris, open, readable};
+use crate::system::Written;
 
 /// Gives a file these bytes, if it has others.
 ///
@@ -22,7 +19,7 @@ use crate::system::{EntryKind, Written};
 /// When it cannot be written, or is a pipe, socket or device; nothing is left under the name that was not there before.
 pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
     let parent = path.parent().unwrap_or(Utf8Path::new(""));
-    remove_debris(parent);
+    debris::remove(readable(parent));
     match path.as_std_path().metadata() {
         Ok(data) if data.is_dir() => {
             return Err(io::Error::new(ErrorKind::IsADirectory, "a directory has that name"));
@@ -82,38 +79,4 @@ fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
         }
     }
     Err(io::Error::new(ErrorKind::AlreadyExists, "too many temporary files beside it"))
-}
-
-/// Removes the temporary files of runs that are gone, once a run in each directory.
-fn remove_debris(directory: &Utf8Path) {
-    static DONE: LazyLock<Mutex<HashSet<Utf8PathBuf>>> = LazyLock::new(Mutex::default);
-    if !DONE.lock().unwrap_or_else(PoisonError::into_inner).insert(directory.to_owned()) {
-        return;
-    }
-    let mut found = Vec::new();
-    // A directory that cannot be listed has no debris that could be removed.
-    _ = directory::each_entry(readable(directory), |entry| {
-        if entry.kind == EntryKind::File && entry.is_exact && is_temporary(entry.name) {
-            found.push(directory.join(entry.name));
-        }
-        ControlFlow::Continue(())
-    });
-    for debris in found {
-        let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
-        let is_left = || open::open(&debris).ok().filter(|file| file.try_lock().is_ok());
-        if let Some(_locked) = is_regular.then(is_left).flatten() {
-            // What cannot be removed harms nobody.
-            _ = fs::remove_file(&debris);
-        }
-    }
-}
-
-/// `.NAME.123-0.tmp`
-fn is_temporary(name: &str) -> bool {
-    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    name.strip_prefix('.')
-        .and_then(|name| name.strip_suffix(".tmp"))
-        .and_then(|name| name.rsplit_once('.'))
-        .and_then(|(name, numbers)| numbers.split_once('-').filter(|_| !name.is_empty()))
-        .is_some_and(|(process, attempt)| number(process) && number(attempt))
 }

@@ -84,7 +84,7 @@ fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
 
 fn node(db: &Database, instance: Instance<'_>) -> Node {
     let index = path_index(db, instance.file(db), instance.name(db)).as_ref();
-    let name = index.map(|index| index.header.name.clone());
+    let name = index.map(|index| (*index.header.name).clone());
     Node {
         name: name.unwrap_or_else(|| PathName::new(instance.name(db).folded(db))),
         file: instance.file(db).path(db).clone(),
