@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret_each};
-use pathbuild_gcode::read::Reader;
+use pathbuild_gcode::read::BlockReader;
 
 /// A program such as pathbuild writes: chains, half circles, lifts; `formula` goes behind every cutting Z.
 fn program(formula: &str) -> String {
@@ -28,7 +28,7 @@ fn program(formula: &str) -> String {
 }
 
 fn read(text: &[u8], dialect: Dialect) -> usize {
-    let mut reader = Reader::new(text, dialect.rules());
+    let mut reader = BlockReader::new(text, dialect.rules());
     let mut words = 0;
     while let Some(block) = reader.next_block() {
         words += block.words.len();

@@ -15,7 +15,7 @@ use pathbuild::printer::{ColorChoice, Printer, Verbosity};
 use pathbuild::{Context, ExitStatus, commands};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, Kind, Listing, OsSystem, ReadError, Written};
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
 use pathbuild_workspace::{Workspace, config};
 
 use crate::support::Place;
@@ -84,7 +84,7 @@ impl System for Changing {
         OsSystem.each_entry(directory, take)
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
+    fn kind(&self, path: &Utf8Path) -> FileKind {
         OsSystem.kind(path)
     }
 

@@ -4,7 +4,7 @@
 
 use crate::facts::Catalogue;
 use crate::flat::{TooMuch, write};
-use crate::kept::Kept;
+use crate::snapshot::Snapshot;
 
 /// What results are of: which program made them, with which settings, asked what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, TooMuc
 }
 
 /// What a file keeps, if it is whole and under this key.
-pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Kept, Unusable> {
+pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, Unusable> {
     let found = key_of(&file).ok_or(Unusable::Damaged)?;
     if found != *key {
         return Err(Unusable::Foreign);
@@ -72,7 +72,7 @@ pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Kept, Unusable> {
     if !is_whole(&file) {
         return Err(Unusable::Damaged);
     }
-    Kept::new(file, HEAD).ok_or(Unusable::Damaged)
+    Snapshot::new(file, HEAD).ok_or(Unusable::Damaged)
 }
 
 /// The key in a file's head.

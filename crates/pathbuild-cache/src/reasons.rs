@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 
 use crate::facts::Lookup;
-use crate::kept::Kept;
+use crate::snapshot::Snapshot;
 use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
 
 /// Something that a result was made from and that is not as it was.
@@ -33,7 +33,7 @@ pub enum Reason {
 }
 
 /// Why a record does not hold, each reason once; nothing where it does.
-pub fn reasons(kept: &Kept, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
+pub fn reasons(kept: &Snapshot, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
     let record = kept.record(record);
     let changed = record.files().filter(|file| verdict.files[*file] == FileState::Changed);
     let mut reasons: Vec<Reason> = changed
@@ -62,7 +62,7 @@ impl Reason {
     }
 }
 
-fn of_lookup(kept: &Kept, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
+fn of_lookup(kept: &Snapshot, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
     let (before, now) = (kept.directory(lookup.directory), &verdict.directories[lookup.directory]);
     let directory = &now.path;
     match DirectoryChange::of(before, now) {

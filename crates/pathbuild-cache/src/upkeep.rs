@@ -8,8 +8,8 @@ use std::time::{Duration, SystemTime};
 use camino::{Utf8Path, Utf8PathBuf};
 
 use crate::format::{self, Key, SUFFIX, Unusable};
-use crate::place::{Home, Place, SIGNATURE, TAG, TREE};
 use crate::private::{self, remove};
+use crate::tree_store::{Home, SIGNATURE, TAG, TREE, TreeStore};
 
 /// A file of kept results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ const UNUSED: Duration = Duration::from_hours(30 * 24);
 /// After which time a file that a process was writing must have been left behind.
 const LEFT_BEHIND: Duration = Duration::from_hours(1);
 
-impl Place {
+impl TreeStore {
     /// Every file of results, in order of name, and whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = names(self.directory())

@@ -5,8 +5,8 @@ use camino::Utf8Path;
 use rayon::prelude::*;
 
 use crate::facts::DirectoryFact;
-use crate::kept::{Kept, KeptDirectory, KeptFile};
 use crate::listing::{Listing, Listings};
+use crate::snapshot::{KeptDirectory, KeptFile, Snapshot};
 use crate::stamp::Stamp;
 
 /// Whether a file of this name may hold the path of that name.
@@ -46,7 +46,7 @@ pub struct Looking<'a> {
 }
 
 /// Holds what was kept against the files as they are now. Directories that are among the listings are not listed again.
-pub fn verify(kept: &Kept, looking: Looking<'_>, mut listings: Listings) -> Verdict {
+pub fn verify(kept: &Snapshot, looking: Looking<'_>, mut listings: Listings) -> Verdict {
     let is_asked: Vec<bool> =
         (0..kept.records()).map(|number| (looking.is_asked)(kept.record(number).of())).collect();
     let files = files(kept, &is_asked, looking);
@@ -70,7 +70,7 @@ pub fn verify(kept: &Kept, looking: Looking<'_>, mut listings: Listings) -> Verd
 }
 
 /// What became of the files of the records that are asked for: to ask the system for ten thousand is most of the work.
-fn files(kept: &Kept, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileState> {
+fn files(kept: &Snapshot, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileState> {
     let mut roles = vec![Role::None; kept.files()];
     for (number, _) in is_asked.iter().enumerate().filter(|(_, is_asked)| **is_asked) {
         let record = kept.record(number);
@@ -94,7 +94,7 @@ enum Role {
 }
 
 /// For each record whether no file that was looked at has changed, and every question has the same answer.
-fn sound(kept: &Kept, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
+fn sound(kept: &Snapshot, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
     let is_anew = |number| {
         let (directory, name) = kept.lookup(number);
         changes[directory].concerns(name, covers)

@@ -12,8 +12,9 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Home, Kept, Key, Listing,
-    Listings, Looking, Lookup, Place, Record, Stamp, Unusable, Verdict, decode_diagnostic, encode_diagnostic,
+    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Home, Key, Listing, Listings,
+    Looking, Lookup, Record, Snapshot, Stamp, TreeStore, Unusable, Verdict, decode_diagnostic,
+    encode_diagnostic,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -45,7 +46,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
 }
 
 /// What comes of keeping a catalogue.
-fn kept(catalogue: &Catalogue) -> Kept {
+fn kept(catalogue: &Catalogue) -> Snapshot {
     let (_directory, base) = place();
     let place = cache(&base);
     let key = Key::new("build", "question");
@@ -58,7 +59,7 @@ fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: pathbuild_cache::Cover
 }
 
 /// A catalogue again, as it lies in a file.
-fn catalogue_of(kept: &Kept) -> Catalogue {
+fn catalogue_of(kept: &Snapshot) -> Catalogue {
     let file = |number| {
         let file = kept.file(number);
         FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() }
@@ -100,8 +101,8 @@ fn looking<'a>(base: &'a Utf8Path, covers: pathbuild_cache::Covers<'a>) -> Looki
 }
 
 /// A cache that is there.
-fn cache(base: &Utf8Path) -> Place {
-    let place = Place::of_tree(&Home::Named(base.join("cache")), base);
+fn cache(base: &Utf8Path) -> TreeStore {
+    let place = TreeStore::of_tree(&Home::Named(base.join("cache")), base);
     place.make().unwrap();
     place
 }
@@ -325,7 +326,7 @@ fn what_is_kept_is_found_by_its_name() {
         assert_eq!((kept.record_of(nothing, 0), kept.file_of(Utf8Path::new(nothing))), (None, None));
     }
     assert_eq!(catalogue_of(&kept).directories, catalogue.directories);
-    assert_eq!(Kept::default().record_of("a.dxf", 0), None);
+    assert_eq!(Snapshot::default().record_of("a.dxf", 0), None);
 }
 
 /// Neither a flipped bit, nor a part of a file, nor more than a file.

@@ -10,7 +10,7 @@ use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Home, Key, Place};
+use pathbuild_cache::{Catalogue, Home, Key, TreeStore};
 use tempfile::TempDir;
 
 /// A directory for caches and two trees.
@@ -23,7 +23,7 @@ fn world() -> (TempDir, Utf8PathBuf) {
     (directory, base)
 }
 
-fn store(place: &Place) {
+fn store(place: &TreeStore) {
     place.store(&Key::new("build", "question"), &Catalogue::default()).unwrap();
 }
 
@@ -35,18 +35,18 @@ fn mode(path: &Utf8Path) -> u32 {
 fn each_tree_has_its_own_results_by_its_real_path() {
     let (_directory, base) = world();
     let home = Home::User(base.join("caches"));
-    let one = Place::of_tree(&home, &base.join("one"));
-    assert_ne!(one, Place::of_tree(&home, &base.join("two")));
+    let one = TreeStore::of_tree(&home, &base.join("one"));
+    assert_ne!(one, TreeStore::of_tree(&home, &base.join("two")));
     symlink("one", base.join("link")).unwrap();
-    assert_eq!(one, Place::of_tree(&home, &base.join("link")));
+    assert_eq!(one, TreeStore::of_tree(&home, &base.join("link")));
     let named = Home::Named(base.join("named"));
-    assert_eq!(Place::of_tree(&named, &base.join("one")), Place::of_tree(&named, &base.join("two")));
+    assert_eq!(TreeStore::of_tree(&named, &base.join("one")), TreeStore::of_tree(&named, &base.join("two")));
 }
 
 #[test]
 fn what_is_made_is_for_its_owner_only() {
     let (_directory, base) = world();
-    let place = Place::of_tree(&Home::User(base.join("caches")), &base.join("one"));
+    let place = TreeStore::of_tree(&Home::User(base.join("caches")), &base.join("one"));
     store(&place);
     assert_eq!((mode(&base.join("caches")), mode(place.directory())), (0o700, 0o700));
     for entry in place.directory().read_dir_utf8().unwrap() {
@@ -57,7 +57,7 @@ fn what_is_made_is_for_its_owner_only() {
 #[test]
 fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
     let (_directory, base) = world();
-    let place = Place::of_tree(&Home::Named(base.join("named")), &base);
+    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
     assert_eq!(place.refusal(), None);
     symlink("one", place.directory()).unwrap();
     assert_eq!(place.refusal(), Some("it is a link"));
@@ -74,7 +74,7 @@ fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
 #[test]
 fn a_directory_of_other_things_is_refused_and_stays() {
     let (_directory, base) = world();
-    let place = Place::of_tree(&Home::Named(base.join("one")), &base);
+    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert_eq!(place.refusal(), Some("it holds other things and no CACHEDIR.TAG"));
     assert!(place.clean().is_err());
@@ -89,7 +89,7 @@ fn a_directory_of_other_things_is_refused_and_stays() {
 #[test]
 fn links_are_neither_read_nor_written_through() {
     let (_directory, base) = world();
-    let place = Place::of_tree(&Home::Named(base.join("named")), &base);
+    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
     store(&place);
     let key = Key::new("build", "question");
     let results = place.directory().join(key.file_name());
@@ -111,7 +111,7 @@ fn links_are_neither_read_nor_written_through() {
 fn pruning_removes_the_results_of_trees_that_are_gone() {
     let (_directory, base) = world();
     let home = Home::User(base.join("caches"));
-    let [one, two] = ["one", "two"].map(|tree| Place::of_tree(&home, &base.join(tree)));
+    let [one, two] = ["one", "two"].map(|tree| TreeStore::of_tree(&home, &base.join(tree)));
     store(&one);
     store(&two);
     assert_eq!(home.prune().unwrap(), 0);

@@ -7,13 +7,13 @@
 
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
+use crate::block_prefilter::may_hold_wanted;
 use crate::code::Role;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
-use crate::glance::may_hold_wanted;
 use crate::groups::Groups;
 use crate::item::{Item, Shape, Traits};
-use crate::kind::Kind;
+use crate::kind::RecordKind;
 use crate::layers::{LayerId, Layers};
 use crate::line_types::LineTypes;
 use crate::names::is_same;
@@ -108,7 +108,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
         loop {
             let head = records.head;
-            let item = match Kind::of(head.value) {
+            let item = match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
                 None => records.skip()?,
                 Some(kind) if kind.is_part() => records.skip()?,
@@ -129,11 +129,11 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let mut layers = Vec::new();
         loop {
             let head = records.head;
-            match Kind::of(head.value) {
+            match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
                 None => _ = records.skip()?,
                 Some(kind) if kind.is_part() => _ = records.skip()?,
-                Some(Kind::Insert | Kind::Text | Kind::MText) => return Ok(None),
+                Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
                     layers.extend(layer.filter(|layer| layers.last() != Some(layer)));
@@ -146,12 +146,12 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     fn item(
         &mut self,
         records: &mut Records<'a>,
-        kind: Kind,
+        kind: RecordKind,
         space: Space,
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
         let Some(traits) = self.traits(records, kind, space)? else { return Ok(None) };
         let shape = match kind {
-            Kind::Polyline => self.polyline(records)?,
+            RecordKind::Polyline => self.polyline(records)?,
             _ => self.shape(kind),
         };
         Ok(Some(Item { traits, shape }))
@@ -161,7 +161,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     fn traits(
         &mut self,
         records: &mut Records<'a>,
-        kind: Kind,
+        kind: RecordKind,
         space: Space,
     ) -> Result<Option<Traits>, Stop<'a>> {
         let Pair { line, value: name, .. } = records.head;
@@ -177,7 +177,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
             return Ok(None);
         }
-        if kind == Kind::Insert && !self.insertion_matters(layer, space) {
+        if kind == RecordKind::Insert && !self.insertion_matters(layer, space) {
             return Ok(None);
         }
         Ok(Some(Traits {
@@ -194,7 +194,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     fn fill(
         &mut self,
         records: &mut Records<'a>,
-        kind: Kind,
+        kind: RecordKind,
         space: Space,
     ) -> Result<(Want, Option<LayerId>), Stop<'a>> {
         let Self { layers, decoder, fields, .. } = self;
@@ -226,25 +226,25 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     #[inline(always)]
-    fn shape(&mut self, kind: Kind) -> Result<Shape<'a>, Trouble<'a>> {
+    fn shape(&mut self, kind: RecordKind) -> Result<Shape<'a>, Trouble<'a>> {
         let Self { fields, decoder, options, .. } = self;
-        if kind != Kind::MText && kind.repeated_codes() != 0 && fields.is_full() {
+        if kind != RecordKind::MText && kind.repeated_codes() != 0 && fields.is_full() {
             return Err(Trouble::TooManyParts);
         }
         Ok(match kind {
-            Kind::Line => Shape::Plain(shapes::line(fields)?),
-            Kind::Arc => Shape::Plain(shapes::arc(fields)?),
-            Kind::Circle => Shape::Plain(shapes::circle(fields)?),
-            Kind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
-            Kind::MText => Shape::Plain(shapes::mtext(fields, decoder, options)?),
-            Kind::Ellipse | Kind::Spline
+            RecordKind::Line => Shape::Plain(shapes::line(fields)?),
+            RecordKind::Arc => Shape::Plain(shapes::arc(fields)?),
+            RecordKind::Circle => Shape::Plain(shapes::circle(fields)?),
+            RecordKind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
+            RecordKind::MText => Shape::Plain(shapes::mtext(fields, decoder, options)?),
+            RecordKind::Ellipse | RecordKind::Spline
                 if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>
             {
                 return Err(Trouble::left_out(&NOT_APPROXIMATED, fields));
             }
-            Kind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
-            Kind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
-            Kind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
+            RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
+            RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
+            RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             _ => Shape::Parts(shapes::lightweight(fields)?),
         })
     }
@@ -252,7 +252,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     /// The POLYLINE in hand, with the VERTEX records that follow. All of them are consumed, whatever is wrong with one.
     fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape<'a>, Trouble<'a>>, Stop<'a>> {
         let mut polyline = OpenPolyline::begin(&self.fields);
-        while Kind::of(records.head.value) == Some(Kind::Vertex) {
+        while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
             let always = |_| Want::Keep;
             let (next, _) = self.fields.fill(&mut records.groups, records.head.line, 0, always)?;
             records.head = next;
@@ -268,9 +268,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 /// Whether an entity on a layer is, or may be, wanted. Where a block is inserted decides on its layer 0; what a block holds decides on
 /// its insertion.
 #[inline]
-fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: Kind, space: Space) -> Want {
+fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> Want {
     let may_be_wanted = layers.is_kept(layer)
-        || kind == Kind::Insert
+        || kind == RecordKind::Insert
         || (space == Space::Block && layers.is_inheriting(layer));
     if may_be_wanted { Want::Keep } else { Want::Skip }
 }

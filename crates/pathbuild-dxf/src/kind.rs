@@ -4,7 +4,7 @@ use pathbuild_diagnostic::EntityKind;
 
 /// A kind of record in ENTITIES or in a block. POLYLINE's parts are records of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum RecordKind {
     Line,
     Arc,
     Circle,
@@ -22,7 +22,7 @@ pub(crate) enum Kind {
 /// Length of the longest name.
 const LONGEST: usize = "LWPOLYLINE".len();
 
-impl Kind {
+impl RecordKind {
     /// The kind of this name; `None` for all others. (`3DLINE` is the LINE of R10 that has a z.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {

@@ -7,6 +7,7 @@
 
 mod angle;
 mod binary;
+mod block_prefilter;
 mod blocks;
 mod by_name;
 mod code;
@@ -19,7 +20,6 @@ mod entities;
 mod faults;
 mod fields;
 mod file;
-mod glance;
 mod groups;
 mod header;
 mod item;

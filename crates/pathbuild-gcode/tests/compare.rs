@@ -6,7 +6,7 @@ use common::fault_text;
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
 use pathbuild_gcode::interpret::{Move, Options, interpret, moves_of};
-use pathbuild_gcode::verify::{Difference, Ends, Kind, Tolerance, compare};
+use pathbuild_gcode::verify::{Difference, DifferenceKind, Ends, Tolerance, compare};
 use pathbuild_toolpath::{Class, Comment, Count, Height, Move as Emitted, Names, Program, Step, Xy};
 
 fn moves(program: &str) -> Vec<(u32, Move)> {
@@ -25,7 +25,7 @@ fn differ(found: &str, expected: &str) -> Option<Difference> {
 }
 
 /// What they differ in, and the lines.
-fn kind(found: &str, expected: &str) -> Option<(Kind, Option<u32>, Option<u32>)> {
+fn kind(found: &str, expected: &str) -> Option<(DifferenceKind, Option<u32>, Option<u32>)> {
     differ(found, expected)
         .map(|it| (it.kind, it.found.map(|found| found.0), it.expected.map(|expected| expected.0)))
 }
@@ -51,39 +51,45 @@ fn a_program_is_the_same_as_itself() {
 #[test]
 fn ends_agree_within_half_a_unit_of_the_last_digit() {
     assert_same("G1 X10 Y5 Z1", "G1 X10.0005 Y5 Z1.0005");
-    assert_eq!(kind("G1 X10 Y5 Z1", "G1 X10.0006 Y5 Z1"), Some((Kind::Place, Some(4), Some(4))));
-    assert_eq!(kind("G1 X10 Y5 Z1", "G1 X10 Y5 Z1.0006"), Some((Kind::Place, Some(4), Some(4))));
+    assert_eq!(kind("G1 X10 Y5 Z1", "G1 X10.0006 Y5 Z1"), Some((DifferenceKind::Place, Some(4), Some(4))));
+    assert_eq!(kind("G1 X10 Y5 Z1", "G1 X10 Y5 Z1.0006"), Some((DifferenceKind::Place, Some(4), Some(4))));
 }
 
 #[test]
 fn feeds_agree_within_the_tolerance() {
     assert_same("G1 X10 F100", "G1 X10 F100.0005");
-    assert_eq!(kind("G1 X10 F100", "G1 X10 F100.0006"), Some((Kind::Feed, Some(4), Some(4))));
+    assert_eq!(kind("G1 X10 F100", "G1 X10 F100.0006"), Some((DifferenceKind::Feed, Some(4), Some(4))));
 }
 
 #[test]
 fn rapid_moves_are_no_cuts() {
-    assert_eq!(kind("G1 X10", "G0 X10"), Some((Kind::Pace, Some(4), Some(4))));
-    assert_eq!(kind("G38.2 Z1", "G38.3 Z1"), Some((Kind::Pace, Some(4), Some(4))));
+    assert_eq!(kind("G1 X10", "G0 X10"), Some((DifferenceKind::Pace, Some(4), Some(4))));
+    assert_eq!(kind("G38.2 Z1", "G38.3 Z1"), Some((DifferenceKind::Pace, Some(4), Some(4))));
     assert_same("G38.2 Z1\nG0 Z5", "G38.2 Z1\nG0 Z5");
-    assert_eq!(kind("G38.2 Z1 F10\nG0 Z5", "G38.2 Z1 F11\nG0 Z5"), Some((Kind::Feed, Some(4), Some(4))));
+    assert_eq!(
+        kind("G38.2 Z1 F10\nG0 Z5", "G38.2 Z1 F11\nG0 Z5"),
+        Some((DifferenceKind::Feed, Some(4), Some(4)))
+    );
 }
 
 #[test]
 fn order_counts() {
-    assert_eq!(kind("G1 X10\nY10\nX0\nY0", "G1 Y10\nX10\nY0\nX0"), Some((Kind::Place, Some(4), Some(4))));
+    assert_eq!(
+        kind("G1 X10\nY10\nX0\nY0", "G1 Y10\nX10\nY0\nX0"),
+        Some((DifferenceKind::Place, Some(4), Some(4)))
+    );
 }
 
 #[test]
 fn lines_may_be_cut_into_pieces() {
     assert_same("G1 X10 Y10 Z-1", "G1 X2.5 Y2.5 Z3.5\nX7.5 Y7.5 Z0.5\nX10 Y10 Z-1");
     assert_same("G1 X10 Y10", "G1 X5 Y5.0019\nX10 Y10");
-    assert_eq!(kind("G1 X10 Y10", "G1 X5 Y5.0021\nX10 Y10"), Some((Kind::Place, Some(4), Some(4))));
+    assert_eq!(kind("G1 X10 Y10", "G1 X5 Y5.0021\nX10 Y10"), Some((DifferenceKind::Place, Some(4), Some(4))));
 }
 
 #[test]
 fn pieces_have_the_feed_of_the_whole() {
-    assert_eq!(kind("G1 X10", "G1 X5\nX10 F90"), Some((Kind::Feed, Some(4), Some(5))));
+    assert_eq!(kind("G1 X10", "G1 X5\nX10 F90"), Some((DifferenceKind::Feed, Some(4), Some(5))));
 }
 
 #[test]
@@ -118,8 +124,11 @@ fn a_circle_is_not_nothing_and_no_two_circles() {
 #[test]
 fn arcs_have_one_centre() {
     assert_same("G2 X10 Y0 I5 J0", "G2 X10 Y0 I5.0004 J0.0004");
-    assert_eq!(kind("G2 X10 Y0 I5 J0", "G2 X10 Y0 I5 J-0.01"), Some((Kind::Shape, Some(4), Some(4))));
-    assert_eq!(kind("G2 X10 Y0 I5 J0", "G1 X10 Y0"), Some((Kind::Shape, Some(4), Some(4))));
+    assert_eq!(
+        kind("G2 X10 Y0 I5 J0", "G2 X10 Y0 I5 J-0.01"),
+        Some((DifferenceKind::Shape, Some(4), Some(4)))
+    );
+    assert_eq!(kind("G2 X10 Y0 I5 J0", "G1 X10 Y0"), Some((DifferenceKind::Shape, Some(4), Some(4))));
 }
 
 #[test]
@@ -142,9 +151,9 @@ fn arcs_may_be_chords_where_that_is_tolerated() {
 
 #[test]
 fn missing_and_surplus_moves_are_told_apart() {
-    assert_eq!(kind("G1 X10", "G1 X10\nY10"), Some((Kind::Place, None, Some(5))));
-    assert_eq!(kind("G1 X10\nY10", "G1 X10"), Some((Kind::Place, Some(5), None)));
-    assert_eq!(kind("", "G1 X10"), Some((Kind::Place, None, Some(4))));
+    assert_eq!(kind("G1 X10", "G1 X10\nY10"), Some((DifferenceKind::Place, None, Some(5))));
+    assert_eq!(kind("G1 X10\nY10", "G1 X10"), Some((DifferenceKind::Place, Some(5), None)));
+    assert_eq!(kind("", "G1 X10"), Some((DifferenceKind::Place, None, Some(4))));
 }
 
 #[test]

@@ -4,11 +4,11 @@ mod common;
 
 use common::{faults, reading_faults, spelled_out, words};
 use pathbuild_gcode::dialect::Dialect::{Grbl, LinuxCnc, Native, Rs274, Xpertmill};
-use pathbuild_gcode::read::{Op, Reader, Value};
+use pathbuild_gcode::read::{BlockReader, Op, Value};
 
 /// The value and decimals of the first word.
 fn number(text: &str) -> (f64, u8) {
-    let mut reader = Reader::new(text.as_bytes(), Rs274.rules());
+    let mut reader = BlockReader::new(text.as_bytes(), Rs274.rules());
     let block = reader.next_block().expect("a block");
     match block.words[0].value {
         Value::Number(number) => (number.value, number.decimals),
@@ -60,7 +60,7 @@ fn a_broken_line_is_left_out_and_the_next_one_read() {
 
 #[test]
 fn a_fault_has_its_line_column_and_text() {
-    let mut reader = Reader::new("G0 X1\nG0 (ä) Y$\n".as_bytes(), Rs274.rules());
+    let mut reader = BlockReader::new("G0 X1\nG0 (ä) Y$\n".as_bytes(), Rs274.rules());
     while reader.next_block().is_some() {}
     let problems = reader.into_problems().into_diagnostics();
     assert_eq!(
@@ -131,7 +131,7 @@ fn comments_within_comments_are_an_error_where_the_control_says_so() {
 
 #[test]
 fn text_that_is_no_utf8_is_read_as_windows_1252() {
-    let mut reader = Reader::new(b"(Schl\xFCssel)\n", Native.rules());
+    let mut reader = BlockReader::new(b"(Schl\xFCssel)\n", Native.rules());
     let block = reader.next_block().expect("a block");
     assert_eq!(block.text_of(block.comments[0].text), "Schlüssel");
 }
@@ -225,7 +225,7 @@ fn line_numbers_count_blank_and_broken_lines() {
 
 #[test]
 fn formulas_are_kept_as_data() {
-    let mut reader = Reader::new(b"G0 Z1.000(=1.000+0.5*[#51-5.000]) X2\n", Native.rules());
+    let mut reader = BlockReader::new(b"G0 Z1.000(=1.000+0.5*[#51-5.000]) X2\n", Native.rules());
     let block = reader.next_block().expect("a block");
     let formula = block.formula(1).expect("the formula of Z");
     assert!(!formula.applied);
@@ -237,7 +237,7 @@ fn formulas_are_kept_as_data() {
 
 #[test]
 fn applied_formulas_are_told_apart() {
-    let mut reader = Reader::new(b"G0 Z1.023(==1.000+0.441*[#51-2.000])\n", Native.rules());
+    let mut reader = BlockReader::new(b"G0 Z1.023(==1.000+0.441*[#51-2.000])\n", Native.rules());
     assert!(reader.next_block().expect("a block").formulas[0].applied);
 }
 
@@ -302,7 +302,7 @@ fn brackets_are_nested_so_deep() {
 
 #[test]
 fn o_words_take_the_rest_of_their_line() {
-    let mut reader = Reader::new(b"o100 call [1] [2]\nG0 X1\n", LinuxCnc.rules());
+    let mut reader = BlockReader::new(b"o100 call [1] [2]\nG0 X1\n", LinuxCnc.rules());
     let block = reader.next_block().expect("a block");
     assert_eq!(block.text_of(block.o_word.expect("an O word")), "o100 call [1] [2]");
     assert_eq!(words(LinuxCnc, "o100 call [1] [2]\nG0 X1\n"), ["1:", "2: G0 X1"]);
@@ -311,7 +311,7 @@ fn o_words_take_the_rest_of_their_line() {
 #[test]
 fn one_message_is_said_so_often_and_then_counted() {
     let many = "?\n".repeat(50);
-    let mut reader = Reader::new(many.as_bytes(), Native.rules());
+    let mut reader = BlockReader::new(many.as_bytes(), Native.rules());
     while reader.next_block().is_some() {}
     let problems = reader.into_problems().into_diagnostics();
     assert_eq!(problems.len(), 20);

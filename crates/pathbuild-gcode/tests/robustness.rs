@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret};
-use pathbuild_gcode::read::Reader;
+use pathbuild_gcode::read::BlockReader;
 use pathbuild_gcode::summary::Summary;
 use pathbuild_gcode::verify::{Checks, Machine, Tolerance, compare, verify};
 use proptest::prelude::*;
@@ -78,7 +78,7 @@ proptest! {
     fn any_number_reads_as_its_text(whole in any::<i64>(), decimals in 0_usize..12) {
         let text = format!("{:.decimals$}", whole as f64 / 1e6);
         let line = format!("X{text}");
-        let mut reader = Reader::new(line.as_bytes(), Dialect::Rs274.rules());
+        let mut reader = BlockReader::new(line.as_bytes(), Dialect::Rs274.rules());
         let block = reader.next_block().expect("a block");
         let pathbuild_gcode::read::Value::Number(number) = block.words[0].value else { panic!("a number") };
         prop_assert_eq!(number.value, text.parse::<f64>().expect("a number"));
@@ -94,7 +94,7 @@ proptest! {
         };
         let read = |line: String| {
             let text = format!("G0\n{line}\n");
-            let mut reader = Reader::new(text.as_bytes(), Dialect::Grbl.rules());
+            let mut reader = BlockReader::new(text.as_bytes(), Dialect::Grbl.rules());
             reader.next_block().expect("the first block");
             reader.next_block().map(|block| block.words.iter().map(|word| (word.letter, word.value)).collect::<Vec<_>>())
         };
@@ -119,7 +119,7 @@ proptest! {
         let rest = if is_whole { pieces.concat() } else { ")".to_owned() };
         let read = |blank: &str| {
             let text = format!("G1\nX1 Z1.023{blank}(={formula}{rest}) Y2\nX3\n");
-            let mut reader = Reader::new(text.as_bytes(), Dialect::Native.rules());
+            let mut reader = BlockReader::new(text.as_bytes(), Dialect::Native.rules());
             let mut blocks = Vec::new();
             while let Some(block) = reader.next_block() {
                 let words: Vec<_> = block.words.iter().map(|word| (word.letter, word.value)).collect();

@@ -68,7 +68,7 @@ pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, keep_outs, proxy_lines, raw_file};
 pub use table::RangeTable;
-pub use text::{ParameterText, ParameterTexts, Piece, TextId};
+pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;
 pub use walk::{Walked, walk, walk_watched};

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::number::parse_number;
-use crate::text::{ParameterText, Piece, Written};
+use crate::text::{LetterValue, ParameterText, Written};
 
 /// The one error of a text that is misunderstood as a whole; without a place.
 pub(crate) fn in_text(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
@@ -20,7 +20,7 @@ pub(crate) fn in_text(text: ParameterText<'_>, class: ElementClass) -> Option<Di
 fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
     let is_separator =
         |value: &str, at: usize| value[at + 1..].chars().next().and_then(Letter::new).is_some();
-    let has_separator = |piece: &&Piece| {
+    let has_separator = |piece: &&LetterValue| {
         let value = text.value(piece);
         piece.written == Written::NoNumber && value.match_indices(',').any(|(at, _)| is_separator(value, at))
     };
@@ -34,14 +34,14 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
 
 /// `o2 t2 i0.5 b0`.
 fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
-    let upper = |piece: &Piece| {
+    let upper = |piece: &LetterValue| {
         let letter = text.letter(piece)?.to_ascii_uppercase();
         piece.letter.is_none().then(|| Letter::new(letter)).flatten().filter(|it| class.use_of(*it).counts())
     };
     if text.pieces().iter().filter(|piece| upper(piece).is_some()).count() < 2 {
         return None;
     }
-    let written = |piece: &Piece| match upper(piece) {
+    let written = |piece: &LetterValue| match upper(piece) {
         Some(letter) => format!("{}{}", letter.as_char(), text.value(piece)),
         None => format!("{}{}", text.letter(piece).unwrap_or_default(), text.value(piece)),
     };
@@ -51,7 +51,7 @@ fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic
 
 /// `Deckel links`: words, none of which can be a parameter.
 fn remark(text: ParameterText<'_>) -> Option<Diagnostic> {
-    let is_word = |piece: &Piece| {
+    let is_word = |piece: &LetterValue| {
         let value = text.value(piece);
         let is_text = piece.letter.is_some_and(Letter::is_text);
         !is_text
@@ -64,7 +64,11 @@ fn remark(text: ParameterText<'_>) -> Option<Diagnostic> {
 }
 
 /// What a piece without a letter was meant to be: a zero for O, or a path's name without its sign.
-pub(crate) fn in_piece(text: ParameterText<'_>, piece: &Piece, class: ElementClass) -> Option<Diagnostic> {
+pub(crate) fn in_piece(
+    text: ParameterText<'_>,
+    piece: &LetterValue,
+    class: ElementClass,
+) -> Option<Diagnostic> {
     let value = text.value(piece);
     let (message, meant) = match text.letter(piece)? {
         digit if class == ElementClass::Subpath && digit.is_ascii_digit() => {

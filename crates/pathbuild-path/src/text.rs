@@ -18,7 +18,7 @@ use crate::number::{parse_integer, parse_number};
 pub struct ParameterTexts {
     /// All texts behind each other.
     string: String,
-    pieces: Vec<Piece>,
+    pieces: Vec<LetterValue>,
     texts: Vec<Text>,
 }
 
@@ -39,7 +39,7 @@ struct Text {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParameterText<'t> {
     string: &'t str,
-    pieces: &'t [Piece],
+    pieces: &'t [LetterValue],
     /// All that it has.
     pub(crate) letters: Letters,
     /// Whether each of its pieces has another letter and its value is what it should be, without a reference to a variable.
@@ -48,7 +48,7 @@ pub struct ParameterText<'t> {
 
 /// A letter with its value, still with variables in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct LetterValue {
     /// The letter; `None` for a character that is none (PB202).
     pub letter: Option<Letter>,
     /// What its value is before variables are put in.
@@ -153,12 +153,12 @@ impl<'t> ParameterText<'t> {
     }
 
     /// All pieces in the order they are written.
-    pub fn pieces(self) -> &'t [Piece] {
+    pub fn pieces(self) -> &'t [LetterValue] {
         self.pieces
     }
 
     /// The first piece of a letter.
-    pub fn piece(self, letter: Letter) -> Option<&'t Piece> {
+    pub fn piece(self, letter: Letter) -> Option<&'t LetterValue> {
         self.pieces.get(self.index(letter)?)
     }
 
@@ -168,19 +168,19 @@ impl<'t> ParameterText<'t> {
     }
 
     /// What a piece begins with, a letter or not.
-    pub(crate) fn letter(self, piece: &Piece) -> Option<char> {
+    pub(crate) fn letter(self, piece: &LetterValue) -> Option<char> {
         self.string[piece.span()].chars().next()
     }
 
     /// A piece's value as written.
-    pub fn value(self, piece: &Piece) -> &'t str {
+    pub fn value(self, piece: &LetterValue) -> &'t str {
         let mut characters = self.string[piece.span()].chars();
         characters.next();
         characters.as_str()
     }
 
     /// The whole text with a piece underlined.
-    pub fn fault(self, piece: &Piece) -> TextFault {
+    pub fn fault(self, piece: &LetterValue) -> TextFault {
         TextFault::new(self.string, piece.span())
     }
 
@@ -204,7 +204,7 @@ impl<'t> ParameterText<'t> {
             return vec![problem];
         }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
-        let of_piece = |piece: &Piece| {
+        let of_piece = |piece: &LetterValue| {
             // Letters are the same letter; variables only when they are the same variable.
             let is_repeated = match piece.letter {
                 None => false,
@@ -217,7 +217,7 @@ impl<'t> ParameterText<'t> {
         self.pieces.iter().filter_map(of_piece).collect()
     }
 
-    fn problem(self, piece: &Piece, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
+    fn problem(self, piece: &LetterValue, is_repeated: bool, class: ElementClass) -> Option<Diagnostic> {
         let first = self.string[piece.span()].chars().next()?;
         let Some(letter) = piece.letter else {
             return Some(
@@ -237,7 +237,7 @@ impl<'t> ParameterText<'t> {
         (how == Use::Ignored).then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
     }
 
-    fn twice(self, letter: Letter, piece: &Piece) -> Diagnostic {
+    fn twice(self, letter: Letter, piece: &LetterValue) -> Diagnostic {
         match (letter, self.value(piece).chars().next()) {
             (Letter::Variable, Some(name)) => {
                 Diagnostic::new(&messages::VARIABLE_TWICE).with("variable", name)
@@ -247,7 +247,7 @@ impl<'t> ParameterText<'t> {
     }
 }
 
-impl Piece {
+impl LetterValue {
     fn span(&self) -> Range<usize> {
         range(&self.span)
     }
@@ -312,7 +312,7 @@ fn is_blank(byte: u8) -> bool {
 }
 
 /// The first piece of a text from a byte on.
-fn next_piece(text: &str, from: usize) -> Option<Piece> {
+fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     let bytes = text.as_bytes();
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;
     let length = bytes[start..].iter().position(|byte| is_blank(*byte));
@@ -320,7 +320,7 @@ fn next_piece(text: &str, from: usize) -> Option<Piece> {
     // All letters are ASCII.
     let letter = Letter::new(char::from(bytes[start]));
     let written = letter.map_or(Written::Text, |letter| Written::of(letter, &text[start + 1..end]));
-    Some(Piece { letter, written, span: number(start)..number(end) })
+    Some(LetterValue { letter, written, span: number(start)..number(end) })
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{Letter, Letters};
-use crate::text::{ParameterText, Piece, Written};
+use crate::text::{LetterValue, ParameterText, Written};
 use crate::variables::Interpolation;
 
 /// What a text says of a letter.
@@ -83,7 +83,7 @@ impl<'t> Values<'t> {
         values
     }
 
-    fn fill(&mut self, letter: Letter, piece: &Piece, interpolation: &Interpolation<'_>) -> Filled<'t> {
+    fn fill(&mut self, letter: Letter, piece: &LetterValue, interpolation: &Interpolation<'_>) -> Filled<'t> {
         match interpolation.fill(self.text.value(piece)) {
             Ok(value) => match Written::of(letter, &value) {
                 Written::NoNumber => self.report(piece, no_number(letter, &value)),
@@ -94,7 +94,7 @@ impl<'t> Values<'t> {
         Filled::Nothing
     }
 
-    fn report(&mut self, piece: &Piece, problem: Diagnostic) {
+    fn report(&mut self, piece: &LetterValue, problem: Diagnostic) {
         self.problems.push(problem.with_text(self.text.fault(piece)));
     }
 
@@ -119,7 +119,7 @@ impl<'t> Values<'t> {
     }
 
     /// Values of variables in the order written, with the piece they stand in.
-    pub(crate) fn variables(&self) -> impl Iterator<Item = (&str, &'t Piece)> {
+    pub(crate) fn variables(&self) -> impl Iterator<Item = (&str, &'t LetterValue)> {
         let pieces = self.text.pieces().iter().enumerate();
         let variables = pieces.filter(|(_, piece)| piece.letter == Some(Letter::Variable));
         variables.filter_map(|(index, piece)| Some((self.value(index)?, piece)))
@@ -149,7 +149,7 @@ impl<'t> Values<'t> {
     }
 
     /// The text with a piece underlined.
-    pub(crate) fn underlined(&self, piece: &Piece) -> TextFault {
+    pub(crate) fn underlined(&self, piece: &LetterValue) -> TextFault {
         self.text.fault(piece)
     }
 

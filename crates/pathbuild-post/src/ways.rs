@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
-use pathbuild_gcode::verify::{Difference, Kind, Tolerance, compare};
+use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
 
 type Moves<'m> = &'m [(u32, Move)];
 type Checked<T> = Result<T, Box<Diagnostic>>;
@@ -116,7 +116,7 @@ impl Way<'_> {
 
     fn difference(&self, found: Option<(u32, Move)>, expected: Option<(u32, Move)>) -> Box<Diagnostic> {
         let expected = expected.or_else(|| self.expected.last().copied());
-        Box::new(Difference { kind: Kind::Place, found, expected }.diagnostic())
+        Box::new(Difference { kind: DifferenceKind::Place, found, expected }.diagnostic())
     }
 
     /// Whether moves touch nothing that the job does not.
@@ -145,7 +145,7 @@ impl Way<'_> {
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
         if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it)) {
             return Err(Box::new(
-                Difference { kind: Kind::Place, found: Some(*cut), expected: None }.diagnostic(),
+                Difference { kind: DifferenceKind::Place, found: Some(*cut), expected: None }.diagnostic(),
             ));
         }
         self.check(found)?;

@@ -21,12 +21,12 @@ pub struct Workshop {
 /// A drawing of the library: under a name that may change, or away.
 #[derive(Debug)]
 struct Slot {
-    kind: Kind,
+    kind: ComponentKind,
     file: Option<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum ComponentKind {
     Component(u32),
     Project(u32),
     /// Of a component.
@@ -54,10 +54,11 @@ impl Workshop {
     /// A library by its seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 7);
-        let mut kinds: Vec<Kind> = (1..=COMPONENTS).map(|n| Kind::Component(1000 + n)).collect();
-        kinds.extend((1..=PROJECTS).map(|n| Kind::Project(8000 + n)));
-        kinds.push(Kind::QProject(1001));
-        kinds.extend(random.once_in(8).then_some(Kind::Chain));
+        let mut kinds: Vec<ComponentKind> =
+            (1..=COMPONENTS).map(|n| ComponentKind::Component(1000 + n)).collect();
+        kinds.extend((1..=PROJECTS).map(|n| ComponentKind::Project(8000 + n)));
+        kinds.push(ComponentKind::QProject(1001));
+        kinds.extend(random.once_in(8).then_some(ComponentKind::Chain));
         let mut rules =
             Rules { search: vec!["lib/parts".to_owned(), "spare".to_owned()], restrict: Vec::new() };
         if random.once_in(3) {
@@ -107,12 +108,12 @@ impl Workshop {
         };
         let random = &mut self.random;
         let mut bytes = match kind {
-            Kind::Component(number) => component(number, random),
-            Kind::Project(number) => project(number, random),
-            Kind::QProject(number) => q_project(number, random),
-            Kind::Chain => chain(),
+            ComponentKind::Component(number) => component(number, random),
+            ComponentKind::Project(number) => project(number, random),
+            ComponentKind::QProject(number) => q_project(number, random),
+            ComponentKind::Chain => chain(),
         };
-        if matches!(kind, Kind::Component(_)) && random.once_in(20) {
+        if matches!(kind, ComponentKind::Component(_)) && random.once_in(20) {
             // The CAD had no room to write the rest.
             bytes.truncate(bytes.len() * 4 / 5);
         }
@@ -146,10 +147,10 @@ impl Workshop {
     }
 }
 
-fn file_name(kind: Kind, random: &mut Random) -> String {
+fn file_name(kind: ComponentKind, random: &mut Random) -> String {
     match kind {
-        Kind::Component(1001) => "lib/parts/1001.dxf".to_owned(),
-        Kind::Component(n) => {
+        ComponentKind::Component(1001) => "lib/parts/1001.dxf".to_owned(),
+        ComponentKind::Component(n) => {
             let stem = match random.below(8) {
                 0 => format!("{n}.1-{n}.9"),
                 1 => format!("{n}-{}", n + 1),
@@ -159,9 +160,9 @@ fn file_name(kind: Kind, random: &mut Random) -> String {
             };
             format!("lib/parts/{stem}.{}", random.pick(&["dxf", "dxf", "DXF"]))
         }
-        Kind::Project(n) => format!("lib/projects/{n}.dxf"),
-        Kind::QProject(n) => format!("lib/parts/{n}_Q.dxf"),
-        Kind::Chain => "lib/parts/7001-7099.dxf".to_owned(),
+        ComponentKind::Project(n) => format!("lib/projects/{n}.dxf"),
+        ComponentKind::QProject(n) => format!("lib/parts/{n}_Q.dxf"),
+        ComponentKind::Chain => "lib/parts/7001-7099.dxf".to_owned(),
     }
 }
 

@@ -14,12 +14,12 @@ pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<C
 /// Where a segment with bars is milled how deep, as positions along it in mm.
 #[derive(Clone, Debug)]
 pub(crate) struct BarPlan {
-    pieces: Vec<Piece>,
+    pieces: Vec<BarSpan>,
 }
 
 /// From `from` to `to` along the segment; a slope goes from one level to the other.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct BarSpan {
     from: f64,
     to: f64,
     starts_low: bool,
@@ -67,13 +67,13 @@ impl BarPlan {
     }
 
     fn piece(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
-        self.pieces.push(Piece { from, to, starts_low, ends_low });
+        self.pieces.push(BarSpan { from, to, starts_low, ends_low });
     }
 
     /// The sections along a curve, in order from its start, low parts at `low` and bars at `high`.
     pub(crate) fn sections(&self, curve: &Curve, low: f64, high: f64) -> Vec<Section> {
         let level = |is_low| if is_low { low } else { high };
-        let section = |piece: &Piece| Section {
+        let section = |piece: &BarSpan| Section {
             curve: curve.section(piece.from, piece.to),
             from_z: level(piece.starts_low),
             to_z: level(piece.ends_low),

@@ -4,7 +4,7 @@ use pathbuild_path::approx::{above, at_least, coincide, near};
 use pathbuild_path::{Chain, ChainSegment, Curve, Cut};
 
 use crate::bars::BarPlan;
-use crate::fold::{Fold, Parts, Place, Tip};
+use crate::fold::{Fold, Parts, PlacedPath, Tip};
 use crate::mill::Section;
 use crate::nearest::OpenEdges;
 use crate::program::ElementKind;
@@ -33,7 +33,7 @@ pub(crate) struct Run {
 }
 
 impl<P: Parts> Fold<'_, P> {
-    pub(crate) fn chain(&mut self, place: &Place<'_>, chain: &Chain, members: &[ChainSegment]) {
+    pub(crate) fn chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
         let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
         let strands: Vec<Strand<'_>> =
             members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
@@ -47,7 +47,13 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    fn strand<'p>(&self, place: &Place<'p>, member: &ChainSegment, first: f64, infeed: f64) -> Strand<'p> {
+    fn strand<'p>(
+        &self,
+        place: &PlacedPath<'p>,
+        member: &ChainSegment,
+        first: f64,
+        infeed: f64,
+    ) -> Strand<'p> {
         let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
@@ -66,7 +72,7 @@ impl<P: Parts> Fold<'_, P> {
     }
 
     /// Edges in the order of the nearest end, each after the one above it.
-    fn pass_by_pass(&mut self, place: &Place<'_>, strands: &[Strand<'_>]) {
+    fn pass_by_pass(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
         let mut last_pass = None;
@@ -91,7 +97,7 @@ impl<P: Parts> Fold<'_, P> {
     }
 
     /// To and fro in the groove, without leaving it.
-    fn sweepless(&mut self, place: &Place<'_>, strands: &[Strand<'_>]) {
+    fn sweepless(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());
         let goes_back = runs > 1 && !coincide(start, end);
@@ -112,7 +118,7 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    fn run_in_groove(&mut self, place: &Place<'_>, strands: &[Strand<'_>], run: Run) {
+    fn run_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>], run: Run) {
         let strand = &strands[run.strand];
         self.along(strand.element);
         let z = strand.depths[run.edge];
@@ -121,12 +127,12 @@ impl<P: Parts> Fold<'_, P> {
     }
 
     /// The feed of a plunge to where an edge begins.
-    fn entry_feed(&self, place: &Place<'_>, strand: &Strand<'_>) -> f64 {
+    fn entry_feed(&self, place: &PlacedPath<'_>, strand: &Strand<'_>) -> f64 {
         if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
 
     /// Mills a segment once at a depth, its bars spared.
-    fn edge(&mut self, place: &Place<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
+    fn edge(&mut self, place: &PlacedPath<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
         self.question(strand.comment);
         for section in strand.sections(z, is_backwards) {
             self.mill(&section, place.surface, strand.feed);

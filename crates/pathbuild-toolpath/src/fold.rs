@@ -131,7 +131,7 @@ pub(crate) struct Fold<'a, P: Parts> {
 
 /// A path where it is placed: heights are absolute, lengths in mm.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
+pub(crate) struct PlacedPath<'a> {
     pub(crate) path: &'a Path,
     pub(crate) placement: Placement,
     /// h: what the path is raised by.
@@ -149,7 +149,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.parts.checkpoint();
         let outside = self.enter(id, placement, raised, sweep_height);
         let path = self.parts.path(id);
-        let place = Place {
+        let place = PlacedPath {
             path,
             placement,
             raised,
@@ -205,7 +205,7 @@ impl<'a, P: Parts> Fold<'a, P> {
 
     /// The embedded path begins exactly at the segment's start; what follows it begins at the segment's end, though it may have ended
     /// 0.001 mm beside that.
-    fn subpath(&mut self, outer: &Place<'a>, id: P::Id, subpath: &PlacedSubpath) {
+    fn subpath(&mut self, outer: &PlacedPath<'a>, id: P::Id, subpath: &PlacedSubpath) {
         let Some(embedded) = self.parts.embedded(id, subpath.segment) else { return };
         let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
         let path = self.parts.path(embedded);
@@ -218,14 +218,14 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.tip.at = end;
     }
 
-    fn sweep_along(&mut self, place: &Place<'_>, sweep: &Sweep) {
+    fn sweep_along(&mut self, place: &PlacedPath<'_>, sweep: &Sweep) {
         let height = sweep.height.map_or(place.sweep_height, |height| place.raised + height);
         let to = Tip { at: place.placement.place(sweep.end), z: height };
         self.travel(to, place.surface, height, place.feed);
     }
 
     /// The tool stays at the bottom; what follows retracts it.
-    fn hole(&mut self, place: &Place<'_>, origin: &Origin, hole: &Hole) {
+    fn hole(&mut self, place: &PlacedPath<'_>, origin: &Origin, hole: &Hole) {
         let bottom = place.raised + hole.bottom;
         self.element(ElementKind::DrilledHole, origin, bottom, place, hole.peck);
         self.question(hole.comment.as_deref());
@@ -327,7 +327,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         kind: ElementKind,
         origin: &Origin,
         bottom: f64,
-        place: &Place<'_>,
+        place: &PlacedPath<'_>,
         peck: Option<f64>,
     ) {
         let at = Xy::new(origin.point.x.0, origin.point.y.0);

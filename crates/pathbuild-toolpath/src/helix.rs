@@ -6,7 +6,7 @@ use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
 use crate::bars::BarPlan;
-use crate::fold::{Fold, Parts, Place, Tip};
+use crate::fold::{Fold, Parts, PlacedPath, Tip};
 use crate::program::{Class, Count, ElementKind, Height, Move};
 
 /// The circle that the cutter's centre runs on, placed in the program.
@@ -42,7 +42,7 @@ impl Circle {
 }
 
 impl<P: Parts> Fold<'_, P> {
-    pub(crate) fn helix(&mut self, place: &Place<'_>, origin: &Origin, helix: &Helix) {
+    pub(crate) fn helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
         let circle = Circle {
             centre: place.placement.place(helix.centre),
             radius: helix.radius - place.path.tool / 2.0,
@@ -97,7 +97,7 @@ impl<P: Parts> Fold<'_, P> {
     /// Below D, full circles with bars, pass by pass down to B. Gives the depth of the last, or of the spiral where there is none.
     fn circles_with_bars(
         &mut self,
-        place: &Place<'_>,
+        place: &PlacedPath<'_>,
         circle: &Circle,
         (done, infeed): (f64, f64),
         depth: f64,

@@ -15,7 +15,7 @@ use crate::check::kept_results;
 use crate::config::types::Pattern;
 use crate::emit;
 use crate::inputs::Input;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, DrawingResult, Session};
 
 /// What is to be listed.
@@ -24,7 +24,7 @@ pub struct Request<'a> {
     /// Drawings, directories, and patterns of path names; without drawings or directories, all paths there are.
     pub inputs: &'a Inputs,
     /// The post that programs are written through; `None`: natively.
-    pub poster: Option<&'a Poster>,
+    pub poster: Option<&'a PostProcessor>,
 }
 
 /// What there is.
@@ -80,9 +80,9 @@ impl Session<'_> {
     /// the last `check` of the library knows it is not read again; drawings of a large library that it does not know are left out.
     pub fn names_of_library(&self) -> Vec<PathName> {
         let files = self.everything();
-        let keeper = kept_results(self.workspace());
+        let result_store = kept_results(self.workspace());
         let kept = |file: &SourceFile| {
-            let payload = keeper.as_ref()?.payload(file.path(self.db()).as_str())?;
+            let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
             Some(DrawingResult::decode(payload).ok()?.names)
         };
         let (mut names, mut open) = (Vec::new(), Vec::new());

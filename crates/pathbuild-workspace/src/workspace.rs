@@ -2,7 +2,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use camino::Utf8PathBuf;
-use pathbuild_cache::{Home, Place};
+use pathbuild_cache::{Home, TreeStore};
 use pathbuild_db::System;
 use pathbuild_diagnostic::Lang;
 
@@ -40,8 +40,8 @@ impl Workspace {
     }
 
     /// Where they are kept.
-    pub fn cache_place(&self) -> Option<Place> {
-        Some(Place::of_tree(self.cache.as_ref()?, self.settings.directory()?))
+    pub fn cache_place(&self) -> Option<TreeStore> {
+        Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
     /// The language of everything that is said.

@@ -19,7 +19,7 @@ use std::time::SystemTime;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, Kind, Listing, OsSystem, ReadError, Written};
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
 use pathbuild_testkit::Workshop;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
@@ -128,7 +128,7 @@ impl System for Mischief {
         self.around(directory, || OsSystem.each_entry(directory, take))
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
+    fn kind(&self, path: &Utf8Path) -> FileKind {
         OsSystem.kind(path)
     }
 

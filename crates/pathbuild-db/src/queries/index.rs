@@ -7,7 +7,7 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, KeepOuts, Language, PathHeader, PathName, RawFile, RawPath, judge_file_name};
 
-use super::hints::LayerEnds;
+use super::nearby_ends::LayerEnds;
 use super::reading::{Fingerprint, entities, read, read_entities};
 use super::summary::PathSummary;
 use crate::bugs::catch_bugs;

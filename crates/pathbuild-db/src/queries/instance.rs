@@ -3,8 +3,8 @@
 use pathbuild_path::{Bindings, Walked};
 
 use super::binding::{BoundPath, bind, walk};
-use super::hints::LayerEnds;
 use super::index::{NameKey, path_index};
+use super::nearby_ends::LayerEnds;
 use super::raw::raw_path;
 use super::rereading::read_layers;
 use super::summary::PathSummary;

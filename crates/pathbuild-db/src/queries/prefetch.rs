@@ -9,12 +9,12 @@ use super::lookup::{own_directory, search_path};
 use super::names::{EXTENSION, joined};
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
-use crate::system::Kind;
+use crate::system::FileKind;
 
 /// The drawing of a directory that most likely defines a path: the one of its name, if there is one.
 pub fn likely_file(db: &dyn Db, directory: Directory, name: &str) -> Option<SourceFile> {
     let path = joined(directory.path(db), &format!("{name}{EXTENSION}"));
-    (db.system().kind(&path) == Kind::File).then(|| db.file(&path))
+    (db.system().kind(&path) == FileKind::File).then(|| db.file(&path))
 }
 
 /// Whether any path of a drawing embeds others.

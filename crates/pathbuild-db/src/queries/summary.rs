@@ -5,7 +5,7 @@ use pathbuild_path::{Bindings, PathSignature, RawPath};
 use pathbuild_toolpath::own_moves;
 
 use super::binding::{BoundPath, bind, walk};
-use super::hints::LayerEnds;
+use super::nearby_ends::LayerEnds;
 use crate::db::Db;
 use crate::settings::Settings;
 

@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 
-use super::{Entry, Kind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
 /// Another system, of which nothing is read or written through links that lead from inside a directory to outside. A name that lies
 /// outside by itself is allowed: a tree can give none that is not held against [`Confined::holds`] first, so a person gave it.
@@ -56,7 +56,7 @@ impl Confined {
     fn leads_inside(&self, path: &Utf8Path) -> bool {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
-        let there = ancestors.find(|path| self.below.kind(path) != Kind::Missing);
+        let there = ancestors.find(|path| self.below.kind(path) != FileKind::Missing);
         // What cannot be followed may lead anywhere.
         there.is_none_or(|there| there.canonicalize_utf8().is_ok_and(|it| it.starts_with(&self.real_root)))
     }
@@ -124,7 +124,7 @@ impl System for Confined {
         self.allowed(directory)?.each_entry(directory, take)
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
+    fn kind(&self, path: &Utf8Path) -> FileKind {
         self.below.kind(path)
     }
 

@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Kind, Listing, ReadError, System, Written};
+use super::{FileKind, Listing, ReadError, System, Written};
 
 /// Files by path. Directories are there as soon as a file is in them.
 #[derive(Debug, Default)]
@@ -55,14 +55,14 @@ impl System for MemorySystem {
         Ok(Listing { files: names.into_iter().collect(), directories: directories.into_iter().collect() })
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
+    fn kind(&self, path: &Utf8Path) -> FileKind {
         let files = self.files();
         if files.contains_key(path) {
-            Kind::File
+            FileKind::File
         } else if path.as_str().is_empty() || files.keys().any(|file| file.starts_with(path)) {
-            Kind::Directory
+            FileKind::Directory
         } else {
-            Kind::Missing
+            FileKind::Missing
         }
     }
 

@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::{Entry, Kind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
 /// Another system, with this file in it. Only reading is as if it were there.
 #[derive(Debug)]
@@ -82,8 +82,8 @@ impl System for Overlay {
         self.below.each_entry(directory, take)
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
-        if path == self.path { Kind::File } else { self.below.kind(path) }
+    fn kind(&self, path: &Utf8Path) -> FileKind {
+        if path == self.path { FileKind::File } else { self.below.kind(path) }
     }
 
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {

@@ -1,4 +1,4 @@
-use super::piece::Piece;
+use super::piece::ElementPart;
 use crate::draft::Block;
 use crate::model::{Arc, Circle, Ellipse, Entity, Insert, Layer, Line, Point, Polyline, Shape, Spline};
 
@@ -11,7 +11,7 @@ pub(crate) struct Candidate {
     pub(crate) layer: String,
     /// Lines of type HIDDEN, end and turn markers take no text.
     pub(crate) takes_text: bool,
-    pub(crate) pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<ElementPart>,
 }
 
 /// Blocks in blocks are followed this deep; a block that holds itself is not the placement's concern.
@@ -64,11 +64,11 @@ fn is_silent_marker(shape: &Shape, line_type: &str) -> bool {
         && [0.75, 1.0].iter().any(|radius| (circle.radius - radius).abs() < 1e-6)
 }
 
-fn pieces(shape: &Shape) -> Vec<Piece> {
+fn pieces(shape: &Shape) -> Vec<ElementPart> {
     match shape {
-        Shape::Line(line) => vec![Piece::Line(*line)],
-        Shape::Arc(arc) => vec![Piece::Arc(*arc)],
-        Shape::Circle(circle) => vec![Piece::Circle(*circle)],
+        Shape::Line(line) => vec![ElementPart::Line(*line)],
+        Shape::Arc(arc) => vec![ElementPart::Arc(*arc)],
+        Shape::Circle(circle) => vec![ElementPart::Circle(*circle)],
         Shape::Polyline(polyline) => of_polyline(polyline),
         Shape::Ellipse(ellipse) => chain(&of_ellipse(ellipse)),
         Shape::Spline(spline) => chain(&of_spline(spline)),
@@ -81,9 +81,10 @@ fn pieces(shape: &Shape) -> Vec<Piece> {
     }
 }
 
-fn of_polyline(polyline: &Polyline) -> Vec<Piece> {
-    let piece =
-        |(from, to, bulge)| Arc::bulged(from, to, bulge).map_or(Piece::Line(Line { from, to }), Piece::Arc);
+fn of_polyline(polyline: &Polyline) -> Vec<ElementPart> {
+    let piece = |(from, to, bulge)| {
+        Arc::bulged(from, to, bulge).map_or(ElementPart::Line(Line { from, to }), ElementPart::Arc)
+    };
     polyline.pieces().map(piece).collect()
 }
 
@@ -102,8 +103,8 @@ fn of_spline(spline: &Spline) -> Vec<Point> {
     if spline.fit.is_empty() { spline.control.clone() } else { spline.fit.clone() }
 }
 
-fn chain(points: &[Point]) -> Vec<Piece> {
-    points.windows(2).map(|pair| Piece::Line(Line { from: pair[0], to: pair[1] })).collect()
+fn chain(points: &[Point]) -> Vec<ElementPart> {
+    points.windows(2).map(|pair| ElementPart::Line(Line { from: pair[0], to: pair[1] })).collect()
 }
 
 fn expand(
@@ -131,7 +132,7 @@ fn expand(
         }
     }
     for copy in copies(insert) {
-        let moved = |piece: &Piece| transform(piece, insert, block.base, copy);
+        let moved = |piece: &ElementPart| transform(piece, insert, block.base, copy);
         found.extend(
             inner
                 .iter()
@@ -150,21 +151,22 @@ fn copies(insert: &Insert) -> impl Iterator<Item = Point> + '_ {
     (0..columns.max(1)).flat_map(move |column| (0..rows.max(1)).map(move |row| at(column, row)))
 }
 
-fn transform(piece: &Piece, insert: &Insert, base: Point, copy: Point) -> Piece {
+fn transform(piece: &ElementPart, insert: &Insert, base: Point, copy: Point) -> ElementPart {
     let scale = insert.scale;
     let scaled = |p: Point| Point::new(p.x * scale.x, p.y * scale.y);
     let point = |p: Point| insert.at + copy + scaled(p - base).turned(insert.rotation);
     match piece {
-        Piece::Line(line) => Piece::Line(Line { from: point(line.from), to: point(line.to) }),
-        Piece::Circle(circle) => {
-            Piece::Circle(Circle { centre: point(circle.centre), radius: circle.radius * scale.x.abs() })
-        }
-        Piece::Arc(arc) => {
+        ElementPart::Line(line) => ElementPart::Line(Line { from: point(line.from), to: point(line.to) }),
+        ElementPart::Circle(circle) => ElementPart::Circle(Circle {
+            centre: point(circle.centre),
+            radius: circle.radius * scale.x.abs(),
+        }),
+        ElementPart::Arc(arc) => {
             let (centre, from, to) =
                 (point(arc.centre), point(arc.point(arc.start)), point(arc.point(arc.end)));
             let (from, to) = if scale.x * scale.y < 0.0 { (to, from) } else { (from, to) };
             let radius = arc.radius * scale.x.abs();
-            Piece::Arc(Arc { centre, radius, start: centre.direction(from), end: centre.direction(to) })
+            ElementPart::Arc(Arc { centre, radius, start: centre.direction(from), end: centre.direction(to) })
         }
     }
 }

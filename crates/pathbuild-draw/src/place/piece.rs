@@ -2,7 +2,7 @@ use crate::model::{Arc, Circle, Line, Point};
 
 /// A part of an element, as the assignment of texts sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Piece {
+pub(crate) enum ElementPart {
     Circle(Circle),
     Arc(Arc),
     Line(Line),
@@ -11,7 +11,7 @@ pub(crate) enum Piece {
 /// Circles before arcs before lines, whatever the distance.
 pub(crate) type Rank = u8;
 
-impl Piece {
+impl ElementPart {
     /// Rank and distance when a text circle overlaps this piece. (book: language/parameter-texts)
     pub(crate) fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
         match self {

@@ -1,6 +1,6 @@
 //! Smooth curves to lines and arcs within a tolerance.
 
-use super::biarc::{Piece, Ray, biarc};
+use super::biarc::{CurvePiece, Ray, biarc};
 use super::vector::Vector;
 use crate::Geometry;
 
@@ -47,7 +47,7 @@ pub(crate) fn approximate(
         if let Some(fitting) = fit(curve, from, to, tolerance.distance) {
             pieces.extend(fitting.iter().filter_map(|piece| piece.geometry(z)));
         } else if depth == DEEPEST {
-            pieces.extend(Piece::line(curve.at(from).0, curve.at(to).0).geometry(z));
+            pieces.extend(CurvePiece::line(curve.at(from).0, curve.at(to).0).geometry(z));
         } else {
             let middle = f64::midpoint(from, to);
             spans.push((middle, to, depth + 1));
@@ -58,12 +58,12 @@ pub(crate) fn approximate(
 }
 
 /// The biarc with the curve's ends and directions there, if it is near enough; a line, where the curve has no directions.
-fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Piece>> {
+fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<CurvePiece>> {
     let width = to - from;
     let rays = ray(curve, from, width).zip(ray(curve, to, -width));
     let fitting = match rays.and_then(|(from, to)| biarc(from, to)) {
         Some(biarc) => biarc.to_vec(),
-        None => vec![Piece::line(curve.at(from).0, curve.at(to).0)],
+        None => vec![CurvePiece::line(curve.at(from).0, curve.at(to).0)],
     };
     let is_near = |sample: u32| {
         let point = curve.at(from + width * f64::from(sample) / f64::from(SAMPLES)).0;

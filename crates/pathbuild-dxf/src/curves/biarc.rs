@@ -15,7 +15,7 @@ pub(crate) struct Ray {
 
 /// A line or arc of less than a turn.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Piece {
+pub(crate) struct CurvePiece {
     pub(crate) start: Vector,
     pub(crate) end: Vector,
     bend: Bend,
@@ -31,7 +31,7 @@ enum Bend {
 const FLAT: f64 = 1e-7;
 
 /// The biarc between two rays; `None` where there is none, as between opposite directions along their chord.
-pub(crate) fn biarc(from: Ray, to: Ray) -> Option<[Piece; 2]> {
+pub(crate) fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     let chord = to.point.minus(from.point);
     let reach = reach(chord, from.direction, to.direction)?;
     let bend = from.direction.minus(to.direction).times(reach);
@@ -54,20 +54,24 @@ fn reach(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
 }
 
 /// The arc from a point in a direction to another point.
-fn piece(start: Vector, end: Vector, direction: Vector) -> Piece {
+fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let chord = end.minus(start);
     let aside = chord.dot(direction.left());
     let square = chord.dot(chord);
     // The height over the chord is about a quarter of how far the end is aside of the tangent.
     if aside.abs() < 4.0 * FLAT && chord.dot(direction) >= 0.0 {
-        return Piece { start, end, bend: Bend::Straight };
+        return CurvePiece { start, end, bend: Bend::Straight };
     }
     let to_centre = square / (2.0 * aside);
     let centre = start.plus(direction.left().times(to_centre));
-    Piece { start, end, bend: Bend::Round { centre, radius: to_centre.abs(), clockwise: to_centre < 0.0 } }
+    CurvePiece {
+        start,
+        end,
+        bend: Bend::Round { centre, radius: to_centre.abs(), clockwise: to_centre < 0.0 },
+    }
 }
 
-impl Piece {
+impl CurvePiece {
     /// The line between two points.
     pub(crate) fn line(start: Vector, end: Vector) -> Self {
         Self { start, end, bend: Bend::Straight }

@@ -9,7 +9,7 @@ use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
 use super::survey::{Survey, Used};
-use super::table::{Made, Place, ProbeTable};
+use super::table::{ProbePoint, ProbeTable, ProgramProbe};
 use super::values::{Entered, ProbeLine};
 use crate::native::f3;
 
@@ -110,7 +110,9 @@ impl Check<'_, '_> {
     /// Probes that do not fit their neighbours. Only programs that say where in them the probes are can be asked.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
-            (Entered::Value(value), Some(Made { at: Some(at), height, .. })) => Some((*at, value - height)),
+            (Entered::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {
+                Some((*at, value - height))
+            }
             _ => None,
         });
         let measured: Option<Vec<_>> = measured.collect();
@@ -124,6 +126,6 @@ impl Check<'_, '_> {
     }
 }
 
-fn described(place: Place, height: f64) -> String {
+fn described(place: ProbePoint, height: f64) -> String {
     format!("[{} {}] T={}", f3(place[0]), f3(place[1]), f3(height))
 }

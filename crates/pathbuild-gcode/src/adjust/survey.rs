@@ -33,7 +33,7 @@ impl<'a> Survey<'a> {
         let mut survey = Self::default();
         for line in lines(program) {
             for spot in spots(line.content()) {
-                let mut reader = Reader { survey: &mut survey, line, start: spot.formula.start };
+                let mut reader = ProbeReader { survey: &mut survey, line, start: spot.formula.start };
                 if let Err(fault) = check(line.content(), &spot, &mut reader) {
                     problems.push(located(line, &fault));
                     break;
@@ -78,13 +78,13 @@ pub(super) fn number(line: &[u8], spot: &Spot) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-struct Reader<'s, 'a> {
+struct ProbeReader<'s, 'a> {
     survey: &'s mut Survey<'a>,
     line: Line<'a>,
     start: usize,
 }
 
-impl Probes for Reader<'_, '_> {
+impl Probes for ProbeReader<'_, '_> {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64 {
         let at = at.start + self.start..at.end + self.start;
         self.survey.probes.entry(probe).or_insert(Used { line: self.line, at, drawn: None });

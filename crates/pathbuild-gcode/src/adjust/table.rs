@@ -12,13 +12,13 @@ use super::lines::{Line, lines};
 /// A program's probes. Programs of the original tool have no such table.
 #[derive(Debug, Default)]
 pub(super) struct ProbeTable {
-    pub(super) probes: BTreeMap<u32, Made>,
+    pub(super) probes: BTreeMap<u32, ProgramProbe>,
 }
 
 /// A probe that the program was made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Made {
-    pub(super) place: Place,
+pub(super) struct ProgramProbe {
+    pub(super) place: ProbePoint,
     /// th.
     pub(super) height: f64,
     /// Where it is in the program.
@@ -26,7 +26,7 @@ pub(super) struct Made {
 }
 
 /// A probe's place in its own drawing.
-pub(super) type Place = [f64; 2];
+pub(super) type ProbePoint = [f64; 2];
 
 static ENTRY: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"(-?[0-9]+(?:\.[0-9]+)?)";
@@ -49,10 +49,10 @@ impl ProbeTable {
     }
 }
 
-fn entry(line: &str) -> Option<(u32, Made)> {
+fn entry(line: &str) -> Option<(u32, ProgramProbe)> {
     let parts = ENTRY.captures(line)?;
     let number = |index: usize| parts.get(index).and_then(|part| parse_number(part.as_str()));
     let at = number(5).zip(number(6)).map(|(x, y)| Xy::new(x, y));
-    let made = Made { place: [number(2)?, number(3)?], height: number(4)?, at };
+    let made = ProgramProbe { place: [number(2)?, number(3)?], height: number(4)?, at };
     Some((parts[1].parse().ok()?, made))
 }

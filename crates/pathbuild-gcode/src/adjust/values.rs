@@ -11,7 +11,7 @@ use regex::bytes::{Captures, Regex};
 
 use super::Source;
 use super::lines::{Line, lines};
-use super::table::Place;
+use super::table::ProbePoint;
 
 /// A probe of the file.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub(super) struct ProbeLine<'a> {
     pub(super) line: Line<'a>,
     /// The number behind #.
     pub(super) probe: u32,
-    pub(super) place: Place,
+    pub(super) place: ProbePoint,
     /// th; the older form does not say it.
     pub(super) height: Option<f64>,
     pub(super) value: Entered,

@@ -39,7 +39,7 @@ pub use step::{
 };
 
 use crate::dialect::Dialect;
-use crate::read::Reader;
+use crate::read::BlockReader;
 
 /// A program that has been interpreted.
 #[derive(Clone, Debug, Default)]
@@ -121,11 +121,11 @@ pub(crate) fn interpret_parts(
     let rules = dialect.rules();
     let mut interpreter = execute::Interpreter::new(rules, options);
     let mut has_words = false;
-    let mut before: Option<Reader<'static>> = None;
+    let mut before: Option<BlockReader<'static>> = None;
     for part in parts {
         let text = part.as_ref();
         let mut reader = match before.take() {
-            None => Reader::new(text, rules),
+            None => BlockReader::new(text, rules),
             Some(reader) => reader.go_on(text),
         };
         while let Some(block) = reader.next_block() {
@@ -138,7 +138,7 @@ pub(crate) fn interpret_parts(
         }
         before = Some(reader.go_on(&[]));
     }
-    let reader = before.unwrap_or_else(|| Reader::new(&[], rules));
+    let reader = before.unwrap_or_else(|| BlockReader::new(&[], rules));
     let mut problems = interpreter.finish(reader.line(), reader.is_ended());
     problems.append(reader.into_problems());
     (problems.into_diagnostics(), has_words)

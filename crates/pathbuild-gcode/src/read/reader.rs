@@ -18,13 +18,13 @@ const LONGEST_LINE: usize = 65_536;
 /// Reads blocks off a file.
 ///
 /// ```
-/// # use pathbuild_gcode::{dialect::Dialect, read::Reader};
-/// let mut reader = Reader::new(b"G01 X1.5\n", Dialect::Rs274.rules());
+/// # use pathbuild_gcode::{dialect::Dialect, read::BlockReader};
+/// let mut reader = BlockReader::new(b"G01 X1.5\n", Dialect::Rs274.rules());
 /// let block = reader.next_block().expect("one line");
 /// assert_eq!((block.line, block.words.len()), (1, 2));
 /// ```
 #[derive(Debug)]
-pub struct Reader<'t> {
+pub struct BlockReader<'t> {
     text: &'t [u8],
     rules: &'static Rules,
     end_of_line: u8,
@@ -47,7 +47,7 @@ enum State {
     Ended(u32),
 }
 
-impl<'t> Reader<'t> {
+impl<'t> BlockReader<'t> {
     /// A reader at the beginning of a file's bytes.
     pub fn new(text: &'t [u8], rules: &'static Rules) -> Self {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
@@ -64,9 +64,9 @@ impl<'t> Reader<'t> {
     }
 
     /// The same file goes on with these bytes: what was read ended with a line.
-    pub(crate) fn go_on(self, text: &[u8]) -> Reader<'_> {
+    pub(crate) fn go_on(self, text: &[u8]) -> BlockReader<'_> {
         let Self { rules, line, state, parts, problems, .. } = self;
-        Reader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
+        BlockReader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
     }
 
     /// The next line that is not blank and can be read.

@@ -8,7 +8,7 @@ use pathbuild_toolpath::Program;
 
 use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning, each_move_of};
 
-pub use tally::{Kind, Tally};
+pub use tally::{MoveTotals, Tally};
 
 /// A program in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]

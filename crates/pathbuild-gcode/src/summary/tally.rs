@@ -8,20 +8,20 @@ use crate::interpret::{Move, Pace, Path};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// G0. Its time is left to whoever knows the machine.
-    pub rapid: Kind,
+    pub rapid: MoveTotals,
     /// Cutting moves but those straight down.
-    pub milling: Kind,
+    pub milling: MoveTotals,
     /// Cutting moves straight down.
-    pub drilling: Kind,
+    pub drilling: MoveTotals,
     /// Probing moves, as far as they go at the most.
-    pub probing: Kind,
+    pub probing: MoveTotals,
     /// How many of all are arcs.
     pub arcs: u64,
 }
 
 /// Moves of a kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Kind {
+pub struct MoveTotals {
     /// How many.
     pub moves: u64,
     /// mm, and minutes of length / feed.

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 
 use crate::dialect::Dialect;
 use crate::interpret::{Options, Path, interpret_each};
-use crate::read::{Problems, Reader, Value, Word};
+use crate::read::{BlockReader, Problems, Value, Word};
 
 /// Decimals that a millimetre needs.
 const FINE: u8 = 3;
@@ -16,7 +16,7 @@ const EXACT: f64 = 1e-4;
 /// Says where a program in millimetres has its first arc, if its centres have decimals and nothing in it has three. Numbers without any
 /// are taken as meant: somebody wrote them by hand.
 pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
-    let mut reader = Reader::new(text, dialect.rules());
+    let mut reader = BlockReader::new(text, dialect.rules());
     let (mut finest, mut first) = (0, None);
     while let Some(block) = reader.next_block() {
         for word in block.words {

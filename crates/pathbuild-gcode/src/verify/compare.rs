@@ -48,7 +48,7 @@ const ARC_SLACK: f64 = 6.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// In what.
-    pub kind: Kind,
+    pub kind: DifferenceKind,
     /// The move that was found, with its line; `None` when there is none left.
     pub found: Option<(u32, Move)>,
     /// The move that was expected, with its line; `None` when there is none left.
@@ -57,7 +57,7 @@ pub struct Difference {
 
 /// In what two moves differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum DifferenceKind {
     /// They lead to different places, or one has no counterpart.
     Place,
     /// They part between their ends.
@@ -91,7 +91,7 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
         }
     }
     let both_are_done = found.stretch().is_none() && expected.stretch().is_none();
-    (!both_are_done).then(|| difference(Kind::Place, &found, &expected))
+    (!both_are_done).then(|| difference(DifferenceKind::Place, &found, &expected))
 }
 
 /// Whether two moves that begin at one place are the same from end to end.
@@ -138,14 +138,14 @@ impl Difference {
         let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
             (Some((_, found)), Some((_, expected))) => match self.kind {
-                Kind::Place => drawn(&say::DRAWN_ELSEWHERE)
+                DifferenceKind::Place => drawn(&say::DRAWN_ELSEWHERE)
                     .with("found", place(&found.to))
                     .with("expected", place(&expected.to)),
-                Kind::Shape => drawn(&say::DRAWN_OTHERWISE),
-                Kind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
+                DifferenceKind::Shape => drawn(&say::DRAWN_OTHERWISE),
+                DifferenceKind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
                     .with("found", pace(found))
                     .with("expected", pace(expected)),
-                Kind::Feed => drawn(&say::DRAWN_WITH_ANOTHER_FEED)
+                DifferenceKind::Feed => drawn(&say::DRAWN_WITH_ANOTHER_FEED)
                     .with("found", found.pace.feed().unwrap_or(0.0))
                     .with("expected", expected.pace.feed().unwrap_or(0.0)),
             },
@@ -160,17 +160,17 @@ impl Difference {
     }
 }
 
-fn between(kind: Kind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
+fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
     let said = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
     match kind {
-        Kind::Place => {
+        DifferenceKind::Place => {
             said(&say::PATHS_DIFFER).with("found", place(&found.1.to)).with("expected", place(&expected.1.to))
         }
-        Kind::Shape => said(&say::SHAPES_DIFFER),
-        Kind::Pace => {
+        DifferenceKind::Shape => said(&say::SHAPES_DIFFER),
+        DifferenceKind::Pace => {
             said(&say::KINDS_DIFFER).with("found", pace(&found.1)).with("expected", pace(&expected.1))
         }
-        Kind::Feed => {
+        DifferenceKind::Feed => {
             let feed = |it: &Move| it.pace.feed().unwrap_or(0.0);
             said(&say::FEEDS_DIFFER).with("found", feed(&found.1)).with("expected", feed(&expected.1))
         }
@@ -189,7 +189,7 @@ fn pace(it: &Move) -> &'static Word {
     }
 }
 
-fn difference(kind: Kind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
+fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
     // What is left of a move is no move without counterpart: its counterpart is the one that ended too early.
     let shown = |one: &Walker<'_>, other: &Walker<'_>| {
         one.current().or_else(|| other.is_within().then(|| one.last()).flatten())
@@ -225,7 +225,7 @@ fn begin_together(
     found: &mut Walker<'_>,
     expected: &mut Walker<'_>,
     tolerance: &Tolerance,
-) -> Result<(), Kind> {
+) -> Result<(), DifferenceKind> {
     let (Some(here), Some(there)) = (found.place(), expected.place()) else { return Ok(()) };
     let is_there = |a: &[f64; 3], b: &[f64; 3]| is_near(a, b, tolerance.place);
     if is_there(&here, &there)
@@ -234,7 +234,7 @@ fn begin_together(
     {
         return Ok(());
     }
-    Err(Kind::Place)
+    Err(DifferenceKind::Place)
 }
 
 /// Leaves out what is too short to be anything but rounding, if it ends where the other is; whether it did.
@@ -258,7 +258,7 @@ fn step(
     expected: &mut Walker<'_>,
     theirs: &Stretch,
     tolerance: &Tolerance,
-) -> Result<(), Kind> {
+) -> Result<(), DifferenceKind> {
     check_pace(&ours.it, &theirs.it, tolerance)?;
     if ours.end_together(theirs, tolerance.place) {
         check_shape(ours, 1.0, theirs, 1.0, tolerance)?;
@@ -279,21 +279,25 @@ fn step(
 }
 
 /// Where on the longer stretch the shorter one ends.
-pub(super) fn meet(shorter: &Stretch, longer: &Stretch, tolerance: &Tolerance) -> Result<f64, Kind> {
+pub(super) fn meet(
+    shorter: &Stretch,
+    longer: &Stretch,
+    tolerance: &Tolerance,
+) -> Result<f64, DifferenceKind> {
     let end = shorter.end();
-    let share = longer.nearest(&end, shorter.length).ok_or(Kind::Place)?;
+    let share = longer.nearest(&end, shorter.length).ok_or(DifferenceKind::Place)?;
     let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
     let [x, y, z] = longer.point(share);
     // The place on an arc is found in its plane: on a steep one a rounding there is a height.
     let height = slack + ARC_SLACK * tolerance.place * longer.steepness();
     if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], slack) || libm::fabs(z - end[2]) > height {
-        return Err(Kind::Place);
+        return Err(DifferenceKind::Place);
     }
     check_shape(shorter, 1.0, longer, share, tolerance)?;
     Ok(share)
 }
 
-pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), Kind> {
+pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), DifferenceKind> {
     match (ours.pace, theirs.pace) {
         (Pace::Rapid, Pace::Rapid) => Ok(()),
         (Pace::Feed(ours), Pace::Feed(theirs)) if libm::fabs(ours - theirs) <= tolerance.feed => Ok(()),
@@ -301,10 +305,10 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
             Pace::Probe { feed: ours, toward, must_answer },
             Pace::Probe { feed: theirs, toward: toward_too, must_answer: must_answer_too },
         ) if (toward, must_answer) == (toward_too, must_answer_too) => {
-            if libm::fabs(ours - theirs) <= tolerance.feed { Ok(()) } else { Err(Kind::Feed) }
+            if libm::fabs(ours - theirs) <= tolerance.feed { Ok(()) } else { Err(DifferenceKind::Feed) }
         }
-        (Pace::Feed(_), Pace::Feed(_)) => Err(Kind::Feed),
-        _ => Err(Kind::Pace),
+        (Pace::Feed(_), Pace::Feed(_)) => Err(DifferenceKind::Feed),
+        _ => Err(DifferenceKind::Pace),
     }
 }
 
@@ -315,7 +319,7 @@ pub(super) fn check_shape(
     other: &Stretch,
     other_end: f64,
     tolerance: &Tolerance,
-) -> Result<(), Kind> {
+) -> Result<(), DifferenceKind> {
     if !one.is_arc() && !other.is_arc() {
         return Ok(());
     }
@@ -325,7 +329,7 @@ pub(super) fn check_shape(
         let at = |stretch: &Stretch, end: f64| stretch.point(stretch.begin + share * (end - stretch.begin));
         is_near(&at(one, one_end), &at(other, other_end), slack)
     };
-    if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(Kind::Shape) }
+    if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(DifferenceKind::Shape) }
 }
 
 /// The same of two whole arcs.

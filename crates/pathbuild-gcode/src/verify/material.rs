@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
 
 use super::height_map::{Capsule, HeightMap};
-use super::pieces::{self, Piece};
+use super::pieces::{self, MovePiece};
 use super::stock::{self, Stock};
 use crate::interpret::{Action, Axes, Move, Pace, Program};
 use crate::read::Problems;
@@ -224,18 +224,18 @@ impl<'s> Bench<'s> {
         self.resolution
     }
 
-    fn parts(&self, it: &Move) -> impl Iterator<Item = Piece> + use<> {
+    fn parts(&self, it: &Move) -> impl Iterator<Item = MovePiece> + use<> {
         pieces::pieces(it, self.resolution / CHORDS)
     }
 }
 
-fn capsule(part: &Piece, radius: f64) -> Capsule {
+fn capsule(part: &MovePiece, radius: f64) -> Capsule {
     let plane = |at: &[f64; 3]| [at[0], at[1]];
     Capsule::new(plane(&part.from), plane(&part.to), radius)
 }
 
 /// What holds where a move cuts; `None` where nothing is known or the move does not cut below the surface.
-pub(super) fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::Piece> {
+pub(super) fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::StockSpan> {
     let is_known = it.from.known.and(it.to.known) == Axes::ALL;
     let piece = stock.at(line).filter(|_| is_known && matches!(it.pace, Pace::Feed(_)))?;
     (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)

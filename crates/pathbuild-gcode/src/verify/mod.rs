@@ -22,13 +22,13 @@ use pathbuild_diagnostic::Diagnostic;
 
 pub use against::{Against, Clamps, Drawn, PastClamps, ToolUse};
 pub use coarse::coarse_arcs;
-pub use compare::{Difference, Ends, Kind, Tolerance, compare};
+pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use lines::same_move_lines;
 pub use machine::{Machine, MachineRules, Travel};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
-pub use stock::{Piece, Stock};
+pub use stock::{Stock, StockSpan};
 
 use crate::interpret::{Program, Step};
 use crate::read::Problems;

@@ -12,12 +12,12 @@ const MOST: f64 = 4096.0;
 
 /// A straight piece of a move.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct MovePiece {
     pub(super) from: [f64; 3],
     pub(super) to: [f64; 3],
 }
 
-impl Piece {
+impl MovePiece {
     pub(super) fn lowest(&self) -> f64 {
         self.from[2].min(self.to[2])
     }
@@ -51,7 +51,7 @@ pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
 }
 
 /// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
-pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + use<> {
+pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
     let (it, number_of_pieces) = (*it, count(it, sagitta));
     let count = f64::from(number_of_pieces);
     let at = move |number: u32| {
@@ -64,5 +64,5 @@ pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = Piece> + u
             Path::Arc(arc) => arc.point(&it.from, &it.to, share),
         }
     };
-    (0..number_of_pieces).map(move |number| Piece { from: at(number), to: at(number + 1) })
+    (0..number_of_pieces).map(move |number| MovePiece { from: at(number), to: at(number + 1) })
 }

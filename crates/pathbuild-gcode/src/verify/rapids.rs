@@ -12,7 +12,7 @@ use pathbuild_toolpath::Program as Drawn;
 
 use super::machine::{Machine, MachineRules};
 use super::material;
-use super::stock::{Piece, Stock};
+use super::stock::{Stock, StockSpan};
 use super::tops::Tops;
 use crate::interpret::{Action, Move, Pace, Path, Position, Program, Step, each_move_of};
 use crate::read::Problems;
@@ -72,7 +72,7 @@ fn low_at<'s>(
     it: &Move,
     stock: &'s Stock,
     tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
-) -> Option<(&'s Piece, f64)> {
+) -> Option<(&'s StockSpan, f64)> {
     let low = it.from.z().min(it.to.z()) + material::RESIDUE;
     let goes_up = stays(it) && it.to.z() >= it.from.z();
     if goes_up || stock.highest().is_none_or(|highest| low >= highest) {

@@ -20,7 +20,7 @@ const CELLS_ACROSS: f64 = 12.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stock {
     /// In the order of lines. Before the first, nothing is known.
-    pieces: Vec<Piece>,
+    pieces: Vec<StockSpan>,
     /// The highest surface of all: asked for each rapid move, so not looked for each time.
     highest: Option<f64>,
     /// Side of a cell of the height map, in mm.
@@ -33,7 +33,7 @@ pub struct Stock {
 
 /// What holds from a line on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct StockSpan {
     /// From 1; of a program that was never text, the number of the step.
     pub line: u32,
     /// Height of the material's upper face T, in mm.
@@ -45,11 +45,11 @@ pub struct Piece {
 impl Stock {
     /// Material with one surface and one cutter, both in mm, for a whole program.
     pub fn uniform(surface: f64, cutter: f64) -> Self {
-        Self::of_pieces(vec![Piece { line: 0, surface, cutter }])
+        Self::of_pieces(vec![StockSpan { line: 0, surface, cutter }])
     }
 
     /// Material whose surface or cutter changes; pieces are in the order of their lines.
-    pub fn of_pieces(pieces: Vec<Piece>) -> Self {
+    pub fn of_pieces(pieces: Vec<StockSpan>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
         let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
         let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
@@ -58,7 +58,7 @@ impl Stock {
 
     /// The material of a program, for the moves that [`moves_of`](crate::interpret::moves_of) gives.
     pub fn of(program: &Program) -> Self {
-        let piece = |line, surface, cutter| Piece { line, surface, cutter };
+        let piece = |line, surface, cutter| StockSpan { line, surface, cutter };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
             Emitted::Comment(Comment::Element { surface, cutter, .. }) => {
                 Some(piece(number, *surface, *cutter))
@@ -131,7 +131,7 @@ impl Stock {
     }
 
     /// What holds in a line.
-    pub(super) fn at(&self, line: u32) -> Option<&Piece> {
+    pub(super) fn at(&self, line: u32) -> Option<&StockSpan> {
         let later = self.pieces.partition_point(|piece| piece.line <= line);
         later.checked_sub(1).map(|index| &self.pieces[index])
     }
@@ -156,8 +156,8 @@ impl Section {
         }
     }
 
-    fn piece(&self, cutter: f64) -> Option<Piece> {
-        self.surface.map(|surface| Piece { line: self.line, surface, cutter })
+    fn piece(&self, cutter: f64) -> Option<StockSpan> {
+        self.surface.map(|surface| StockSpan { line: self.line, surface, cutter })
     }
 }
 

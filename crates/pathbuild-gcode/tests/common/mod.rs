@@ -5,7 +5,7 @@
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Action, Move, Options, Pace, Path, Position, Step, interpret};
-use pathbuild_gcode::read::{Block, Reader, Value};
+use pathbuild_gcode::read::{Block, BlockReader, Value};
 
 /// What a program does, a text a step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
@@ -53,7 +53,7 @@ pub(crate) fn spelled_out(diagnostics: &[Diagnostic]) -> String {
 
 /// The words of each block: `1: G1 X2.5`; expressions are shown as `[ ]`.
 pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
-    let mut reader = Reader::new(program.as_bytes(), dialect.rules());
+    let mut reader = BlockReader::new(program.as_bytes(), dialect.rules());
     let mut blocks = Vec::new();
     while let Some(block) = reader.next_block() {
         blocks.push(block_text(&block));
@@ -63,7 +63,7 @@ pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
 
 /// What the reader alone finds wrong.
 pub(crate) fn reading_faults(dialect: Dialect, program: &[u8]) -> Vec<String> {
-    let mut reader = Reader::new(program, dialect.rules());
+    let mut reader = BlockReader::new(program, dialect.rules());
     while reader.next_block().is_some() {}
     reader.into_problems().into_diagnostics().iter().map(fault_text).collect()
 }

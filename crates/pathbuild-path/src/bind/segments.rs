@@ -10,7 +10,7 @@ use crate::geometry::Curve;
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
 use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
-use crate::text::{ParameterText, Piece};
+use crate::text::{LetterValue, ParameterText};
 use crate::values::{Given, Values};
 
 /// Order of what does not say N. (book: language/chains-and-passes)
@@ -62,7 +62,7 @@ impl Binder<'_> {
     fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Option<Subpath> {
         let values = scope.values;
         let own_text = |letter| values.text(letter).map(SmolStr::from);
-        let value = |(value, piece): (&str, &Piece)| {
+        let value = |(value, piece): (&str, &LetterValue)| {
             let mut characters = value.chars();
             let variable = characters.next();
             let text = values.underlined(piece);

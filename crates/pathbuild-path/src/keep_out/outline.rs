@@ -12,11 +12,11 @@ pub(crate) struct Outline {
     pieces: RTree<Boxed>,
 }
 
-type Boxed = GeomWithData<Rectangle<[f64; 2]>, Piece>;
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, LetterValue>;
 
 /// A part of the outline that only rises or only falls.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct LetterValue {
     curve: Curve,
     /// The heights between which it counts as a side of the outline. Where one piece ends the next begins, without the gap that rounding
     /// leaves between them.
@@ -33,7 +33,7 @@ impl Outline {
         let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
         let mut from = monotone.last().map_or(0.0, |last| last.end().y);
         let pieces = monotone.into_iter().map(|curve| {
-            let piece = Piece { curve, from, to: curve.end().y };
+            let piece = LetterValue { curve, from, to: curve.end().y };
             from = piece.to;
             GeomWithData::new(Rectangle::from_aabb(around(&curve, SLACK)), piece)
         });
@@ -62,7 +62,7 @@ impl Outline {
     }
 }
 
-impl Piece {
+impl LetterValue {
     /// 1 where it crosses the ray to the right of a point upwards, -1 downwards, 0 where it does not.
     fn crossing(&self, point: Xy) -> i32 {
         let up = self.from <= point.y && point.y < self.to;

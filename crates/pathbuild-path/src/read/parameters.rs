@@ -13,7 +13,7 @@ use crate::element::{Cut, Role};
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::name::PathName;
-use crate::text::{ParameterText, Piece};
+use crate::text::{LetterValue, ParameterText};
 
 impl Checked<'_> {
     pub(super) fn check_parameters(&mut self, starts: &Starts) {
@@ -103,7 +103,7 @@ impl Checked<'_> {
 /// The path that @ names, with its start.
 fn referenced<'s>(
     text: ParameterText<'_>,
-    piece: &Piece,
+    piece: &LetterValue,
     starts: &'s Starts,
 ) -> Result<(&'s PathName, &'s Start), Box<Diagnostic>> {
     if text.pieces().len() > 1 {

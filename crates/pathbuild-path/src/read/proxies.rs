@@ -15,7 +15,7 @@ use crate::letter::Letter;
 use crate::line_type::LineType;
 use crate::name::PathName;
 use crate::raw::{Language, Position};
-use crate::text::{ParameterText, ParameterTexts, Piece};
+use crate::text::{LetterValue, ParameterText, ParameterTexts};
 
 /// A DASHDOT line or arc with a subpath's text, on a layer that is no path layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +56,7 @@ impl ProxyLine {
         })
     }
 
-    fn known(&self, piece: &Piece) -> Option<(&str, TextFault)> {
+    fn known(&self, piece: &LetterValue) -> Option<(&str, TextFault)> {
         let value = self.text().value(piece);
         (!value.contains('=')).then(|| (value, self.text().fault(piece)))
     }

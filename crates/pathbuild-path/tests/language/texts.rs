@@ -8,7 +8,7 @@ use crate::support::{codes, compile, path, raw, wrong};
 fn pieces(text: &str) -> Vec<String> {
     let texts = ParameterTexts::from(text);
     let text = texts.first().unwrap();
-    let piece = |piece: &pathbuild_path::Piece| {
+    let piece = |piece: &pathbuild_path::LetterValue| {
         format!("{}={}", piece.letter.map_or('?', Letter::as_char), text.value(piece))
     };
     text.pieces().iter().map(piece).collect()

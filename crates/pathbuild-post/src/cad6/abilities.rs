@@ -1,6 +1,6 @@
 //! What the control texts of a definition can say.
 
-use super::control_text::Kind;
+use super::control_text::ControlTextKind;
 use super::definition::Definition;
 
 /// Which texts there are, and what they hold.
@@ -37,18 +37,18 @@ impl Abilities {
     /// Looks through a definition.
     pub(super) fn of(definition: &Definition) -> Self {
         let has = |kind| definition.text(kind).is_some();
-        let hole = if has(Kind::Cycle) { Kind::Cycle } else { Kind::Point };
+        let hole = if has(ControlTextKind::Cycle) { ControlTextKind::Cycle } else { ControlTextKind::Point };
         Self {
-            rapid: has(Kind::Rapid),
+            rapid: has(ControlTextKind::Rapid),
             hole: has(hole),
             peck: definition.names(hole, &["PeckDepth"]),
             dwell: definition.names(hole, &["DwellTime"]),
-            has_absolute_centres: definition.names(Kind::Arc, &["XC", "YC"]),
-            has_relative_centres: definition.names(Kind::Arc, &["IRel", "JRel"]),
+            has_absolute_centres: definition.names(ControlTextKind::Arc, &["XC", "YC"]),
+            has_relative_centres: definition.names(ControlTextKind::Arc, &["IRel", "JRel"]),
             decimals: definition.settings.decimals,
-            arc: has(Kind::Arc),
-            line_z: definition.names(Kind::Line, &["Z1", "ZIncr"]),
-            arc_z: definition.names(Kind::Arc, &["Z1", "ZIncr"]),
+            arc: has(ControlTextKind::Arc),
+            line_z: definition.names(ControlTextKind::Line, &["Z1", "ZIncr"]),
+            arc_z: definition.names(ControlTextKind::Arc, &["Z1", "ZIncr"]),
             lift_between_passes: definition.settings.lift_between_passes,
             arc_sweep: definition.settings.arc_sweep.to_radians(),
             arc_tolerance: definition.settings.arc_tolerance,

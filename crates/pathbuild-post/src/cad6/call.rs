@@ -18,9 +18,9 @@ pub(super) enum What<'a> {
     /// To the start of a contour at safety height, down to working height by rapid, to depth by feed.
     Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
     /// A straight element.
-    Line { to: Point, feed: Option<f64>, place: Place },
+    Line { to: Point, feed: Option<f64>, place: ContourPosition },
     /// A circular element.
-    Arc { arc: Arc, place: Place },
+    Arc { arc: Arc, place: ContourPosition },
     /// Up from the end of a contour.
     End { clearance: f64 },
     /// A hole.
@@ -37,7 +37,7 @@ pub(super) enum What<'a> {
 
 /// Where in its contour an element is.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(super) struct ContourPosition {
     /// The first one, or the first one with another feed.
     pub(super) is_first: bool,
     pub(super) is_last: bool,

@@ -7,8 +7,8 @@ use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_path::approx::at_least;
 
 use super::abilities::Abilities;
-use super::call::{Call, Place, Point, What};
-use super::control_text::Kind;
+use super::call::{Call, ContourPosition, Point, What};
+use super::control_text::ControlTextKind;
 use super::definition::Definition;
 use crate::arcs::{MOST_CHORDS, Polar, Rounding, pieces};
 use crate::holes;
@@ -207,7 +207,7 @@ impl<'a> Builder<'a> {
     fn line(&mut self, to: Point, feed: Option<f64>) -> Built {
         if to[2] != self.at[2] && !self.abilities.line_z {
             if !(same_plane(self.at, to) && self.abilities.lift_between_passes) {
-                return Err(self.no_z(to, Kind::Line));
+                return Err(self.no_z(to, ControlTextKind::Line));
             }
             let (clearance, working) = (self.present().clearance, self.at[2].max(to[2]));
             self.end_contour(clearance);
@@ -220,16 +220,16 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    fn no_z(&self, to: Point, kind: Kind) -> Box<Diagnostic> {
+    fn no_z(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
         let diagnostic = Diagnostic::new(&posts::NO_Z_IN_TEXT).with("operation", &*self.present().name);
         Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).with("text", kind.name()))
     }
 
-    fn place(&mut self, feed: Option<f64>) -> Place {
+    fn place(&mut self, feed: Option<f64>) -> ContourPosition {
         let is_first = self.is_first || feed != self.feed;
         self.is_first = false;
         self.feed = feed;
-        Place { is_first, is_last: false }
+        ContourPosition { is_first, is_last: false }
     }
 
     fn arc(&mut self, arc: &Arc) -> Built {

@@ -4,11 +4,11 @@ macro_rules! kinds {
     ($($(#[$doc:meta])* $variant:ident $name:literal;)*) => {
         /// When a control text is called.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Kind {
+        pub(super) enum ControlTextKind {
             $($(#[$doc])* $variant,)*
         }
 
-        impl Kind {
+        impl ControlTextKind {
             /// Every kind.
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::control_text::{ControlText, Kind};
+use super::control_text::{ControlText, ControlTextKind};
 use super::lints;
 use super::marks::is_private;
 use super::settings::{SETTINGS, Settings};
@@ -28,7 +28,7 @@ pub(crate) struct Definition {
 impl Definition {
     /// Reads a definition. What is doubtful in it is warnings beside it.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let mut reader = Reader { source: text, file, diagnostics: Vec::new() };
+        let mut reader = ControlTextReader { source: text, file, diagnostics: Vec::new() };
         let table = match DeTable::parse(text) {
             Ok(table) => table,
             Err(error) => {
@@ -75,7 +75,8 @@ impl Definition {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
         with_speed.peek().is_some()
-            && with_speed.all(|(kind, _)| matches!(kind, Kind::ToolChange | Kind::ProgramStart))
+            && with_speed
+                .all(|(kind, _)| matches!(kind, ControlTextKind::ToolChange | ControlTextKind::ProgramStart))
     }
 
     /// Decimals of rounded numbers.
@@ -99,12 +100,12 @@ impl Definition {
     }
 
     /// A control text; `None` when it is absent or empty.
-    pub(super) fn text(&self, kind: Kind) -> Option<&ControlText> {
+    pub(super) fn text(&self, kind: ControlTextKind) -> Option<&ControlText> {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())
     }
 
     /// Whether a text has one of these variables, under its own name or another.
-    pub(super) fn names(&self, kind: Kind, variables: &[&str]) -> bool {
+    pub(super) fn names(&self, kind: ControlTextKind, variables: &[&str]) -> bool {
         let others =
             self.aliases.iter().filter(|(_, own)| variables.contains(&&**own)).map(|(other, _)| &**other);
         let mut names = variables.iter().copied().chain(others).map(|name| format!("~{name}~"));
@@ -112,20 +113,20 @@ impl Definition {
     }
 
     /// Every control text.
-    pub(super) fn texts(&self) -> impl Iterator<Item = (Kind, &ControlText)> {
-        Kind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
+    pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
+        ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
-struct Reader<'a> {
+struct ControlTextReader<'a> {
     source: &'a str,
     file: &'a Utf8Path,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Reader<'_> {
+impl ControlTextReader<'_> {
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
         let (line, column) = self.place(span.start);
         self.diagnostics.push(diagnostic.in_file(self.file).at_line(line, Some(column)));
@@ -139,7 +140,7 @@ impl Reader<'_> {
     fn definition(&mut self, root: &DeTable<'_>) -> Definition {
         let mut definition = Definition {
             settings: Settings::default(),
-            texts: vec![None; Kind::ALL.len()],
+            texts: vec![None; ControlTextKind::ALL.len()],
             aliases: Vec::new(),
         };
         self.each(root, "", &["post", "text", "alias"], |reader, key, value| {
@@ -196,9 +197,9 @@ impl Reader<'_> {
     }
 
     fn texts(&mut self, table: &DeTable<'_>, texts: &mut [Option<ControlText>]) {
-        let names: Vec<&'static str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+        let names: Vec<&'static str> = ControlTextKind::ALL.iter().map(|kind| kind.name()).collect();
         self.each(table, "text.", &names, |reader, key, value| {
-            let Some(kind) = Kind::ALL.iter().find(|kind| kind.name() == key) else { return };
+            let Some(kind) = ControlTextKind::ALL.iter().find(|kind| kind.name() == key) else { return };
             match value.get_ref().as_str() {
                 Some(text) if text.contains(is_private) => {
                     reader.refuse(key, value, "a text of ordinary characters");

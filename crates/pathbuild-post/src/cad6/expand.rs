@@ -18,7 +18,7 @@ const LONGEST: usize = 1 << 16;
 pub(super) struct Expanded {
     pub(super) text: String,
     /// Where pieces begin, here and in the control text; between two of them the texts are the same or a variable's.
-    pieces: Vec<Piece>,
+    pieces: Vec<ExpandedPart>,
     /// The variables that do not exist, by where they stood.
     undefined: Vec<(usize, String)>,
     /// How many variables were resolved.
@@ -26,7 +26,7 @@ pub(super) struct Expanded {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct ExpandedPart {
     here: usize,
     there: usize,
     /// The piece is a variable's text: all of it stands for one place of the control text.
@@ -59,7 +59,7 @@ impl Expanded {
     }
 
     fn begin(&mut self, there: usize, is_variable: bool) {
-        self.pieces.push(Piece { here: self.text.len(), there, is_variable });
+        self.pieces.push(ExpandedPart { here: self.text.len(), there, is_variable });
     }
 
     fn variable(&mut self, name: &str, variables: &Variables, depth: usize) -> Evaluated<()> {

@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
-use super::control_text::{ControlText, Kind};
+use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
 use super::expand::next_variable;
 use super::fault::Fault;
@@ -12,7 +12,12 @@ use super::variables::{KNOWN, TEXTS};
 
 /// The doubts about a definition, and what is broken in texts that no program calls: nobody else would say it.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
-    let uncalled = |kind| matches!(kind, Kind::Bezier | Kind::SubprogramStart | Kind::SubprogramEnd);
+    let uncalled = |kind| {
+        matches!(
+            kind,
+            ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd
+        )
+    };
     let broken = definition.texts().filter(|(kind, _)| uncalled(*kind));
     let broken = broken.filter_map(|(kind, text)| {
         let fault = fault(&text.text)?;
@@ -44,7 +49,7 @@ fn fault(text: &str) -> Option<Box<Fault>> {
     open.pop().map(|at| Fault::new(&posts::OPEN_BRACE, at..at + 1))
 }
 
-fn of_text(kind: Kind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
+fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();

@@ -2,9 +2,9 @@
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
-use super::call::{Call, Place, Point, What};
+use super::call::{Call, ContourPosition, Point, What};
 use super::calls::calls;
-use super::control_text::Kind;
+use super::control_text::ControlTextKind;
 use super::marks::is_private;
 use super::runner::{Called, Runner};
 use crate::PostOptions;
@@ -34,15 +34,15 @@ pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runn
     let mut caller =
         Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0, unchecked };
     caller.constants(units, options);
-    caller.runner.call(Kind::ProgramStart)?;
+    caller.runner.call(ControlTextKind::ProgramStart)?;
     for remark in &job.remarks {
         caller.text("CommentText", remark);
-        caller.runner.call(Kind::Comment)?;
+        caller.runner.call(ControlTextKind::Comment)?;
     }
     calls.iter().try_for_each(|call| caller.make(call))?;
-    caller.runner.call(Kind::PrimaryRun)?;
-    caller.runner.call(Kind::BeforeRepeat)?;
-    caller.runner.call(Kind::ProgramEnd)
+    caller.runner.call(ControlTextKind::PrimaryRun)?;
+    caller.runner.call(ControlTextKind::BeforeRepeat)?;
+    caller.runner.call(ControlTextKind::ProgramEnd)
 }
 
 impl Caller<'_, '_> {
@@ -115,28 +115,28 @@ impl Caller<'_, '_> {
             What::Start { at, clearance, working, feed } => {
                 self.length("ZClearance", clearance.max(self.at[2]));
                 self.change_tool(operation)?;
-                self.require_move(Kind::ContourStart, operation)?;
+                self.require_move(ControlTextKind::ContourStart, operation)?;
                 self.start(*at, *clearance, *working, *feed)
             }
             What::Line { to, feed, place } => {
                 self.change_tool(operation)?;
-                self.require_move(Kind::Line, operation)?;
+                self.require_move(ControlTextKind::Line, operation)?;
                 self.element(*to, *feed, *place);
-                self.runner.call(Kind::Line)
+                self.runner.call(ControlTextKind::Line)
             }
             What::Arc { arc, place } => {
                 self.change_tool(operation)?;
                 self.arc(arc);
                 self.element(arc.to, arc.feed, *place);
-                self.runner.call(Kind::Arc)?;
+                self.runner.call(ControlTextKind::Arc)?;
                 self.forget_arc();
                 Ok(())
             }
             What::End { clearance } => {
                 self.length("ZClearance", *clearance);
                 self.at[2] = *clearance;
-                self.require_move(Kind::ContourEnd, operation)?;
-                self.runner.call(Kind::ContourEnd)
+                self.require_move(ControlTextKind::ContourEnd, operation)?;
+                self.runner.call(ControlTextKind::ContourEnd)
             }
             What::Hole { hole, clearance } => {
                 self.length("ZClearance", *clearance);
@@ -147,30 +147,30 @@ impl Caller<'_, '_> {
                 self.length("ZClearance", operation.clearance);
                 self.change_tool(operation)?;
                 self.move_to(*to);
-                self.runner.call(Kind::Rapid)
+                self.runner.call(ControlTextKind::Rapid)
             }
             What::Dwell(seconds) => {
                 self.set("DwellTime", *seconds);
-                self.require(Kind::Dwell, operation)?;
-                self.runner.call(Kind::Dwell)
+                self.require(ControlTextKind::Dwell, operation)?;
+                self.runner.call(ControlTextKind::Dwell)
             }
             What::Stop => {
-                self.require(Kind::Stop, operation)?;
-                self.runner.call(Kind::Stop)
+                self.require(ControlTextKind::Stop, operation)?;
+                self.runner.call(ControlTextKind::Stop)
             }
             What::Comment(text) => {
                 self.text("CommentText", text);
-                self.runner.call(Kind::Comment)
+                self.runner.call(ControlTextKind::Comment)
             }
         }
     }
 
     /// A move that a text must write is not written without it, unless somebody answers for that.
-    fn require_move(&self, kind: Kind, operation: &Operation) -> Called {
+    fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> Called {
         if self.unchecked { Ok(()) } else { self.require(kind, operation) }
     }
 
-    fn require(&self, kind: Kind, operation: &Operation) -> Called {
+    fn require(&self, kind: ControlTextKind, operation: &Operation) -> Called {
         if self.runner.definition.text(kind).is_some() {
             return Ok(());
         }
@@ -182,7 +182,7 @@ impl Caller<'_, '_> {
         let is_new = self.tool != Some(operation.tool.index);
         self.flag("ToolChanged", is_new);
         self.tool = Some(operation.tool.index);
-        if is_new { self.runner.call(Kind::ToolChange) } else { Ok(()) }
+        if is_new { self.runner.call(ControlTextKind::ToolChange) } else { Ok(()) }
     }
 
     fn start(&mut self, at: Point, clearance: f64, working: f64, feed: Option<f64>) -> Called {
@@ -198,7 +198,7 @@ impl Caller<'_, '_> {
             self.length("LoweringVel", feed);
         }
         self.move_to(at);
-        self.runner.call(Kind::ContourStart)
+        self.runner.call(ControlTextKind::ContourStart)
     }
 
     fn move_to(&mut self, to: Point) {
@@ -209,7 +209,7 @@ impl Caller<'_, '_> {
         self.at = to;
     }
 
-    fn element(&mut self, to: Point, feed: Option<f64>, place: Place) {
+    fn element(&mut self, to: Point, feed: Option<f64>, place: ContourPosition) {
         self.elements += 1;
         self.set("ElementNo", f64::from(self.elements));
         self.flag("FirstContourElement", place.is_first);
@@ -254,8 +254,8 @@ impl Caller<'_, '_> {
             self.length("LoweringVel", feed);
         }
         self.move_to([hole.at[0], hole.at[1], hole.bottom]);
-        let has_cycle = self.runner.definition.text(Kind::Cycle).is_some();
-        self.runner.call(if has_cycle { Kind::Cycle } else { Kind::Point })?;
+        let has_cycle = self.runner.definition.text(ControlTextKind::Cycle).is_some();
+        self.runner.call(if has_cycle { ControlTextKind::Cycle } else { ControlTextKind::Point })?;
         self.at[2] = hole.exit;
         Ok(())
     }

@@ -5,12 +5,12 @@ use std::ops::Range;
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use super::control_text::{ControlText, Kind};
+use super::control_text::{ControlText, ControlTextKind};
 
 /// Says where a fault is: which text, its line and column there, and the same in the file.
 pub(super) fn locate(
     diagnostic: Diagnostic,
-    kind: Kind,
+    kind: ControlTextKind,
     text: &ControlText,
     span: Range<usize>,
     file: &Utf8Path,

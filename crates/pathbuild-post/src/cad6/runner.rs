@@ -6,7 +6,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_gcode::native::too_large;
 
-use super::control_text::{ControlText, Kind};
+use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
 use super::evaluate::{Outcome, ResultLine, Surroundings, run};
 use super::expand::Expanded;
@@ -61,7 +61,7 @@ impl<'a> Runner<'a> {
             file,
             files,
             variables: Variables::new(aliases),
-            line_number: definition.text(Kind::LineNumber).cloned().unwrap_or(default),
+            line_number: definition.text(ControlTextKind::LineNumber).cloned().unwrap_or(default),
             guard,
             text: Vec::new(),
             most_bytes,
@@ -72,7 +72,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Calls a control text, if the definition has it, and adds its lines.
-    pub(super) fn call(&mut self, kind: Kind) -> Called {
+    pub(super) fn call(&mut self, kind: ControlTextKind) -> Called {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
         self.fuel += FUEL_PER_CALL;
         for line in self.evaluate(kind, text)? {
@@ -81,7 +81,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn line(&mut self, line: &ResultLine, kind: Kind) -> Called {
+    fn line(&mut self, line: &ResultLine, kind: ControlTextKind) -> Called {
         let text =
             if self.definition.settings.trim { line.text.trim_end_matches([' ', '\t']) } else { &line.text };
         if line.is_made && text.is_empty() {
@@ -109,15 +109,15 @@ impl<'a> Runner<'a> {
 
     fn number(&mut self) -> Called {
         let text = self.line_number.clone();
-        for line in self.evaluate(Kind::LineNumber, &text)? {
+        for line in self.evaluate(ControlTextKind::LineNumber, &text)? {
             self.burn(line.text.len())?;
-            self.push(&line.text, Kind::LineNumber)?;
+            self.push(&line.text, ControlTextKind::LineNumber)?;
         }
         Ok(())
     }
 
     /// Adds a line. Texts of drawings and options get into it so that no control acts on them.
-    fn push(&mut self, line: &str, kind: Kind) -> Called {
+    fn push(&mut self, line: &str, kind: ControlTextKind) -> Called {
         let mut before = String::new();
         for c in line.chars() {
             if let Some(text) = self.variables.text(c) {
@@ -140,7 +140,11 @@ impl<'a> Runner<'a> {
     }
 
     /// The two phases of a call.
-    fn evaluate(&mut self, kind: Kind, text: &ControlText) -> Result<Vec<ResultLine>, Box<Diagnostic>> {
+    fn evaluate(
+        &mut self,
+        kind: ControlTextKind,
+        text: &ControlText,
+    ) -> Result<Vec<ResultLine>, Box<Diagnostic>> {
         let expanded =
             Expanded::new(&text.text, &self.variables).map_err(|fault| self.report(*fault, kind, text))?;
         let surroundings = Surroundings {
@@ -166,7 +170,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    fn report(&self, fault: Fault, kind: Kind, text: &ControlText) -> Box<Diagnostic> {
+    fn report(&self, fault: Fault, kind: ControlTextKind, text: &ControlText) -> Box<Diagnostic> {
         let Fault { span, mut diagnostic } = fault;
         let is_assigned = |name: &str| text.text.contains(&format!("{{={name}"));
         if diagnostic.message == &posts::VARIABLE_UNDEFINED {

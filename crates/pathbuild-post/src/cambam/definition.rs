@@ -37,7 +37,7 @@ impl Definition {
             let found = root.tag_name().name();
             return Err(vec![Diagnostic::new(&posts::POST_WRONG_ROOT).with("found", found).in_file(file)]);
         }
-        let mut reader = Reader::new(file);
+        let mut reader = CbppReader::new(file);
         root.children().filter(Node::is_element).for_each(|element| reader.element(element));
         reader.finish()
     }
@@ -112,14 +112,14 @@ fn syntax(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
     Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason).in_file(file).at_line(at.row, Some(at.col))
 }
 
-struct Reader<'a> {
+struct CbppReader<'a> {
     file: &'a Utf8Path,
     definition: Definition,
     seen: Vec<String>,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> CbppReader<'a> {
     fn new(file: &'a Utf8Path) -> Self {
         let default = |&section: &Section| {
             Template::parse(section, section.default_text(), 0).expect("the built-in sections are templates")

@@ -10,12 +10,12 @@ pub(super) struct Template {
     /// The section it is the text of.
     pub(super) section: Section,
     /// Literal text and macros in order.
-    pub(super) pieces: Vec<Piece>,
+    pub(super) pieces: Vec<TemplatePart>,
 }
 
 /// A part of a template.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Piece {
+pub(super) enum TemplatePart {
     /// Stands as it is; may hold line feeds.
     Text(Box<str>),
     /// Stands for something.
@@ -48,9 +48,9 @@ pub(super) enum Fault {
 impl Template {
     /// Its text without macros.
     pub(super) fn literal(&self) -> String {
-        let literal = |piece: &Piece| match piece {
-            Piece::Text(text) => text.to_string(),
-            Piece::Macro { .. } => String::new(),
+        let literal = |piece: &TemplatePart| match piece {
+            TemplatePart::Text(text) => text.to_string(),
+            TemplatePart::Macro { .. } => String::new(),
         };
         self.pieces.iter().map(literal).collect()
     }
@@ -65,20 +65,20 @@ impl Template {
 
     /// Whether nothing at all can come out.
     pub(super) fn is_blank(&self) -> bool {
-        self.pieces.iter().all(|piece| matches!(piece, Piece::Text(text) if text.trim().is_empty()))
+        self.pieces.iter().all(|piece| matches!(piece, TemplatePart::Text(text) if text.trim().is_empty()))
     }
 
     /// The macros in it, with their lines.
     pub(super) fn macros(&self) -> impl Iterator<Item = (&Macro, u32)> {
         self.pieces.iter().filter_map(|piece| match piece {
-            Piece::Macro { what, line } => Some((what, *line)),
-            Piece::Text(_) => None,
+            TemplatePart::Macro { what, line } => Some((what, *line)),
+            TemplatePart::Text(_) => None,
         })
     }
 }
 
 struct Parser {
-    pieces: Vec<Piece>,
+    pieces: Vec<TemplatePart>,
     errors: Vec<TemplateError>,
     line: u32,
 }
@@ -101,13 +101,13 @@ impl Parser {
             return;
         }
         self.count_lines(text);
-        self.pieces.push(Piece::Text(text.into()));
+        self.pieces.push(TemplatePart::Text(text.into()));
     }
 
     fn call(&mut self, call: &str) {
         let line = self.line;
         match Macro::parse(call) {
-            Ok(what) => self.pieces.push(Piece::Macro { what, line }),
+            Ok(what) => self.pieces.push(TemplatePart::Macro { what, line }),
             Err(error) => self.errors.push(TemplateError { line, fault: Fault::Arguments(error) }),
         }
         self.count_lines(call);

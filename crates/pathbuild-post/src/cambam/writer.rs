@@ -13,7 +13,7 @@ use super::move_values::MoveValues;
 use super::plan::{Plan, framed};
 use super::registers::{Code, Register};
 use super::section::Section;
-use super::template::{Piece, Template};
+use super::template::{Template, TemplatePart};
 use crate::guard::Guard;
 use crate::job::{Operation, Tool};
 use crate::number::NumberFormat;
@@ -132,8 +132,8 @@ impl<'a> Writer<'a> {
         self.depth[kind] += 1;
         for piece in &template.pieces {
             match piece {
-                Piece::Text(text) => self.text(text)?,
-                Piece::Macro { what, line } => self.expand(what, template.section, *line)?,
+                TemplatePart::Text(text) => self.text(text)?,
+                TemplatePart::Macro { what, line } => self.expand(what, template.section, *line)?,
             }
         }
         self.depth[kind] -= 1;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, TextFault, messages::posts};
 
-use super::{Piece, Target};
+use super::{LinePart, Target};
 use pathbuild_gcode::dialect::{Acceptance, LineLength};
 
 /// Nobody reads more errors.
@@ -38,12 +38,12 @@ impl Checker<'_> {
         let (mut at, mut bare) = (0, 0);
         for piece in self.target.pieces(self.line) {
             let text = match piece {
-                Piece::Code(code) => {
+                LinePart::Code(code) => {
                     self.code(code, at);
                     bare += code.bytes().filter(|byte| !byte.is_ascii_whitespace()).count();
                     code
                 }
-                Piece::Comment(comment) => {
+                LinePart::Comment(comment) => {
                     self.comment(comment, at);
                     comment
                 }

@@ -113,33 +113,33 @@ impl Target {
     }
 
     /// A line in pieces.
-    fn pieces<'a>(&self, line: &'a str) -> Vec<Piece<'a>> {
+    fn pieces<'a>(&self, line: &'a str) -> Vec<LinePart<'a>> {
         let mut pieces = Vec::new();
         let mut begins = 0;
         let mut at = 0;
         let code = self.code_length(line);
         if code < line.len() {
-            return vec![Piece::Code(&line[..code]), Piece::Comment(&line[code..])];
+            return vec![LinePart::Code(&line[..code]), LinePart::Comment(&line[code..])];
         }
         while at < line.len() {
             match self.comment_length(&line[at..]) {
                 Some(length) => {
-                    pieces.push(Piece::Code(&line[begins..at]));
-                    pieces.push(Piece::Comment(&line[at..at + length]));
+                    pieces.push(LinePart::Code(&line[begins..at]));
+                    pieces.push(LinePart::Comment(&line[at..at + length]));
                     at += length;
                     begins = at;
                 }
                 None => at += line[at..].chars().next().map_or(1, char::len_utf8),
             }
         }
-        pieces.push(Piece::Code(&line[begins..]));
+        pieces.push(LinePart::Code(&line[begins..]));
         pieces
     }
 }
 
 /// A part of a line.
 #[derive(Clone, Copy, Debug)]
-enum Piece<'a> {
+enum LinePart<'a> {
     Code(&'a str),
     Comment(&'a str),
 }

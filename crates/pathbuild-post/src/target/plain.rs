@@ -1,6 +1,6 @@
 //! Characters as the target may have them.
 
-use super::{Piece, Target};
+use super::{LinePart, Target};
 use pathbuild_gcode::dialect::ascii;
 use pathbuild_gcode::native::Charset;
 
@@ -22,8 +22,8 @@ fn line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
     let line = if is_ascii { ascii(line) } else { line.to_owned() };
     let Some(target) = target else { return line };
     let piece = |piece| match piece {
-        Piece::Code(code) => code.to_owned(),
-        Piece::Comment(comment) => harmless(comment, target),
+        LinePart::Code(code) => code.to_owned(),
+        LinePart::Comment(comment) => harmless(comment, target),
     };
     target.pieces(&line).into_iter().map(piece).collect()
 }

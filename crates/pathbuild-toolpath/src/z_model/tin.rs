@@ -6,7 +6,7 @@ use pathbuild_path::Xy;
 /// Triangles between the probes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tin {
-    places: Vec<Place>,
+    places: Vec<ProbedPoint>,
     triangles: Vec<[usize; 3]>,
     /// The edges of the hull; the pieces of the line where all probes lie on one.
     border: Vec<[usize; 2]>,
@@ -14,7 +14,7 @@ pub(crate) struct Tin {
 
 /// One or more probes at one place.
 #[derive(Clone, Debug)]
-struct Place {
+struct ProbedPoint {
     at: Xy,
     probes: Vec<usize>,
 }
@@ -96,12 +96,12 @@ impl Tin {
 }
 
 /// The places of probes. Probes whose places a program would write alike are at one.
-fn places(probes: &[Xy]) -> Vec<Place> {
-    let mut places: Vec<Place> = Vec::new();
+fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
+    let mut places: Vec<ProbedPoint> = Vec::new();
     let mut known = BTreeMap::new();
     for (number, at) in probes.iter().enumerate() {
         let place = *known.entry([at.x, at.y].map(micrometres)).or_insert_with(|| {
-            places.push(Place { at: *at, probes: Vec::new() });
+            places.push(ProbedPoint { at: *at, probes: Vec::new() });
             places.len() - 1
         });
         places[place].probes.push(number);

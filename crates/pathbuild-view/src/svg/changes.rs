@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::Lang;
 
 use super::canvas::{Anchor, Canvas, n};
-use super::frame::{Frame, Place, widen};
+use super::frame::{Frame, PageTransform, widen};
 use super::moves::data;
 use super::palette::{BAR, INK, OTHER, RAPID};
 use crate::changes::{Change, ChangeKind, Group, groups, phrase};
@@ -63,7 +63,7 @@ pub fn changes_svg(old: &[Move], new: &[Move], changes: &[Change], picture: Pict
 
 impl Pair<'_> {
     /// What stays in grey below, what changed above.
-    fn draw(&self, canvas: &mut Canvas, place: &Place) {
+    fn draw(&self, canvas: &mut Canvas, place: &PageTransform) {
         let mut is_changed = vec![false; self.new.len()];
         for change in self.changes {
             is_changed[change.new.clone()].fill(true);
@@ -91,13 +91,13 @@ impl Pair<'_> {
 
 const DASHES: &str = " stroke-dasharray=\"5 4\"";
 
-fn all(canvas: &mut Canvas, moves: &[Move], place: &Place, color: &str) {
+fn all(canvas: &mut Canvas, moves: &[Move], place: &PageTransform, color: &str) {
     for it in moves {
         stroke(canvas, it, place, color, "");
     }
 }
 
-fn stroke(canvas: &mut Canvas, it: &Move, place: &Place, color: &str, dashes: &str) {
+fn stroke(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str, dashes: &str) {
     if !it.is_placed() || it.kind == MoveKind::Lift {
         return;
     }

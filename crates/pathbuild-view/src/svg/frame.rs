@@ -21,7 +21,7 @@ pub(super) struct Frame {
 
 /// From a path's coordinates to the page's.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct PageTransform {
     frame: Frame,
     zero: Point,
 }
@@ -83,17 +83,17 @@ impl Frame {
         [[0.0, 0.0], [Self::WIDTH, self.bottom() - MARGIN / 4.0]]
     }
 
-    pub(super) fn of_path(&self, path: &ScenePath) -> Place {
-        Place { frame: *self, zero: path.zero }
+    pub(super) fn of_path(&self, path: &ScenePath) -> PageTransform {
+        PageTransform { frame: *self, zero: path.zero }
     }
 
     /// The drawing itself.
-    pub(super) fn of_drawing(&self) -> Place {
-        Place { frame: *self, zero: [0.0; 2] }
+    pub(super) fn of_drawing(&self) -> PageTransform {
+        PageTransform { frame: *self, zero: [0.0; 2] }
     }
 }
 
-impl Place {
+impl PageTransform {
     /// Px for a mm.
     pub(super) fn scale(&self) -> f64 {
         self.frame.scale

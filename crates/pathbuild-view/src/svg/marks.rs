@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
-use super::frame::{Frame, Place};
+use super::frame::{Frame, PageTransform};
 use super::palette::{ERROR, INK, PROBE, WARNING};
 use crate::scene::{Element, Point, Scene, ScenePath, Shape};
 
@@ -12,7 +12,7 @@ use crate::scene::{Element, Point, Scene, ScenePath, Shape};
 const APART: f64 = 17.0;
 
 /// The numbers in which the tool comes to elements.
-pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     let mut numbered: Vec<(u32, &Element)> =
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
     numbered.sort_by_key(|(order, _)| *order);
@@ -60,7 +60,7 @@ fn middle(shape: &Shape) -> Point {
 }
 
 /// Where the program's zero lies, where it starts and where it ends.
-pub(super) fn ends(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
+pub(super) fn ends(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: Shown) {
     let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
     let [start, end] = [crate::scene::ElementKind::Start, crate::scene::ElementKind::End].map(marker);
     canvas.open("id=\"ends\"");

@@ -7,7 +7,7 @@ use pathbuild_gcode::interpret::Path;
 
 use super::Shown;
 use super::canvas::{Canvas, n};
-use super::frame::Place;
+use super::frame::PageTransform;
 use super::palette::{Depths, KERF, RAPID};
 use crate::scene::{Move, MoveKind, Point, ScenePath};
 
@@ -18,7 +18,13 @@ const ROOM_FOR_ARROW: f64 = 26.0;
 const PIECES: u32 = 24;
 
 /// Draws the moves of a path. Of several moves along the same line only the deepest is seen.
-pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths: &Depths, shown: Shown) {
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    place: &PageTransform,
+    depths: &Depths,
+    shown: Shown,
+) {
     let cuts = deepest(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
@@ -49,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas, path: &ScenePath, place: &Place, depths:
     }
 }
 
-fn cut(canvas: &mut Canvas, it: &Move, path: &ScenePath, place: &Place, depths: &Depths) {
+fn cut(canvas: &mut Canvas, it: &Move, path: &ScenePath, place: &PageTransform, depths: &Depths) {
     let color = depths.color(it.depth());
     if it.kind == MoveKind::Plunge {
         let radius = match path.tool {
@@ -120,7 +126,7 @@ fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
+fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: Shown) {
     let style = format!(
         "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
     );
@@ -140,7 +146,7 @@ fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
 }
 
 /// A small triangle in the middle of a move, in its direction.
-fn arrow(canvas: &mut Canvas, it: &Move, place: &Place, color: &str) {
+fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
     let (before, at) = (place.at(along(it, 0.59)), place.at(along(it, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
     let length = libm::hypot(dx, dy);
@@ -167,7 +173,7 @@ pub(super) fn along(it: &Move, share: f64) -> Point {
 }
 
 /// A move as path data: arcs of the plane stay arcs.
-pub(super) fn data(it: &Move, place: &Place) -> String {
+pub(super) fn data(it: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))

@@ -2,7 +2,7 @@
 
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
-use super::frame::{Frame, Place};
+use super::frame::{Frame, PageTransform};
 use super::marks;
 use super::palette::{BAR, ERROR, INK, OTHER, PROBE, RAPID, TEXT};
 use crate::scene::{Arc, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
@@ -30,7 +30,7 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame) {
 }
 
 /// Clamps, with their heights in the middle.
-fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &Place) {
+fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
@@ -53,7 +53,7 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &Place) {
 }
 
 /// Shapes that meet all around as one piece of path data.
-fn outline(shapes: &[Shape], place: &Place) -> String {
+fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
     for it in shapes {
         let next = shape(it, place);
@@ -63,7 +63,7 @@ fn outline(shapes: &[Shape], place: &Place) -> String {
     data + "Z"
 }
 
-fn other_text(canvas: &mut Canvas, place: &Place, text: &str, at: Point, height: f64, rotation: f64) {
+fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point, height: f64, rotation: f64) {
     let size = height * place.scale();
     if size < READABLE {
         return;
@@ -79,7 +79,7 @@ fn other_text(canvas: &mut Canvas, place: &Place, text: &str, at: Point, height:
 }
 
 /// Elements, texts, bars, probes, markers.
-pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: Shown) {
+pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: Shown) {
     elements(canvas, path, place);
     canvas.open(&format!(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
@@ -100,7 +100,7 @@ pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &Place, shown: 
 }
 
 /// What is drawn and is no move: with a program what embeds and what is skipped, without one everything.
-fn elements(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
     for element in &path.elements {
         let style = match element.kind {
@@ -129,7 +129,7 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-fn texts(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
     for label in &path.texts {
         let lines: Vec<&str> = label.text.lines().collect();
@@ -180,7 +180,7 @@ fn nearest(shape: &Shape, at: Point) -> Point {
 }
 
 /// The names of embedded paths where they start.
-fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
         let [x, y] = place.at(inner.ends[0]);
@@ -189,7 +189,7 @@ fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
     canvas.close();
 }
 
-fn probes(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
+fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
     for probe in &path.probes {
         let at = place.at(probe.at);
@@ -211,7 +211,7 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &Place) {
 }
 
 /// A shape as path data.
-pub(super) fn shape(shape: &Shape, place: &Place) -> String {
+pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))

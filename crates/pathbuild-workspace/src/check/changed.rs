@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Trace;
 
-use crate::session::{Coverage, Facts, Session};
+use crate::session::{Coverage, Dependencies, Session};
 
 /// The drawings that changed, came or went.
 pub(super) struct Changed {
@@ -32,7 +32,7 @@ impl Changed {
     }
 
     /// The same of a result that was kept.
-    pub(super) fn concerns_kept(&self, facts: &Facts<'_>) -> bool {
+    pub(super) fn concerns_kept(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }

@@ -14,17 +14,17 @@ pub(crate) fn check_drawings(
     files: &[SourceFile],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let asked: Vec<Asked<'_>> = files.iter().map(|file| (*file, None)).collect();
+    let asked: Vec<CheckTarget<'_>> = files.iter().map(|file| (*file, None)).collect();
     check_paths(session, &asked, with_all_values)
 }
 
 /// A drawing, with the paths that are asked for if that is not all.
-type Asked<'a> = (SourceFile, Option<&'a [PathName]>);
+type CheckTarget<'a> = (SourceFile, Option<&'a [PathName]>);
 
 /// The same of drawings of which only some paths may be asked for.
 pub(super) fn check_paths(
     session: &mut Session<'_>,
-    asked: &[Asked<'_>],
+    asked: &[CheckTarget<'_>],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
     let files: Vec<SourceFile> = asked.iter().map(|(file, _)| *file).collect();
@@ -36,7 +36,7 @@ pub(super) fn check_paths(
 
 fn check_drawing(
     asking: &Asking<'_>,
-    (file, names): &Asked<'_>,
+    (file, names): &CheckTarget<'_>,
     with_all_values: bool,
 ) -> (DrawingResult, Vec<Trace>) {
     let (db, file) = (asking.db(), *file);

@@ -16,7 +16,7 @@ use crate::Inputs;
 use crate::config::Concerns;
 use crate::session::timings::FINDING;
 use crate::session::{
-    DrawingResult, Found, Keeper, Made, Question, Scope, Session, Wanted, WantedPath, by_place,
+    DrawingResult, Found, FreshResult, Question, ResultStore, Scope, Session, Wanted, WantedPath, by_place,
 };
 use crate::workspace::Workspace;
 
@@ -55,13 +55,13 @@ pub struct CheckedFile {
 }
 
 /// A drawing, or some of its paths.
-struct Asked {
+struct CheckTarget {
     drawing: Utf8PathBuf,
     /// `None`: all.
     names: Option<Vec<PathName>>,
 }
 
-impl Asked {
+impl CheckTarget {
     fn file(&self, session: &Session<'_>) -> SourceFile {
         session.file(&self.drawing)
     }
@@ -125,7 +125,7 @@ fn check(
         let parts = answers.iter().map(|(_, result)| result.parts());
         checked.diagnostics.extend(session.no_path_anywhere(parts));
     }
-    for (Asked { drawing, names }, result) in answers {
+    for (CheckTarget { drawing, names }, result) in answers {
         if !concerned.contains(&of(&drawing, names.as_deref())) {
             continue;
         }
@@ -142,9 +142,9 @@ fn check(
 /// What the arguments mean, and what is found in that.
 struct Answers {
     wanted: Wanted,
-    each: Vec<(Asked, DrawingResult)>,
+    each: Vec<(CheckTarget, DrawingResult)>,
     /// What this run found itself.
-    made: Vec<Made>,
+    made: Vec<FreshResult>,
 }
 
 fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, results: &Results) -> Answers {
@@ -158,7 +158,7 @@ fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, resu
         open.iter().map(|index| (asked[*index].file(session), asked[*index].names.as_deref())).collect();
     let checked = check_paths(session, &paths, request.with_all_values);
     for ((result, traces), index) in checked.into_iter().zip(open) {
-        let Asked { drawing, names } = &asked[index];
+        let CheckTarget { drawing, names } = &asked[index];
         if session.is_traced() {
             made.push(results::new(&of(drawing, names.as_deref()), traces, &result));
         }
@@ -168,12 +168,12 @@ fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, resu
 }
 
 /// Each drawing, and for the paths that were named by themselves the drawings that define them, without those that are checked as a whole.
-fn asked(session: &Session<'_>, wanted: &Wanted) -> Vec<Asked> {
+fn asked(session: &Session<'_>, wanted: &Wanted) -> Vec<CheckTarget> {
     let db = session.db();
     let named = wanted.named.iter().map(|file| file.path(db));
     let whole = wanted.drawings.iter().chain(named);
-    let mut asked: Vec<Asked> =
-        whole.map(|drawing| Asked { drawing: drawing.clone(), names: None }).collect();
+    let mut asked: Vec<CheckTarget> =
+        whole.map(|drawing| CheckTarget { drawing: drawing.clone(), names: None }).collect();
     if !wanted.paths.is_empty() {
         let is_whole: HashSet<Utf8PathBuf> = asked.iter().map(|asked| asked.drawing.clone()).collect();
         let mut single: BTreeMap<&Utf8PathBuf, Vec<PathName>> = BTreeMap::new();
@@ -181,19 +181,26 @@ fn asked(session: &Session<'_>, wanted: &Wanted) -> Vec<Asked> {
             single.entry(file.path(db)).or_default().push(name.clone());
         }
         let single = single.into_iter().filter(|(drawing, _)| !is_whole.contains(*drawing));
-        asked.extend(single.map(|(drawing, names)| Asked { drawing: drawing.clone(), names: Some(names) }));
+        asked.extend(
+            single.map(|(drawing, names)| CheckTarget { drawing: drawing.clone(), names: Some(names) }),
+        );
     }
     asked
 }
 
 /// What the last checks found, for telling why it no longer holds. `None` where no results are kept.
-pub fn kept_results(workspace: &Workspace) -> Option<Keeper> {
+pub fn kept_results(workspace: &Workspace) -> Option<ResultStore> {
     open(workspace, false, Scope::All, Listings::new())
 }
 
-fn open(workspace: &Workspace, with_all_values: bool, scope: Scope, listings: Listings) -> Option<Keeper> {
+fn open(
+    workspace: &Workspace,
+    with_all_values: bool,
+    scope: Scope,
+    listings: Listings,
+) -> Option<ResultStore> {
     let text = format!("check {with_all_values}");
-    Keeper::open(workspace, Question { whose: Concerns::Check, text: &text, scope, listings })
+    ResultStore::open(workspace, Question { whose: Concerns::Check, text: &text, scope, listings })
 }
 
 /// The run is over: to take a million values apart would take longer than to end.

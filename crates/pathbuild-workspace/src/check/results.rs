@@ -12,11 +12,12 @@ use super::changed::Changed;
 use super::{Request, open};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{
-    Drawing, DrawingResult, Drawings, Found, Keeper, Made, Pair, Scope, Session, Wanted, q_project_pairs,
+    Drawing, DrawingResult, Drawings, Found, FreshResult, Pair, ResultStore, Scope, Session, Wanted,
+    q_project_pairs,
 };
 
 /// What earlier checks kept; nothing where nothing is kept.
-pub(super) struct Results(Option<Keeper>);
+pub(super) struct Results(Option<ResultStore>);
 
 /// A pair by its name among the results, and what is said of it.
 type Judged = (String, Vec<Diagnostic>);
@@ -46,7 +47,7 @@ impl Results {
     }
 
     /// What the arguments mean, and what was read for that.
-    pub(super) fn wanted(&self, session: &Session<'_>, found: &Found) -> (Wanted, Vec<Made>) {
+    pub(super) fn wanted(&self, session: &Session<'_>, found: &Found) -> (Wanted, Vec<FreshResult>) {
         let db = session.db();
         let mut named: Vec<Utf8PathBuf> = found.candidates().map(|file| file.path(db).clone()).collect();
         named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
@@ -74,7 +75,11 @@ impl Results {
     }
 
     /// What Q-projects and their drawings say against each other, each pair by its name among the results; and what was found now.
-    pub(super) fn q_projects(&self, session: &Session<'_>, wanted: &Wanted) -> (Vec<Judged>, Vec<Made>) {
+    pub(super) fn q_projects(
+        &self,
+        session: &Session<'_>,
+        wanted: &Wanted,
+    ) -> (Vec<Judged>, Vec<FreshResult>) {
         let (mut found, mut made) = (Vec::new(), Vec::new());
         let (mut open, mut names): (Vec<Pair>, Vec<String>) = (Vec::new(), Vec::new());
         let named = wanted.named.iter().map(|file| file.path(session.db()));
@@ -99,9 +104,9 @@ impl Results {
     }
 
     /// Keeps what was found now.
-    pub(super) fn keep(&self, session: &Session<'_>, made: &[Made]) {
-        if let Some(keeper) = &self.0 {
-            session.timings().measure(&KEEPING, || keeper.keep(session, made));
+    pub(super) fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
+        if let Some(result_store) = &self.0 {
+            session.timings().measure(&KEEPING, || result_store.keep(session, made));
         }
     }
 }
@@ -119,15 +124,15 @@ fn of_names(drawing: &Utf8Path) -> Cow<'_, str> {
 }
 
 /// A result to be kept.
-pub(super) fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> Made {
-    Made { of: of.into(), traces, payload: result.encode(), ..Made::default() }
+pub(super) fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> FreshResult {
+    FreshResult { of: of.into(), traces, payload: result.encode(), ..FreshResult::default() }
 }
 
 /// Which results are shown.
 pub(super) struct Concerned<'a> {
     session: &'a Session<'a>,
     results: &'a Results,
-    made: HashMap<&'a str, &'a Made>,
+    made: HashMap<&'a str, &'a FreshResult>,
     changed: Option<&'a Changed>,
 }
 
@@ -135,7 +140,7 @@ impl<'a> Concerned<'a> {
     pub(super) fn new(
         session: &'a Session<'a>,
         results: &'a Results,
-        made: &'a [Made],
+        made: &'a [FreshResult],
         changed: Option<&'a Changed>,
     ) -> Self {
         let made = made.iter().map(|made| (&*made.of, made)).collect();
@@ -147,7 +152,7 @@ impl<'a> Concerned<'a> {
         if let Some(made) = self.made.get(of) {
             return changed.concerns(self.session, &made.traces);
         }
-        let facts = self.results.0.as_ref().and_then(|keeper| keeper.facts(of));
+        let facts = self.results.0.as_ref().and_then(|result_store| result_store.facts(of));
         facts.is_none_or(|facts| changed.concerns_kept(&facts))
     }
 }

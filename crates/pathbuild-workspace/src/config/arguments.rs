@@ -45,7 +45,7 @@ pub struct Overrides {
 
 /// What the command line says, and what is wrong with it.
 pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
-    let mut reader = Reader::default();
+    let mut reader = OptionReader::default();
     let mut options = Options::default();
     let general = &mut options.general;
     general.feed = reader.positive("feed", arguments.feed.as_deref());
@@ -105,11 +105,11 @@ pub fn regex<'t>(name: &str, text: &'t str) -> Result<&'t str, Box<Diagnostic>> 
 }
 
 #[derive(Default)]
-struct Reader {
+struct OptionReader {
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Reader {
+impl OptionReader {
     fn positive(&mut self, name: &'static str, text: Option<&str>) -> Option<Sourced<Option<f64>>> {
         let number = self.keep(positive(name, text?))?;
         Some(Sourced::option(name, Some(number)))

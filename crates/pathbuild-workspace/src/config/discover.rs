@@ -1,6 +1,6 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{Kind, OsSystem, clean};
+use pathbuild_db::system::{FileKind, OsSystem, clean};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 
@@ -17,7 +17,7 @@ pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
 
 /// The repository of a directory: the nearest directory above that Git takes for one, else the directory itself.
 pub fn repository(directory: &Utf8Path) -> &Utf8Path {
-    let is_repository = |directory: &&Utf8Path| OsSystem.kind(&directory.join(".git")) != Kind::Missing;
+    let is_repository = |directory: &&Utf8Path| OsSystem.kind(&directory.join(".git")) != FileKind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
 }
 

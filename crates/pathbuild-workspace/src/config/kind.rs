@@ -2,12 +2,12 @@ use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::reader::Reader;
+use super::reader::TomlReader;
 
 /// A type of values: how one is read from TOML, shown as TOML, and described in the JSON schema.
-pub(super) struct Kind<T> {
+pub(super) struct ValueType<T> {
     /// Reads a value, or reports why it is none.
-    pub(super) read: fn(&Spanned<DeValue<'_>>, &mut Reader<'_>) -> Option<T>,
+    pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
     /// The value as TOML; `None` when there is none to show.
     pub(super) show: fn(&T) -> Option<String>,
     /// The type in the schema.

@@ -9,7 +9,7 @@ use toml::de::DeTable;
 
 use super::arguments::Overrides;
 use super::options::Options;
-use super::reader::Reader;
+use super::reader::TomlReader;
 use super::settings::Settings;
 use super::source::Source;
 use super::{arguments, clean, discover};
@@ -83,7 +83,7 @@ pub(super) fn read_table<T: Default>(
     file: &Utf8Path,
     text: &str,
     confined: Option<&Confined>,
-    read: impl FnOnce(&DeTable<'_>, &mut Reader<'_>) -> T,
+    read: impl FnOnce(&DeTable<'_>, &mut TomlReader<'_>) -> T,
 ) -> (T, Vec<Diagnostic>) {
     let source = Source::new(file, text);
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -94,7 +94,7 @@ pub(super) fn read_table<T: Default>(
         return (T::default(), faults);
     }
     let directory = file.parent().unwrap_or(Utf8Path::new(""));
-    let mut reader = Reader::new(source, directory, confined);
+    let mut reader = TomlReader::new(source, directory, confined);
     let value = read(root.get_ref(), &mut reader);
     (value, reader.finish())
 }

@@ -1,6 +1,6 @@
 use toml::de::DeTable;
 
-use super::reader::Reader;
+use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::settings::Settings;
 
@@ -19,7 +19,7 @@ pub struct Options {
 
 impl Options {
     /// Reads a parsed configuration; what is wrong stays with the reader.
-    pub(super) fn read(root: &DeTable<'_>, reader: &mut Reader<'_>) -> Self {
+    pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
         reader.table(root, "", |table| {
             let options = Self {
                 general: general::Options::read(table),

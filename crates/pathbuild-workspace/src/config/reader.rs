@@ -8,13 +8,13 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::kind::Kind;
+use super::kind::ValueType;
 use super::nearest::nearest;
 use super::origin::{Origin, Sourced};
 use super::source::Source;
 
 /// Reads values out of a parsed file and keeps what is wrong with them, all of it.
-pub(super) struct Reader<'a> {
+pub(super) struct TomlReader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
     /// Where a stranger's configuration may lead.
@@ -23,7 +23,7 @@ pub(super) struct Reader<'a> {
     diagnostics: Vec<Diagnostic>,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TomlReader<'a> {
     /// A reader of a file whose names of files are relative to `directory`.
     pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
         Self { source, directory, confined, key: String::new(), diagnostics: Vec::new() }
@@ -134,12 +134,12 @@ pub(super) struct Table<'t, 'r, 'a> {
     content: &'t DeTable<'t>,
     prefix: String,
     known: Vec<&'static str>,
-    reader: &'r mut Reader<'a>,
+    reader: &'r mut TomlReader<'a>,
 }
 
 impl<'a> Table<'_, '_, 'a> {
     /// The value of a key, where there is one and it is right.
-    pub(super) fn take<T>(&mut self, name: &'static str, kind: &Kind<T>) -> Option<Sourced<T>> {
+    pub(super) fn take<T>(&mut self, name: &'static str, kind: &ValueType<T>) -> Option<Sourced<T>> {
         self.known.push(name);
         let value = self.content.get(name)?;
         self.reader.key = format!("{}{name}", self.prefix);

@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use super::kinds::text::{ABSOLUTE, ABSOLUTES, choice};
 use super::load::{LARGEST, read_table};
-use super::reader::Reader;
+use super::reader::TomlReader;
 use super::types::Directories;
 use crate::files;
 
@@ -38,7 +38,7 @@ impl User {
         }
     }
 
-    fn read(root: &DeTable<'_>, reader: &mut Reader<'_>) -> Self {
+    fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
         reader.table(root, "", |table| Self {
             lang: table.take("lang", &choice()).map(|lang| lang.value),
             cache_dir: table.section("cache", |cache| cache.take("dir", &ABSOLUTE)).map(|it| it.value),

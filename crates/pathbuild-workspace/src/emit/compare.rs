@@ -8,7 +8,7 @@ use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
 use super::deliver::{Output, State, has_same_probes};
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::OutputKind;
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
@@ -17,7 +17,7 @@ pub(super) fn compare(
     system: &dyn System,
     output: &Output,
     moves_only: bool,
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
 ) -> (State, Vec<Diagnostic>) {
     let present = match system.read(&output.path, u64::MAX) {
         Ok(bytes) => bytes,
@@ -49,7 +49,7 @@ struct Reading {
 }
 
 impl Reading {
-    fn of(poster: Option<&Poster>) -> Option<Self> {
+    fn of(poster: Option<&PostProcessor>) -> Option<Self> {
         let Some(poster) = poster else {
             return Some(Self { dialect: Dialect::Native, is_exact: true, tolerance: TOLERANCE });
         };

@@ -1,7 +1,7 @@
 //! Whether a program on disk moves as its drawing says now. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, MissingOption, Role, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{drawing_of_title, is_title, path_of_title};
@@ -64,7 +64,7 @@ fn defining(
 ) -> Option<WantedPath> {
     let db = session.db();
     let name = PathName::new(path);
-    let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == Kind::File;
+    let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == FileKind::File;
     let is_meant = |file: &str| is_title(title, file, path);
     let file = named.filter(is_there).map(|drawing| session.file(drawing)).or_else(|| {
         let listing = db.system().list(beside).ok()?;

@@ -16,7 +16,7 @@ use super::job::Job;
 use super::provenance::Provenances;
 use super::{compare, options};
 use crate::machine::machine;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Writing, hash_output, without_values};
 use crate::workspace::Workspace;
 
@@ -107,16 +107,16 @@ impl Task {
 }
 
 /// How programs are written: natively, or through a post.
-pub(super) struct Means<'a> {
+pub(super) struct OutputSettings<'a> {
     pub(super) writing: Writing,
-    pub(super) poster: Option<&'a Poster>,
+    pub(super) poster: Option<&'a PostProcessor>,
     pub(super) provenances: Provenances,
     machine: Option<Machine>,
 }
 
-impl<'a> Means<'a> {
+impl<'a> OutputSettings<'a> {
     /// As the configuration says.
-    pub(super) fn new(workspace: &Workspace, poster: Option<&'a Poster>) -> Self {
+    pub(super) fn new(workspace: &Workspace, poster: Option<&'a PostProcessor>) -> Self {
         let provenances = Provenances::new(&workspace.settings, poster);
         Self { writing: options::writing(workspace), poster, provenances, machine: machine(workspace) }
     }
@@ -124,16 +124,16 @@ impl<'a> Means<'a> {
 
 /// What a job becomes: no files where something keeps one of them from being written.
 #[derive(Default)]
-pub(super) struct Made {
+pub(super) struct JobFiles {
     /// What is known of its program.
     pub(super) delivered: Delivered,
     pub(super) outputs: Vec<Output>,
 }
 
 /// The files of a job. Native files have been read back and compared with the program. (book: program/reading)
-pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
+pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobFiles {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
-    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return Made::default() };
+    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return JobFiles::default() };
     let mut delivered = Delivered::default();
     let mut time = Total::default();
     for program in &programs {
@@ -153,7 +153,7 @@ pub(super) fn make(db: &Database, job: &Job, means: &Means<'_>) -> Made {
         delivered.problems.extend(problems);
         Vec::new()
     });
-    Made { delivered, outputs }
+    JobFiles { delivered, outputs }
 }
 
 /// Rapid moves of a program into material, and what the machine cannot do: it is not written then.
@@ -180,7 +180,7 @@ pub(super) fn finish(
     system: &dyn System,
     mut outputs: Vec<Output>,
     task: Task,
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
     delivered: &mut Delivered,
 ) {
     if task != Task::Print {
@@ -260,7 +260,7 @@ fn outputs(
     job: &Job,
     programs: &[Arc<Program>],
     provenance: &str,
-    means: &Means<'_>,
+    means: &OutputSettings<'_>,
     delivered: &mut Delivered,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let drawing = job.drawing(db).path(db);
@@ -281,7 +281,7 @@ fn native(
     job: &Job,
     program: &Program,
     provenance: &str,
-    means: &Means<'_>,
+    means: &OutputSettings<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
 ) -> Result<Vec<Output>, Box<Diagnostic>> {
@@ -304,7 +304,7 @@ fn posted(
     job: &Job,
     programs: &[Arc<Program>],
     provenance: &str,
-    poster: &Poster,
+    poster: &PostProcessor,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
 ) -> Result<Output, Vec<Diagnostic>> {

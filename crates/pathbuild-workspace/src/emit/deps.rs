@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, shown};
 
 use super::deliver::cannot_write;
 use super::job::Job;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::Session;
 
 /// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
@@ -17,13 +17,13 @@ pub(super) fn write(
     session: &Session<'_>,
     file: &Utf8Path,
     jobs: &[Job],
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
     inserted: &[Vec<Box<str>>],
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
-    let post = poster.and_then(Poster::file).map(|file| session.normal(file));
+    let post = poster.and_then(PostProcessor::file).map(|file| session.normal(file));
     let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
     for (job, inserted) in jobs.iter().zip(inserted) {
         let outputs: Vec<String> = job.files.iter().map(|(_, path)| escaped(path)).collect();

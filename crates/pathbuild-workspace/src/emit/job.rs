@@ -11,7 +11,7 @@ use pathbuild_gcode::native;
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use super::store::{KnownJob, KnownProgram};
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 
 /// A path without errors, or several that become one program, and the files that come of it.
@@ -98,7 +98,7 @@ pub(super) enum Known {
 pub(super) struct Maker<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post that programs are written through.
-    pub(super) poster: Option<&'a Poster>,
+    pub(super) poster: Option<&'a PostProcessor>,
     /// The name of the one program that all paths become.
     pub(super) join: Option<&'a str>,
 }
@@ -205,7 +205,7 @@ fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
 }
 
 /// The file that a post's program is written to.
-pub(super) fn program_name(stem: &str, poster: &Poster) -> String {
+pub(super) fn program_name(stem: &str, poster: &PostProcessor) -> String {
     format!("{stem}_Milling.{}", poster.extension())
 }
 

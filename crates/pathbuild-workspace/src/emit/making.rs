@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use pathbuild_db::{Db, Target, check_file};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::asked::Asked;
-use super::deliver::{Delivered, Means, Task};
+use super::deliver::{Delivered, OutputSettings, Task};
 use super::job::{Job, Known, Maker, take_clashes};
 use super::store::{KnownPaths, Store, of};
+use super::targets::Targets;
 use super::write_queue::deliver_all;
 use super::{Request, options};
 use crate::session::{CheckedTarget, Found, Session};
@@ -22,8 +22,8 @@ pub(super) struct Making<'a> {
 }
 
 /// What came of a run.
-pub(super) struct Made {
-    pub(super) asked: Asked,
+pub(super) struct RunResult {
+    pub(super) asked: Targets,
     /// What was not known.
     pub(super) answers: Vec<Answer>,
     pub(super) jobs: Vec<Job>,
@@ -60,10 +60,10 @@ impl Making<'_> {
     ///
     /// # Errors
     /// Why the arguments make no sense.
-    pub(super) fn make(&self, session: &mut Session<'_>) -> Result<Made, String> {
+    pub(super) fn make(&self, session: &mut Session<'_>) -> Result<RunResult, String> {
         let Request { task, poster, join, .. } = *self.request;
         let mut diagnostics = self.found.problems.clone();
-        let asked = Asked::new(session, self, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
+        let asked = Targets::new(session, self, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
         if task == Task::Print && join.is_none() && asked.targets.len() > 1 {
             return Err("`-o -` takes one path: it would be several programs".into());
         }
@@ -79,9 +79,9 @@ impl Making<'_> {
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
         }
-        let means = Means::new(session.workspace(), poster);
+        let means = OutputSettings::new(session.workspace(), poster);
         let delivered = deliver(session, &jobs, task, &means);
-        Ok(Made { asked, answers, jobs, refused, delivered, diagnostics })
+        Ok(RunResult { asked, answers, jobs, refused, delivered, diagnostics })
     }
 
     /// The paths of each program.
@@ -159,7 +159,7 @@ pub(super) fn deliver(
     session: &mut Session<'_>,
     jobs: &[Job],
     task: Task,
-    means: &Means<'_>,
+    means: &OutputSettings<'_>,
 ) -> Vec<Delivered> {
     let open: Vec<&Job> = jobs.iter().filter(|job| job.known == Known::Nothing).collect();
     let mut made = deliver_all(session, &open, task, means).into_iter();

@@ -1,6 +1,5 @@
 //! Programs of paths: made, then written, compared or printed. (book: reference/commands, `emit`; book: program/gcode)
 
-mod asked;
 mod compare;
 mod compatible;
 mod configured;
@@ -14,32 +13,33 @@ mod options;
 mod provenance;
 mod stale;
 mod store;
+mod targets;
 mod write_queue;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::{Found, Scope, Session};
 use crate::workspace::Workspace;
 
-use asked::Asked;
 pub(crate) use configured::Configured;
 pub use current::{Current, current};
-use deliver::Means;
+use deliver::OutputSettings;
 pub use deliver::{Delivered, State, Task};
 use job::{Maker, take_clashes};
-use making::{Answer, Made, Making, deliver};
+use making::{Answer, Making, RunResult, deliver};
 pub(crate) use options::writing;
 pub use provenance::Provenances;
 use stale::Dealt;
 use store::{Run, Store};
+use targets::Targets;
 
 /// What is to become programs.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +49,7 @@ pub struct Request<'a> {
     /// What is done with the files.
     pub task: Task,
     /// The post that programs are written through; `None`: natively.
-    pub poster: Option<&'a Poster>,
+    pub poster: Option<&'a PostProcessor>,
     /// The name of the one program that all paths become, in the order of the inputs.
     pub join: Option<&'a str>,
     /// The file for `make` and `ninja`.
@@ -85,7 +85,7 @@ impl Request<'_> {
     fn is_always_made(&self) -> bool {
         matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
-            || self.poster.is_some_and(Poster::runs_post_build)
+            || self.poster.is_some_and(PostProcessor::runs_post_build)
     }
 
     /// Makes the programs, in its session.
@@ -100,7 +100,7 @@ impl Request<'_> {
         let store = self.store(session, &mut found);
         let making = Making { request: self, store, found };
         let made = session.settled(|session| making.make(session))?;
-        let Made { asked, answers, jobs, refused, mut delivered, mut diagnostics } = made;
+        let RunResult { asked, answers, jobs, refused, mut delivered, mut diagnostics } = made;
         tell_known(session.workspace(), &asked, &answers);
         compatible::name(session.workspace(), self, &mut delivered);
         let older = older::programs(session, self, &asked.targets, &jobs, &delivered);
@@ -141,7 +141,7 @@ impl Request<'_> {
 }
 
 /// Says, to whoever wants to know more, how much is as it was in an earlier run.
-fn tell_known(context: &Workspace, asked: &Asked, answers: &[Answer]) {
+fn tell_known(context: &Workspace, asked: &Targets, answers: &[Answer]) {
     let open: usize = answers.iter().map(|answer| answer.checked.len()).sum();
     let drawings = asked.drawings().count();
     let read = asked.drawings().filter(|drawing| drawing.is_read).count();
@@ -158,7 +158,7 @@ fn tell_known(context: &Workspace, asked: &Asked, answers: &[Answer]) {
 /// Of targets whose programs lie on disk, whether these are what would be written now.
 pub(crate) fn on_disk(
     session: &mut Session<'_>,
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
     targets: &[Target],
 ) -> HashMap<Target, bool> {
     let checked = session.check(targets);
@@ -166,8 +166,8 @@ pub(crate) fn on_disk(
     let made = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
     let mut jobs: Vec<_> = made.collect();
     let system = Arc::clone(&session.workspace().system);
-    jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == Kind::File));
-    let means = Means::new(session.workspace(), poster);
+    jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File));
+    let means = OutputSettings::new(session.workspace(), poster);
     let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &means);
     let is_current = |delivered: &Delivered| {
         delivered.files.iter().all(|(_, state)| matches!(state, State::Current))
@@ -186,7 +186,7 @@ pub(crate) type Owners = HashMap<String, Target>;
 /// Options that programs need and nobody gives.
 pub(crate) fn write(
     session: &mut Session<'_>,
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
     targets: &[Target],
     owners: &mut Owners,
 ) -> Result<Emission, String> {
@@ -208,7 +208,7 @@ pub(crate) fn write(
         }
         take_clashes(session, &mut jobs, &mut diagnostics);
         jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-        let means = Means::new(context, poster);
+        let means = OutputSettings::new(context, poster);
         let delivered = deliver(session, &jobs, task, &means);
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
         Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })

@@ -13,7 +13,7 @@ use super::Request;
 use super::deliver::{Delivered, State, Task};
 use super::job::{Job, output_directory, program_name};
 use super::stale::is_gcode;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 use crate::session::Session;
 
 /// The programs on disk of targets of which nothing was written or compared now, each as a piece of its own: a comparison counts it as not
@@ -57,7 +57,7 @@ fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
 }
 
 /// Their names begin with the drawing's or the path's, whatever R was; of which path they are, they say themselves.
-fn of_target(session: &Session<'_>, target: Target, poster: Option<&Poster>) -> Vec<Utf8PathBuf> {
+fn of_target(session: &Session<'_>, target: Target, poster: Option<&PostProcessor>) -> Vec<Utf8PathBuf> {
     let (db, system) = (session.db(), session.db().system());
     let (drawing, path) = (target.file(db).path(db), &**target.name(db));
     let directory = output_directory(session, target.file(db));
@@ -79,7 +79,12 @@ fn of_target(session: &Session<'_>, target: Target, poster: Option<&Poster>) -> 
 }
 
 /// The program that targets were joined into earlier.
-fn of_joined(session: &Session<'_>, first: Target, name: &str, poster: &Poster) -> Option<Utf8PathBuf> {
+fn of_joined(
+    session: &Session<'_>,
+    first: Target,
+    name: &str,
+    poster: &PostProcessor,
+) -> Option<Utf8PathBuf> {
     let directory = output_directory(session, first.file(session.db()));
     let program = directory.join(program_name(name, poster));
     let head = session.db().system().head(&program, HEAD).unwrap_or_default();

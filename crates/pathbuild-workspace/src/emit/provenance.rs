@@ -8,7 +8,7 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_toolpath::Program;
 
 use crate::config::Settings;
-use crate::posting::Poster;
+use crate::posting::PostProcessor;
 
 /// What the provenance of all programs of a run has in common.
 #[derive(Clone, Debug)]
@@ -20,14 +20,14 @@ pub struct Provenances {
 
 impl Provenances {
     /// That of programs that are written with these settings, natively or through a post.
-    pub fn new(settings: &Settings, poster: Option<&Poster>) -> Self {
+    pub fn new(settings: &Settings, poster: Option<&PostProcessor>) -> Self {
         let general = &settings.general;
         let mut options = Vec::new();
         let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
         add(&(general.rapid.value, general.compatible.value));
         add(&(general.z_model.value, settings.z_split()));
         add(&(settings.comment_lang(), general.charset.value));
-        options.extend(poster.map(Poster::identity).unwrap_or_default());
+        options.extend(poster.map(PostProcessor::identity).unwrap_or_default());
         let own = |(dialect, is_own): (Dialect, bool)| is_own.then_some(dialect);
         let dialect = match poster {
             None => Some(Dialect::Native),

@@ -14,10 +14,10 @@ use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
-use super::asked::Asked;
 use super::deliver::Delivered;
 use super::job::Job;
-use crate::posting::Poster;
+use super::targets::Targets;
+use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session};
 
 /// A program that nobody should take to the machine.
@@ -76,10 +76,10 @@ pub(super) fn deal_with(
 /// The programs that nothing would write now. `delivered`: what became of each job.
 pub(super) fn stale(
     session: &Session<'_>,
-    asked: &Asked,
+    asked: &Targets,
     jobs: &[Job],
     delivered: &[Delivered],
-    poster: Option<&Poster>,
+    poster: Option<&PostProcessor>,
 ) -> Vec<Stale> {
     let settings = &session.workspace().settings;
     let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
@@ -129,7 +129,7 @@ struct Finding<'a> {
 }
 
 impl<'a> Finding<'a> {
-    fn in_directory(&self, directory: &Utf8Path, poster: Option<&Poster>) -> Vec<Stale> {
+    fn in_directory(&self, directory: &Utf8Path, poster: Option<&PostProcessor>) -> Vec<Stale> {
         let listing = self.session.db().system().list(directory).unwrap_or_default();
         let programs = listing.files.iter().filter(|name| is_gcode(name, poster));
         let programs = programs.map(|name| directory.join(name));
@@ -200,7 +200,7 @@ impl Own<'_> {
     }
 }
 
-pub(super) fn is_gcode(name: &str, poster: Option<&Poster>) -> bool {
+pub(super) fn is_gcode(name: &str, poster: Option<&PostProcessor>) -> bool {
     let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
     Utf8Path::new(name).extension().is_some_and(|extension| {
         is_like(extension, "gcode") || poster.is_some_and(|poster| is_like(extension, poster.extension()))
@@ -233,7 +233,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(session: &Session<'_>, asked: &Asked, jobs: &[Job]) -> Self {
+    fn new(session: &Session<'_>, asked: &Targets, jobs: &[Job]) -> Self {
         let db = session.db();
         let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
         let out_dir = out_dir.map(|directory| session.normal(directory));

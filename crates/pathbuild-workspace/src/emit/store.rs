@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use crate::config::Concerns;
 use crate::session::{
-    Drawing, DrawingResult, Keeper, Made, MadeOutput, OutputKind, OutputState, Question, Scope, Session,
-    is_passing,
+    Drawing, DrawingResult, FreshResult, MadeOutput, OutputKind, OutputState, Question, ResultStore, Scope,
+    Session, is_passing,
 };
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
@@ -18,14 +18,14 @@ use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::provenance::Provenance;
 
 use super::Answer;
-use super::asked::Asked;
 use super::deliver::{Delivered, State, Task, is_of_other_version};
 use super::job::Job;
-use crate::posting::Poster;
+use super::targets::Targets;
+use crate::posting::PostProcessor;
 use crate::workspace::Workspace;
 
 /// The records of earlier runs with these settings.
-pub(super) struct Store(Keeper);
+pub(super) struct Store(ResultStore);
 
 /// What is known of paths that become one program.
 pub(super) struct KnownPaths {
@@ -65,13 +65,13 @@ impl Store {
     /// The records about these drawings; `None` where none can be kept.
     pub(super) fn open(
         workspace: &Workspace,
-        poster: Option<&Poster>,
+        poster: Option<&PostProcessor>,
         scope: Scope,
         listings: Listings,
     ) -> Option<Self> {
         let text = question(poster);
         let question = Question { whose: Concerns::Emit, text: &text, scope, listings };
-        Keeper::open(workspace, question).map(Self)
+        ResultStore::open(workspace, question).map(Self)
     }
 
     /// What is known of a drawing alone, if it is as it was.
@@ -108,13 +108,13 @@ impl Store {
 
     /// Keeps what was found now.
     pub(super) fn keep(&self, session: &Session<'_>, run: &Run<'_>) {
-        let drawing = |Drawing { path, said, .. }: &Drawing| Made {
+        let drawing = |Drawing { path, said, .. }: &Drawing| FreshResult {
             of: path.as_str().into(),
             traces: vec![Trace { files: vec![session.file(path)], lookups: Vec::new() }],
             payload: said.encode(),
-            ..Made::default()
+            ..FreshResult::default()
         };
-        let mut made: Vec<Made> =
+        let mut made: Vec<FreshResult> =
             run.asked.drawings().filter(|drawing| drawing.is_read).map(drawing).collect();
         let done = run.jobs.iter().zip(run.delivered).map(|(job, delivered)| (job, Some(delivered)));
         let all = done.chain(run.refused.iter().map(|job| (job, None)));
@@ -129,8 +129,8 @@ impl Store {
 pub(super) struct Run<'a> {
     pub(super) task: Task,
     pub(super) join: Option<&'a str>,
-    pub(super) poster: Option<&'a Poster>,
-    pub(super) asked: &'a Asked,
+    pub(super) poster: Option<&'a PostProcessor>,
+    pub(super) asked: &'a Targets,
     /// What was not known.
     pub(super) answers: &'a [Answer],
     pub(super) jobs: &'a [Job],
@@ -146,7 +146,7 @@ impl Run<'_> {
         session: &Session<'_>,
         answer: &Answer,
         jobs: &HashMap<&[Target], (&Job, Option<&Delivered>)>,
-    ) -> Made {
+    ) -> FreshResult {
         let targets: Vec<Target> = answer.checked.iter().map(|checked| checked.target).collect();
         let of = of(session.db(), &targets, self.join).into();
         let traces: Vec<Trace> = answer.checked.iter().filter_map(|checked| checked.trace.clone()).collect();
@@ -156,20 +156,22 @@ impl Run<'_> {
         let problems = job.and_then(|(_, delivered)| delivered).into_iter().flat_map(|it| &it.problems);
         let is_lasting = traces.len() == targets.len() && !diagnostics.iter().chain(problems).any(is_passing);
         let (further, outputs) = match job {
-            _ if !is_lasting => return Made { of, ..Made::default() },
+            _ if !is_lasting => return FreshResult { of, ..FreshResult::default() },
             Some((job, Some(delivered))) if is_complete(job, delivered) => {
                 (self.inserted(session, delivered), outputs(delivered, self.task))
             }
             // Not written: another time it may be.
-            Some((_, Some(delivered))) if !delivered.is_refused => return Made { of, ..Made::default() },
+            Some((_, Some(delivered))) if !delivered.is_refused => {
+                return FreshResult { of, ..FreshResult::default() };
+            }
             _ => Default::default(),
         };
-        Made { of, traces, further, outputs, payload: Some(encoded(&diagnostics, job)) }
+        FreshResult { of, traces, further, outputs, payload: Some(encoded(&diagnostics, job)) }
     }
 
     /// The files that the post put in; its own is a part of the question.
     fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<Utf8PathBuf> {
-        let Some(post) = self.poster.and_then(Poster::file) else { return Vec::new() };
+        let Some(post) = self.poster.and_then(PostProcessor::file) else { return Vec::new() };
         let beside = post.parent().unwrap_or(Utf8Path::new(""));
         delivered.inserted.iter().map(|name| session.normal(&beside.join(&**name))).collect()
     }
@@ -233,7 +235,7 @@ impl KnownProgram {
 }
 
 /// Everything that a program depends on and that is in no drawing and no setting.
-fn question(poster: Option<&Poster>) -> String {
+fn question(poster: Option<&PostProcessor>) -> String {
     let mut text = "emit".to_owned();
     if let Some(poster) = poster {
         _ = write!(text, " {:?} {}", poster.file(), blake3::hash(&poster.identity()).to_hex());

@@ -8,7 +8,7 @@ use std::thread::{self, Builder};
 use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 
-use super::deliver::{Delivered, Made, Means, Output, Task, finish, make};
+use super::deliver::{Delivered, JobFiles, Output, OutputSettings, Task, finish, make};
 use super::job::Job;
 use crate::session::Session;
 
@@ -17,7 +17,7 @@ pub(super) fn deliver_all(
     session: &mut Session<'_>,
     jobs: &[&Job],
     task: Task,
-    means: &Means<'_>,
+    means: &OutputSettings<'_>,
 ) -> Vec<Delivered> {
     session.in_batches(jobs, BATCH, |session, jobs| {
         let delivered = write_behind(session, jobs, task, means).into_iter().zip(jobs);
@@ -41,7 +41,7 @@ fn write_behind(
     session: &Session<'_>,
     jobs: &[&Job],
     task: Task,
-    means: &Means<'_>,
+    means: &OutputSettings<'_>,
 ) -> Vec<Result<Delivered, Box<Diagnostic>>> {
     let system = session.db().system();
     let finished = |outputs| {
@@ -57,7 +57,7 @@ fn write_behind(
     let (mut made, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = session.guarded(&numbered, |db, (index, job)| {
-            let Made { mut delivered, outputs } = make(db, job, means);
+            let JobFiles { mut delivered, outputs } = make(db, job, means);
             // Once something of a path is written, all is.
             db.give_up_if_late();
             // Where the system has no thread left, nobody receives it.

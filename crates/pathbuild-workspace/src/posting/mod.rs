@@ -27,7 +27,7 @@ use files::Below;
 
 /// A definition, and everything that its text depends on beside the program.
 #[derive(Debug)]
-pub struct Poster {
+pub struct PostProcessor {
     post: Post,
     /// Where the definition's own files are; `None` of a built-in post.
     directory: Option<Utf8PathBuf>,
@@ -40,7 +40,7 @@ pub struct Poster {
     cycles: bool,
     charset: Charset,
     most_bytes: usize,
-    wishes: Wishes,
+    wishes: PostArguments,
     manner: Manner,
     machine: Option<Machine>,
     system: Arc<dyn System>,
@@ -60,7 +60,7 @@ struct Manner {
 
 /// What the command line says about a post's output.
 #[derive(Clone, Debug, Default)]
-pub struct Wishes {
+pub struct PostArguments {
     /// The date that the post may write.
     pub date: Option<Box<str>>,
     /// In which dialect the output is, where the post does not say it.
@@ -72,7 +72,7 @@ pub struct Wishes {
 /// The post that writes what book: program/gcode says.
 const NATIVE: &str = "native";
 
-impl Poster {
+impl PostProcessor {
     /// The post that `--post` or else the configuration names; `None`: programs are written natively.
     ///
     /// # Errors
@@ -80,7 +80,7 @@ impl Poster {
     pub fn of_run(
         context: &Workspace,
         named: Option<&str>,
-        wishes: Wishes,
+        wishes: PostArguments,
     ) -> Result<Option<Self>, Vec<Diagnostic>> {
         let configured = &context.settings.general.post;
         let (name, base) = match (named, configured.origin, context.settings.directory()) {
@@ -98,7 +98,7 @@ impl Poster {
         context: &Workspace,
         name: &str,
         base: &Utf8Path,
-        wishes: Wishes,
+        wishes: PostArguments,
     ) -> Result<Self, Vec<Diagnostic>> {
         let general = &context.settings.general;
         let (post, definition, file) = if is_file_name(name) {

@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, SourceFile, drawing_names, may_hold};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -247,7 +247,7 @@ impl Session<'_> {
 
     /// Whether a place is a directory.
     pub fn is_directory(&self, place: &Utf8Path) -> bool {
-        self.db.system().kind(&self.normal(place)) == Kind::Directory
+        self.db.system().kind(&self.normal(place)) == FileKind::Directory
     }
 
     fn walk(&self) -> library::Walk<'_> {

@@ -7,7 +7,7 @@ use camino::Utf8Path;
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_db::System;
-use pathbuild_db::system::{Kind, ReadError};
+use pathbuild_db::system::{FileKind, ReadError};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 
@@ -43,7 +43,7 @@ impl Rules {
         limit: u64,
     ) -> Result<Arc<Self>, Box<Diagnostic>> {
         let read = |name| patterns(system, directory, name, limit);
-        let is_repository = system.kind(&directory.join(".git")) != Kind::Missing;
+        let is_repository = system.kind(&directory.join(".git")) != FileKind::Missing;
         Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
     }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, EntryKind, Kind};
+use pathbuild_db::system::{Entry, EntryKind, FileKind};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ impl Walk<'_> {
                         walked.listings.insert(directory.clone(), listed.listing);
                     }
                     // What was named may be a drawing.
-                    None if directory == *root && self.system.kind(root) == Kind::File => {
+                    None if directory == *root && self.system.kind(root) == FileKind::File => {
                         walked.drawings.extend(is_drawing(root).then(|| root.to_owned()));
                         continue;
                     }
@@ -160,7 +160,7 @@ impl Directory {
             });
         }
         if let Err(error) = &listed {
-            if walk.system.kind(directory) != Kind::Directory {
+            if walk.system.kind(directory) != FileKind::Directory {
                 return Ok(None);
             }
             found.problem =

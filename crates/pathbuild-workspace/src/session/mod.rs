@@ -6,7 +6,6 @@ mod elsewhere;
 mod found;
 mod graph;
 mod ignoring;
-mod keeper;
 mod library;
 mod near;
 mod nothing;
@@ -14,6 +13,7 @@ mod outputs;
 mod prefetch;
 mod q_projects;
 mod resolve;
+mod result_store;
 mod scene;
 mod settings;
 pub mod timings;
@@ -37,14 +37,14 @@ use crate::workspace::Workspace;
 pub(crate) use drawings::{Drawing, Drawings};
 pub use found::{Argument, Found};
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub use keeper::{
-    BUILD, Coverage, DrawingResult, Facts, Held, Keeper, Made, MadeOutput, OutputState, Question, Scope,
-    hash_output, is_passing,
-};
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, Writing, stem_fault, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{NamesOf, Wanted, WantedPath};
+pub use result_store::{
+    BUILD, Coverage, Dependencies, DrawingResult, FreshResult, Held, MadeOutput, OutputState, Question,
+    ResultStore, Scope, hash_output, is_passing,
+};
 pub use scene::Seen;
 pub use work::{Asking, CheckedTarget, Emitted};
 

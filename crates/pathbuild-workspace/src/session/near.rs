@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
-use pathbuild_db::system::{EntryKind, Kind};
+use pathbuild_db::system::{EntryKind, FileKind};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
@@ -44,7 +44,7 @@ impl Session<'_> {
     /// The existing drawing or directory whose name is nearest, where the first part of a path that does not exist is nearly right.
     fn near_file(&self, file: &Utf8Path) -> Option<Utf8PathBuf> {
         let is_there = |directory: &&Utf8Path| {
-            directory.as_str().is_empty() || self.db().system().kind(directory) == Kind::Directory
+            directory.as_str().is_empty() || self.db().system().kind(directory) == FileKind::Directory
         };
         let directory = file.ancestors().skip(1).find(is_there)?;
         let mut missing = file.strip_prefix(directory).ok()?.components();
@@ -53,7 +53,7 @@ impl Session<'_> {
         let near = directory.join(nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = near.join(missing.as_path());
         // What follows the mistyped part may be right.
-        Some(if self.db().system().kind(&whole) == Kind::Missing { near } else { whole })
+        Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
     /// The names of drawings and directories in a directory.

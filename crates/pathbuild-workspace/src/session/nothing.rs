@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::{configuration, outputs as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
@@ -15,15 +15,15 @@ impl Session<'_> {
     /// PB003 for each directory of the library, and for each that is searched, that is not there.
     pub(super) fn missing_directories(&self) -> Vec<Diagnostic> {
         let general = &self.context.settings.general;
-        let library = self.missing("library", &general.library, &[Kind::Directory, Kind::File]);
-        library.chain(self.missing("search", &general.search, &[Kind::Directory])).collect()
+        let library = self.missing("library", &general.library, &[FileKind::Directory, FileKind::File]);
+        library.chain(self.missing("search", &general.search, &[FileKind::Directory])).collect()
     }
 
     fn missing<'a>(
         &'a self,
         key: &'static str,
         directories: &'a Sourced<Vec<Utf8PathBuf>>,
-        expected: &'a [Kind],
+        expected: &'a [FileKind],
     ) -> impl Iterator<Item = Diagnostic> + 'a {
         let is_missing =
             |directory: &&Utf8PathBuf| !expected.contains(&self.db.system().kind(&self.normal(directory)));

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, SourceFile, drawing_names};
 use pathbuild_diagnostic::Diagnostic;
 
@@ -179,7 +179,7 @@ impl<'a> Library<'a> {
         let mut have_changed = false;
         for (directory, files) in by_directory {
             let db = self.session.db();
-            let is_there = |path: &Utf8Path| db.system().kind(path) == Kind::File;
+            let is_there = |path: &Utf8Path| db.system().kind(path) == FileKind::File;
             have_changed |= files.iter().any(|path| is_there(path) != self.drawings.contains_key(*path));
             if !self.reverse.knows_directory(directory) {
                 continue;

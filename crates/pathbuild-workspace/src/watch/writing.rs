@@ -8,7 +8,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::Listener;
 use crate::emit::{self, Configured, Owners};
-use crate::posting::{Poster, Wishes};
+use crate::posting::{PostArguments, PostProcessor};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
@@ -17,7 +17,7 @@ pub(super) struct Writer<'a> {
     workspace: &'a Workspace,
     listener: &'a dyn Listener,
     is_on: bool,
-    poster: Option<Poster>,
+    poster: Option<PostProcessor>,
     owners: Owners,
 }
 
@@ -31,13 +31,14 @@ impl<'a> Writer<'a> {
         listener: &'a dyn Listener,
         is_on: bool,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let poster = if is_on { Poster::of_run(workspace, None, Wishes::default())? } else { None };
+        let poster =
+            if is_on { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
         Ok(Self { workspace, listener, is_on, poster, owners: Owners::default() })
     }
 
     /// The files that the post is read from.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
-        self.poster.as_ref().map(Poster::sources).unwrap_or_default()
+        self.poster.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }
 
     /// What the paths of drawings that are asked again, or gone, were written to is free again.

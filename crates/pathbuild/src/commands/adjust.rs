@@ -1,7 +1,7 @@
 //! `pathbuild adjust`: measured heights put into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Kind, Written};
+use pathbuild_db::system::{FileKind, Written};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
@@ -74,7 +74,7 @@ impl Job {
     fn all(context: &Context, argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Vec<Self> {
         let job = Self::new(argument, out_dir);
         let drawing = argument.file_name().filter(|name| without(name, ".dxf").is_some());
-        let Some(drawing) = drawing.filter(|_| context.system.kind(&job.clean) == Kind::Missing) else {
+        let Some(drawing) = drawing.filter(|_| context.system.kind(&job.clean) == FileKind::Missing) else {
             return vec![job];
         };
         let directory = job.clean.parent().unwrap_or(Utf8Path::new("")).to_owned();

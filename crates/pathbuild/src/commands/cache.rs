@@ -2,7 +2,7 @@
 
 use std::io;
 
-use pathbuild_cache::{Entry, Key, Place, Unusable};
+use pathbuild_cache::{Entry, Key, TreeStore, Unusable};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
@@ -49,7 +49,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
 }
 
 /// Says how much was removed.
-fn report(context: &Context, place: &Place, removed: io::Result<usize>) -> ExitStatus {
+fn report(context: &Context, place: &TreeStore, removed: io::Result<usize>) -> ExitStatus {
     match removed {
         Ok(count) => {
             context.row_of_json(|| ("cache", json!({ "removed": count })));

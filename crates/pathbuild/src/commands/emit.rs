@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang, Note};
 use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
-use pathbuild_workspace::posting::{Poster, Wishes, run_post_build};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor, run_post_build};
 
 use crate::args::{EmitArgs, Format};
 use crate::context::Context;
@@ -13,12 +13,12 @@ use serde_json::{Value, json};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
-    let wishes = Wishes {
+    let wishes = PostArguments {
         date: args.date.as_deref().map(Into::into),
         dialect: args.dialect.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    match Poster::of_run(context, args.post.as_deref(), wishes) {
+    match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
         Ok(poster) => match refusal(args, poster.as_ref()) {
             Some(refusal) => context.usage(refusal),
             None => emit(context, args, poster.as_ref()),
@@ -28,7 +28,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
 }
 
 /// Options that mean something only where programs are written through a post.
-fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
+fn refusal(args: &EmitArgs, poster: Option<&PostProcessor>) -> Option<&'static str> {
     let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
     match poster {
         None if args.join.is_some() => Some(
@@ -41,7 +41,7 @@ fn refusal(args: &EmitArgs, poster: Option<&Poster>) -> Option<&'static str> {
     }
 }
 
-fn emit(context: &Context, args: &EmitArgs, poster: Option<&Poster>) -> ExitStatus {
+fn emit(context: &Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> ExitStatus {
     let request = Request {
         inputs: &args.inputs,
         task: task(args),

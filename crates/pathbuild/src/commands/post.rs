@@ -16,7 +16,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
-use pathbuild_workspace::posting::{Poster, Wishes, furnish, run_post_build};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor, furnish, run_post_build};
 
 use super::output_row;
 use super::program::Program;
@@ -56,12 +56,12 @@ fn show(context: &Context, name: &str) -> ExitStatus {
 
 /// Writes a program through a post.
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
-    let wishes = Wishes {
+    let wishes = PostArguments {
         date: args.date.as_deref().map(Into::into),
         dialect: args.target.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    let poster = match Poster::of_run(context, args.post.as_deref(), wishes) {
+    let poster = match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
         Ok(Some(poster)) => poster,
         Ok(None) => return context.usage(NATIVE),
         Err(problems) => return context.fail(problems),
@@ -84,7 +84,7 @@ fn written(
     context: &Context,
     file: &Utf8Path,
     args: &PostArgs,
-    poster: &Poster,
+    poster: &PostProcessor,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), Vec<Diagnostic>> {
     let mut program = Program::open(context, file, &args.reading).map_err(|problem| vec![*problem])?;
@@ -125,7 +125,7 @@ fn written(
 fn output(
     program: &Program,
     steps: Vec<Step>,
-    poster: &Poster,
+    poster: &PostProcessor,
     surface: Option<f64>,
     to: Option<&Utf8Path>,
 ) -> Result<Output, Vec<Diagnostic>> {

@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named("explain");
     }
-    let Some(keeper) = kept_results(context) else {
+    let Some(result_store) = kept_results(context) else {
         return context
             .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
     };
@@ -30,7 +30,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut known = HashSet::new();
     let all = wanted.drawings.iter().chain(named.map(|file| file.path(session.db())));
     for drawing in all.filter(|drawing| known.insert(*drawing)) {
-        let answer = Answer { drawing, reasons: keeper.why(drawing.as_str()) };
+        let answer = Answer { drawing, reasons: result_store.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),

@@ -29,9 +29,11 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
         }
         // A link is what it leads to; one that leads nowhere is a file that cannot be read. Some file systems do not tell what a name is.
         let is_directory = match kind {
-            Kind::Directory => true,
-            Kind::Link | Kind::Untold => fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir()),
-            Kind::File => false,
+            ListedKind::Directory => true,
+            ListedKind::Link | ListedKind::Untold => {
+                fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir())
+            }
+            ListedKind::File => false,
         };
         if is_directory { &mut part.directories } else { &mut part.files }.push(name);
         ControlFlow::Continue(())
@@ -51,10 +53,10 @@ pub(super) fn each_entry(
     each_name(directory, |entry| {
         let Some(Name { spelling: name, is_exact, kind }) = entry else { return ControlFlow::Continue(()) };
         let kind = match kind {
-            Kind::Directory => EntryKind::Directory,
-            Kind::Link => EntryKind::Link,
-            Kind::File => EntryKind::File,
-            Kind::Untold => told(&directory.join(name)),
+            ListedKind::Directory => EntryKind::Directory,
+            ListedKind::Link => EntryKind::Link,
+            ListedKind::File => EntryKind::File,
+            ListedKind::Untold => told(&directory.join(name)),
         };
         take(Entry { name, is_exact, kind })
     })
@@ -74,12 +76,12 @@ struct Name<'a> {
     spelling: &'a str,
     /// Whether it has no other.
     is_exact: bool,
-    kind: Kind,
+    kind: ListedKind,
 }
 
 /// What a directory says of a name in it.
 #[derive(Clone, Copy)]
-enum Kind {
+enum ListedKind {
     File,
     Directory,
     Link,
@@ -87,7 +89,7 @@ enum Kind {
 }
 
 #[cfg(not(target_os = "linux"))]
-impl From<fs::FileType> for Kind {
+impl From<fs::FileType> for ListedKind {
     fn from(kind: fs::FileType) -> Self {
         if kind.is_dir() {
             Self::Directory
@@ -116,10 +118,10 @@ fn each_name(
     while let Some(entry) = entries.next() {
         let entry = entry?;
         let kind = match entry.file_type() {
-            FileType::Directory => Kind::Directory,
-            FileType::Symlink => Kind::Link,
-            FileType::Unknown => Kind::Untold,
-            _ => Kind::File,
+            FileType::Directory => ListedKind::Directory,
+            FileType::Symlink => ListedKind::Link,
+            FileType::Unknown => ListedKind::Untold,
+            _ => ListedKind::File,
         };
         let flow = match entry.file_name().to_bytes() {
             b"." | b".." => ControlFlow::Continue(()),
@@ -150,7 +152,7 @@ fn each_name(
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
         let name = entry.file_name();
-        let kind = entry.file_type().map_or(Kind::Untold, Kind::from);
+        let kind = entry.file_type().map_or(ListedKind::Untold, ListedKind::from);
         let name = Name { spelling: &name.to_string_lossy(), is_exact: name.to_str().is_some(), kind };
         if take(Some(name)).is_break() {
             return Ok(());

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 use super::chain::{Chain, Way};
 use crate::dialect::Dialect;
 use crate::interpret::{Move, Pace, Path, Position};
-use crate::verify::compare::{Difference, Ends, Kind, Tolerance, check_pace, check_shape, meet};
+use crate::verify::compare::{Difference, DifferenceKind, Ends, Tolerance, check_pace, check_shape, meet};
 use crate::verify::is_near;
 use crate::verify::walk::Stretch;
 
@@ -72,7 +72,11 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
         let difference = self.difference.or_else(|| {
             let expected = self.expected.next();
-            expected.map(|expected| Difference { kind: Kind::Place, found: None, expected: Some(expected) })
+            expected.map(|expected| Difference {
+                kind: DifferenceKind::Place,
+                found: None,
+                expected: Some(expected),
+            })
         });
         difference.map(|difference| difference.against_drawing())
     }
@@ -105,9 +109,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             is_near(&it.from.at, &[x, y, it.from.z()], slack) && libm::fabs(z - it.from.z()) <= height
         };
         match chain.check(&way) {
-            Err(found) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
+            Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
             Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => Ok(()),
-            Ok(()) => Err(Box::new(Difference { kind: Kind::Place, found, expected: next })),
+            Ok(()) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
         }
     }
 
@@ -147,7 +151,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 return if stands(&ours) {
                     Ok(())
                 } else {
-                    Err(differs(next.map_or(Kind::Place, |_| Kind::Pace)))
+                    Err(differs(next.map_or(DifferenceKind::Place, |_| DifferenceKind::Pace)))
                 };
             };
             let theirs =
@@ -171,7 +175,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             let are_lines = !ours.is_arc() && !theirs.is_arc();
             let splits = ours.length < theirs.length;
             if are_lines && !(splits && self.may_split) {
-                return Err(differs(Kind::Place));
+                return Err(differs(DifferenceKind::Place));
             }
             if splits {
                 self.done = meet(&ours, &theirs, &self.tolerance).map_err(differs)?;
@@ -190,9 +194,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
 }
 
 /// Two arcs turn round one centre: of a short one the places between its ends hardly tell.
-fn check_centres(found: &Move, expected: &Move) -> Result<(), Kind> {
+fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);
     let turn_alike = ours.clockwise == theirs.clockwise && ours.plane == theirs.plane;
-    if are_near && turn_alike { Ok(()) } else { Err(Kind::Shape) }
+    if are_near && turn_alike { Ok(()) } else { Err(DifferenceKind::Shape) }
 }

@@ -8,12 +8,12 @@ use serde_json::json;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use crate::config::kind::Kind;
-use crate::config::reader::Reader;
+use crate::config::kind::ValueType;
+use crate::config::reader::TomlReader;
 use crate::config::types::Extent;
 
 /// A number greater than 0, where there is one.
-pub(in crate::config) const POSITIVE: Kind<Option<f64>> = Kind {
+pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number > 0.0) {
         Some(number) => Some(Some(number)),
         None => reader.expected(Value::Word(&messages::POSITIVE), value),
@@ -23,7 +23,7 @@ pub(in crate::config) const POSITIVE: Kind<Option<f64>> = Kind {
 };
 
 /// A time in seconds greater than 0.
-pub(in crate::config) const SECONDS: Kind<Duration> = Kind {
+pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
     read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
         Some(time) if !time.is_zero() => Some(time),
         _ => reader.expected(Value::Word(&messages::POSITIVE), value),
@@ -33,7 +33,7 @@ pub(in crate::config) const SECONDS: Kind<Duration> = Kind {
 };
 
 /// A number of at least 0.
-pub(in crate::config) const NOT_NEGATIVE: Kind<f64> = Kind {
+pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number >= 0.0) {
         Some(number) => Some(number),
         None => reader.expected(Value::Word(&messages::NOT_NEGATIVE), value),
@@ -44,7 +44,7 @@ pub(in crate::config) const NOT_NEGATIVE: Kind<f64> = Kind {
 
 /// How long pieces of moves may be, where somebody says it: 0 for any length. Shorter ones than a machine can tell apart would only
 /// fill the disk.
-pub(in crate::config) const PIECE: Kind<Option<f64>> = Kind {
+pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
         Some(number) => Some(Some(number)),
         None => reader.expected(Value::Word(&messages::PIECE), value),
@@ -57,7 +57,7 @@ pub(in crate::config) const PIECE: Kind<Option<f64>> = Kind {
 const SHORTEST_PIECE: f64 = 0.1;
 
 /// A whole number from 1 up.
-pub(in crate::config) const COUNT: Kind<u64> = Kind {
+pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
         Some(count) => Some(count),
         None => reader.expected(Value::Word(&messages::COUNT), value),
@@ -67,7 +67,7 @@ pub(in crate::config) const COUNT: Kind<u64> = Kind {
 };
 
 /// A number of bytes: a whole number, or a text such as "256 MiB".
-pub(in crate::config) const SIZE: Kind<u64> = Kind {
+pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
     read: |value, reader| match size(value).filter(|size| *size > 0) {
         Some(size) => Some(size),
         None => reader.expected(Value::Word(&messages::SIZE), value),
@@ -77,7 +77,7 @@ pub(in crate::config) const SIZE: Kind<u64> = Kind {
 };
 
 /// A text such as "50 ms".
-pub(in crate::config) const DURATION: Kind<Duration> = Kind {
+pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
     read: |value, reader| match value.get_ref().as_str().and_then(duration) {
         Some(duration) => Some(duration),
         None => reader.expected(Value::Word(&messages::DURATION), value),
@@ -87,7 +87,7 @@ pub(in crate::config) const DURATION: Kind<Duration> = Kind {
 };
 
 /// Two numbers, the smaller first.
-pub(in crate::config) const EXTENT: Kind<Option<Extent>> = Kind {
+pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
     read: |value, reader| match extent(value) {
         Some(extent) => Some(Some(extent)),
         None => reader.expected(Value::Word(&messages::EXTENT), value),
@@ -97,7 +97,7 @@ pub(in crate::config) const EXTENT: Kind<Option<Extent>> = Kind {
 };
 
 /// One number greater than 0 for each of X, Y and Z.
-pub(in crate::config) const AXES: Kind<Option<[f64; 3]>> = Kind {
+pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     read: |value, reader| match axes(value) {
         Some(axes) => Some(Some(axes)),
         None => reader.expected(Value::Word(&messages::AXES), value),
@@ -107,10 +107,10 @@ pub(in crate::config) const AXES: Kind<Option<[f64; 3]>> = Kind {
 };
 
 /// True or false.
-pub(in crate::config) const SWITCH: Kind<bool> =
-    Kind { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
+pub(in crate::config) const SWITCH: ValueType<bool> =
+    ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 
-fn switch(value: &Spanned<DeValue<'_>>, reader: &mut Reader<'_>) -> Option<bool> {
+fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<bool> {
     value.get_ref().as_bool().or_else(|| reader.expected(Value::Word(&messages::SWITCH), value))
 }
 

@@ -7,12 +7,12 @@ use regex::RegexBuilder;
 use serde_json::json;
 
 use super::text::{list, quoted, texts};
-use crate::config::kind::Kind;
-use crate::config::reader::Reader;
+use crate::config::kind::ValueType;
+use crate::config::reader::TomlReader;
 use crate::config::types::{Pattern, Restriction};
 
 /// A regular expression.
-pub(in crate::config) const REGEX: Kind<Box<str>> = Kind {
+pub(in crate::config) const REGEX: ValueType<Box<str>> = ValueType {
     read: |value, reader| {
         let text = reader.text(value)?;
         check_regex(text, value.span(), reader).then(|| text.into())
@@ -22,14 +22,14 @@ pub(in crate::config) const REGEX: Kind<Box<str>> = Kind {
 };
 
 /// A regular expression, where there is one.
-pub(in crate::config) const OPTIONAL_REGEX: Kind<Option<Box<str>>> = Kind {
+pub(in crate::config) const OPTIONAL_REGEX: ValueType<Option<Box<str>>> = ValueType {
     read: |value, reader| (REGEX.read)(value, reader).map(Some),
     show: |text| text.as_deref().map(literal),
     schema: REGEX.schema,
 };
 
 /// A list of PARENT:CHILD.
-pub(in crate::config) const RESTRICTIONS: Kind<Vec<Restriction>> = Kind {
+pub(in crate::config) const RESTRICTIONS: ValueType<Vec<Restriction>> = ValueType {
     read: |value, reader| {
         let rules =
             texts(value, reader)?.into_iter().map(|(text, item)| restriction(text, item.span(), reader));
@@ -44,7 +44,7 @@ pub(in crate::config) const RESTRICTIONS: Kind<Vec<Restriction>> = Kind {
 };
 
 /// A list of globs.
-pub(in crate::config) const PATTERNS: Kind<Vec<Pattern>> = Kind {
+pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     read: |value, reader| {
         let patterns =
             texts(value, reader)?.into_iter().map(|(text, item)| pattern(text, item.span(), reader));
@@ -70,14 +70,14 @@ pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
 /// A pattern of names needs far less; a larger one only wastes memory.
 const REGEX_SIZE: usize = 1 << 20;
 
-fn check_regex(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> bool {
+fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
     let Some(reason) = regex_fault(text) else { return true };
     let fault = reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason);
     reader.report(fault);
     false
 }
 
-fn restriction(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> Option<Restriction> {
+fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Restriction> {
     let Some(rule) = split_restriction(text) else {
         let fault = reader.fault(&messages::RESTRICT_WITHOUT_COLON, span);
         reader.report(fault);
@@ -88,7 +88,7 @@ fn restriction(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> Optio
     (parent && child).then_some(rule)
 }
 
-fn pattern(text: &str, span: Range<usize>, reader: &mut Reader<'_>) -> Option<Pattern> {
+fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Pattern> {
     match Pattern::new(text) {
         Ok(pattern) => Some(pattern),
         Err(reason) => {

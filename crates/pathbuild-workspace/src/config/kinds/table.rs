@@ -12,14 +12,14 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::number::{COUNT, POSITIVE, SWITCH};
 use super::pattern::{PATTERNS, REGEX};
 use super::text::{TEXT, choice, choice_schema, name_of, quoted, read_choice};
-use crate::config::kind::Kind;
+use crate::config::kind::ValueType;
 use crate::config::nearest::nearest;
-use crate::config::reader::{Reader, Table};
+use crate::config::reader::{Table, TomlReader};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
 use crate::posting::is_file_name;
 
 /// Names of line types, each with what it stands for.
-pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
+pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| alias(entry, reader)).collect())
@@ -29,7 +29,7 @@ pub(in crate::config) const LINE_TYPES: Kind<Vec<LineTypeAlias>> = Kind {
 };
 
 /// Codes with what becomes of them.
-pub(in crate::config) const SEVERITY: Kind<Vec<(Code, Level)>> = Kind {
+pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| severity(entry, reader)).collect())
@@ -39,7 +39,7 @@ pub(in crate::config) const SEVERITY: Kind<Vec<(Code, Level)>> = Kind {
 };
 
 /// The same, each with the drawings that it holds for.
-pub(in crate::config) const SEVERITY_IN: Kind<Vec<SeveritiesIn>> = Kind {
+pub(in crate::config) const SEVERITY_IN: ValueType<Vec<SeveritiesIn>> = ValueType {
     read: |value, reader| {
         let tables =
             value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
@@ -73,7 +73,7 @@ pub(in crate::config) const SEVERITY_IN: Kind<Vec<SeveritiesIn>> = Kind {
 };
 
 /// The name of a post-processor, or of a file with one.
-const POST_NAME: Kind<Box<str>> = Kind {
+const POST_NAME: ValueType<Box<str>> = ValueType {
     read: |value, reader| {
         let name = (TEXT.read)(value, reader)?;
         if is_file_name(&name) {
@@ -85,7 +85,7 @@ const POST_NAME: Kind<Box<str>> = Kind {
 };
 
 /// Whether somebody answers for what cannot be read back.
-const UNCHECKED: Kind<bool> = Kind {
+const UNCHECKED: ValueType<bool> = ValueType {
     read: |value, reader| {
         let is_unchecked = (SWITCH.read)(value, reader)?;
         if is_unchecked && reader.is_strangers() {
@@ -98,7 +98,7 @@ const UNCHECKED: Kind<bool> = Kind {
 };
 
 /// Tools by name.
-pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
+pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let tools = entries(value, reader)?;
         Some(
@@ -127,7 +127,7 @@ pub(in crate::config) const TOOLS: Kind<Vec<Tool>> = Kind {
 };
 
 /// A post-processor: its name, or a table with more about it.
-pub(in crate::config) const POST: Kind<PostChoice> = Kind {
+pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
     read: |value, reader| {
         let Some(table) = value.get_ref().as_table() else {
             return (POST_NAME.read)(value, reader).map(|name| (&*name).into());
@@ -161,7 +161,7 @@ pub(in crate::config) const POST: Kind<PostChoice> = Kind {
 };
 
 /// Macros of posts with their texts.
-pub(in crate::config) const MACROS: Kind<Vec<Macro>> = Kind {
+pub(in crate::config) const MACROS: ValueType<Vec<Macro>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| post_macro(entry, reader)).collect())
@@ -173,24 +173,27 @@ pub(in crate::config) const MACROS: Kind<Vec<Macro>> = Kind {
 type Entry<'v, 't> = (&'v Spanned<DeString<'t>>, &'v Spanned<DeValue<'t>>);
 
 /// The entries of a table, or a report that it is none.
-fn entries<'v, 't>(value: &'v Spanned<DeValue<'t>>, reader: &mut Reader<'_>) -> Option<Vec<Entry<'v, 't>>> {
+fn entries<'v, 't>(
+    value: &'v Spanned<DeValue<'t>>,
+    reader: &mut TomlReader<'_>,
+) -> Option<Vec<Entry<'v, 't>>> {
     match value.get_ref().as_table() {
         Some(table) => Some(table.iter().collect()),
         None => reader.expected(Value::Word(&messages::TABLE), value),
     }
 }
 
-fn alias((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<LineTypeAlias> {
+fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<LineTypeAlias> {
     let means = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
     Some(LineTypeAlias { name: (**name.get_ref()).into(), means })
 }
 
-fn post_macro((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<Macro> {
+fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Macro> {
     let text = reader.within(name.get_ref(), |reader| reader.text(value))?;
     Some(Macro { name: (**name.get_ref()).into(), value: text.into() })
 }
 
-fn severity((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<(Code, Level)> {
+fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<(Code, Level)> {
     let level = reader.within(name.get_ref(), |reader| read_choice(value, reader));
     let text = &**name.get_ref();
     let Ok(code) = text.parse::<Code>() else {
@@ -219,7 +222,7 @@ pub fn nearest_code(name: &str) -> Option<String> {
     nearest(name, names).map(str::to_owned)
 }
 
-fn severities_in(table: &DeTable<'_>, reader: &mut Reader<'_>) -> SeveritiesIn {
+fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> SeveritiesIn {
     let mut part = SeveritiesIn::default();
     for (name, value) in table {
         if name.get_ref() == "files" {
@@ -234,7 +237,7 @@ fn severities_in(table: &DeTable<'_>, reader: &mut Reader<'_>) -> SeveritiesIn {
     part
 }
 
-fn tool((name, value): Entry<'_, '_>, reader: &mut Reader<'_>) -> Option<Tool> {
+fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Tool> {
     let Some(table) = value.get_ref().as_table() else {
         return reader.expected(Value::Word(&messages::TABLE), value);
     };

@@ -7,13 +7,13 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use crate::config::kind::Kind;
+use crate::config::kind::ValueType;
 use crate::config::nearest::nearest;
-use crate::config::reader::Reader;
+use crate::config::reader::TomlReader;
 use crate::config::types::{Choice, Directories};
 
 /// A text that is not empty.
-pub(in crate::config) const TEXT: Kind<Box<str>> = Kind {
+pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     read: |value, reader| match reader.text(value)? {
         "" => reader.expected(Value::Word(&messages::NOT_EMPTY), value),
         text => Some(text.into()),
@@ -23,7 +23,7 @@ pub(in crate::config) const TEXT: Kind<Box<str>> = Kind {
 };
 
 /// A directory, where there is one. The empty text is none.
-pub(in crate::config) const DIRECTORY: Kind<Option<Utf8PathBuf>> = Kind {
+pub(in crate::config) const DIRECTORY: ValueType<Option<Utf8PathBuf>> = ValueType {
     read: |value, reader| match reader.text(value)? {
         "" => Some(None),
         text => reader.path(text, value).map(Some),
@@ -33,7 +33,7 @@ pub(in crate::config) const DIRECTORY: Kind<Option<Utf8PathBuf>> = Kind {
 };
 
 /// Directories.
-pub(in crate::config) const DIRECTORIES: Kind<Directories> = Kind {
+pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
         Some(names.into_iter().filter_map(|(name, value)| reader.path(name, value)).collect())
@@ -43,7 +43,7 @@ pub(in crate::config) const DIRECTORIES: Kind<Directories> = Kind {
 };
 
 /// A directory that does not depend on where the configuration lies.
-pub(in crate::config) const ABSOLUTE: Kind<Utf8PathBuf> = Kind {
+pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
         _ => reader.expected(Value::Word(&messages::ABSOLUTE), value),
@@ -53,7 +53,7 @@ pub(in crate::config) const ABSOLUTE: Kind<Utf8PathBuf> = Kind {
 };
 
 /// Several of these.
-pub(in crate::config) const ABSOLUTES: Kind<Directories> = Kind {
+pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
@@ -66,13 +66,13 @@ pub(in crate::config) const ABSOLUTES: Kind<Directories> = Kind {
 };
 
 /// One of the names of a choice.
-pub(in crate::config) const fn choice<T: Choice>() -> Kind<T> {
-    Kind { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
+pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
+    ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
 pub(in crate::config) fn read_choice<T: Choice>(
     value: &Spanned<DeValue<'_>>,
-    reader: &mut Reader<'_>,
+    reader: &mut TomlReader<'_>,
 ) -> Option<T> {
     let text = reader.text(value)?;
     let found = T::ALL.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
@@ -101,7 +101,7 @@ pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
 /// The texts of a list with the values that they come from, or a report that it is no list of texts.
 pub(in crate::config) fn texts<'v, 't>(
     value: &'v Spanned<DeValue<'t>>,
-    reader: &mut Reader<'_>,
+    reader: &mut TomlReader<'_>,
 ) -> Option<Vec<(&'v str, &'v Spanned<DeValue<'t>>)>> {
     let items = value
         .get_ref()

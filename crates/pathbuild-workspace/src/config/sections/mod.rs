@@ -1,9 +1,9 @@
 //! The keys, table by table: each with its type, its default and its meaning.
 
-/// Declares a table of the configuration. For each key: its field with its meaning, its name in the file, its [`Kind`], the value when
+/// Declares a table of the configuration. For each key: its field with its meaning, its name in the file, its [`ValueType`], the value when
 /// nobody gives one, a value as TOML for the file that `init` writes, and whose results depend on it ([`Concerns`]).
 ///
-/// [`Kind`]: super::kind::Kind
+/// [`ValueType`]: super::kind::Kind
 macro_rules! section {
     ($(
         $(#[doc = $meaning:literal])+

@@ -1,7 +1,7 @@
 //! What the arguments of `diff` mean.
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -72,9 +72,9 @@ fn nature(context: &Context, argument: &str) -> Nature {
     let place = Utf8Path::new(argument);
     let is_drawing = Session::is_drawing(place);
     match context.system.kind(place) {
-        Kind::Directory => Nature::Drawings,
-        Kind::File if is_drawing => Nature::Drawings,
-        Kind::File => Nature::Program,
+        FileKind::Directory => Nature::Drawings,
+        FileKind::File if is_drawing => Nature::Drawings,
+        FileKind::File => Nature::Program,
         _ if argument == "." => Nature::Drawings,
         _ => Nature::Name,
     }

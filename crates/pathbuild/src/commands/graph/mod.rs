@@ -25,7 +25,7 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context.nothing_named("show");
     }
     let (asked, graph) = session.settled(|session| {
-        let asked = Asked::new(session, session.wanted(&args.inputs));
+        let asked = GraphArguments::new(session, session.wanted(&args.inputs));
         let graph = session.graph(&asked.targets);
         (asked, graph)
     });
@@ -40,7 +40,7 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context.nothing_named("show");
     }
     let (asked, graph) = session.settled(|session| {
-        let asked = Asked::new(session, session.wanted(&args.inputs));
+        let asked = GraphArguments::new(session, session.wanted(&args.inputs));
         let graph = session.graph(&asked.targets);
         (asked, graph)
     });
@@ -56,7 +56,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     }
     let mut session = Session::new(context);
     let (asked, whole) = session.settled(|session| {
-        let mut asked = Asked::new(session, session.wanted(&args.inputs));
+        let mut asked = GraphArguments::new(session, session.wanted(&args.inputs));
         let whole = session.graph(&asked.and_everything(session));
         (asked, whole)
     });
@@ -77,13 +77,13 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
 }
 
 /// What the arguments come to.
-struct Asked {
+struct GraphArguments {
     targets: Vec<Target>,
     files: Vec<SourceFile>,
     problems: Vec<Diagnostic>,
 }
 
-impl Asked {
+impl GraphArguments {
     fn new(session: &Session<'_>, wanted: Wanted) -> Self {
         let db = session.db();
         let files = wanted.whole(session);

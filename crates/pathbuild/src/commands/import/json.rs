@@ -31,8 +31,7 @@ pub(super) fn json(context: &Context, facts: &Facts<'_>) -> Value {
 }
 
 fn tally(tally: &Tally) -> Value {
-    let kind =
-        |kind: &pathbuild_gcode::summary::Kind| json!({ "count": kind.moves, "length": kind.total.length });
+    let kind = |kind: &pathbuild_gcode::summary::MoveTotals| json!({ "count": kind.moves, "length": kind.total.length });
     json!({
         "count": tally.moves(),
         "arcs": tally.arcs,

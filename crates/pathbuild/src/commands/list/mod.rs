@@ -5,7 +5,7 @@ mod row;
 mod stats;
 
 use pathbuild_workspace::list::{Listed, Request};
-use pathbuild_workspace::posting::{Poster, Wishes};
+use pathbuild_workspace::posting::{PostProcessor, PostArguments};
 use pathbuild_workspace::session::Session;
 
 use crate::args::{Format, ListArgs};
@@ -41,7 +41,7 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// Lists, and shows the paths; findings are those of directories and drawings, since errors of paths are a part of what is shown.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
     let inputs = args.inputs();
-    let poster = match Poster::of_run(context, args.post.as_deref(), Wishes::default()) {
+    let poster = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default()) {
         Ok(poster) => poster,
         Err(problems) => return context.fail(problems),
     };

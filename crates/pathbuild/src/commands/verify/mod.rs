@@ -19,7 +19,7 @@ use against::Against;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
-    let wishes = match Wishes::new(args) {
+    let wishes = match StockOptions::new(args) {
         Ok(wishes) => wishes,
         Err(fault) => return context.refuse(vec![*fault]),
     };
@@ -42,14 +42,14 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
 }
 
 /// What the command line says of cutter and material.
-struct Wishes {
+struct StockOptions {
     /// Diameter in mm.
     cutter: Option<f64>,
     /// Height of the upper face in mm.
     surface: Option<f64>,
 }
 
-impl Wishes {
+impl StockOptions {
     fn new(args: &VerifyArgs) -> Result<Self, Box<Diagnostic>> {
         let cutter = args.cutter.as_deref().map(|text| positive("cutter", text)).transpose()?;
         let surface = args.surface.as_deref().map(|text| number("surface", text)).transpose()?;
@@ -65,7 +65,7 @@ fn check(
     context: &Context,
     file: &Utf8Path,
     args: &VerifyArgs,
-    wishes: &Wishes,
+    wishes: &StockOptions,
     against: Option<&Against>,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
     let machine = machine(context);

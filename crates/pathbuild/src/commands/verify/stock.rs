@@ -5,9 +5,9 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Action, Step};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{Piece, Stock};
+use pathbuild_gcode::verify::{Stock, StockSpan};
 
-use super::Wishes;
+use super::StockOptions;
 use super::against::Against;
 use crate::commands::program::Program;
 use crate::context::Context;
@@ -55,7 +55,7 @@ pub(super) fn stock(
     context: &Context,
     program: &Program,
     tools: &Tools,
-    wishes: &Wishes,
+    wishes: &StockOptions,
     against: Option<&Against>,
 ) -> Option<Stock> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
@@ -65,7 +65,7 @@ pub(super) fn stock(
         None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
     };
     let uniform = |surface: f64| {
-        let pieces = cutters.iter().map(|(line, cutter)| Piece { line: *line, surface, cutter: *cutter });
+        let pieces = cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
         Stock::of_pieces(pieces.collect())
     };
     if let Some(surface) = wishes.surface.or(against.and_then(Against::surface)) {

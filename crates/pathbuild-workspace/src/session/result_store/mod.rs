@@ -12,10 +12,10 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Clock, FileState, Kept, Key, Listings, Looking, Lookup, Place, Reason, Stamp, Unusable, Verdict, reasons,
-    verify,
+    Clock, FileState, Key, Listings, Looking, Lookup, Reason, Snapshot, Stamp, TreeStore, Unusable, Verdict,
+    reasons, verify,
 };
-use pathbuild_db::system::Kind;
+use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
 
 use super::Session;
@@ -31,15 +31,15 @@ use writing::Writing;
 
 /// The results that are kept for a question.
 #[derive(Debug)]
-pub struct Keeper {
-    place: Place,
+pub struct ResultStore {
+    place: TreeStore,
     key: Key,
     base: Utf8PathBuf,
     coverage: Coverage,
     scope: Scope,
     /// The time before anything was read; `None` where the cache cannot be written.
     begun: Option<Clock>,
-    kept: Kept,
+    kept: Snapshot,
     verdict: Verdict,
     /// The record that is likely asked for next: whoever asks does so in order.
     next: Cell<usize>,
@@ -60,7 +60,7 @@ pub struct Question<'a> {
 
 /// A result that was made now.
 #[derive(Debug, Default)]
-pub struct Made {
+pub struct FreshResult {
     /// What it is of.
     pub of: Box<str>,
     /// Everything that it was made from.
@@ -97,14 +97,14 @@ pub enum OutputState {
 
 /// What a kept result was made from.
 #[derive(Clone, Debug)]
-pub struct Facts<'a> {
+pub struct Dependencies<'a> {
     /// The files.
     pub files: Vec<&'a Utf8Path>,
     /// What was looked for: directory and name.
     pub lookups: Vec<(&'a Utf8Path, Box<str>)>,
 }
 
-impl Keeper {
+impl ResultStore {
     /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
     pub fn open(context: &Workspace, question: Question<'_>) -> Option<Self> {
         let Question { whose, text, scope, listings } = question;
@@ -126,7 +126,7 @@ impl Keeper {
             Ok(kept) => kept.unwrap_or_default(),
             Err(reason) => {
                 note(context, reason);
-                Kept::default()
+                Snapshot::default()
             }
         };
         let coverage = Coverage::new(context);
@@ -156,11 +156,11 @@ impl Keeper {
     }
 
     /// What a kept result was made from.
-    pub fn facts(&self, of: &str) -> Option<Facts<'_>> {
+    pub fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
         let record = self.kept.record(self.record(of)?);
         let files = record.files().map(|file| self.kept.file(file).path());
         let sought = |Lookup { directory, name }: Lookup| (self.kept.directory(directory).path(), name);
-        Some(Facts { files: files.collect(), lookups: record.lookups().map(sought).collect() })
+        Some(Dependencies { files: files.collect(), lookups: record.lookups().map(sought).collect() })
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
@@ -177,7 +177,7 @@ impl Keeper {
     }
 
     /// Keeps what was made now beside what still holds, also of other drawings. Nothing is written where nothing changed.
-    pub fn keep(&self, session: &Session<'_>, made: &[Made]) {
+    pub fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
         let is_as_it_was = made.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
         let made_now: HashSet<&str> = made.iter().map(|made| &*made.of).collect();
@@ -199,7 +199,7 @@ impl Keeper {
 /// Holds what was kept against the files as they are.
 fn look(
     workspace: &Workspace,
-    kept: &Kept,
+    kept: &Snapshot,
     coverage: &Coverage,
     scope: &Scope,
     listings: Listings,
@@ -229,7 +229,7 @@ pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
 
 /// Earlier versions kept results beside the configuration.
 fn note_old(context: &Workspace, base: &Utf8Path) {
-    if context.system.kind(&base.join(OLD)) == Kind::Directory {
+    if context.system.kind(&base.join(OLD)) == FileKind::Directory {
         context.reporter.status(context.choose(
             "results are kept in your cache directory now: .pathbuild beside the configuration is not used any more and can be deleted",
             "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis aufgehoben: .pathbuild neben der Konfiguration wird nicht mehr gebraucht und kann gelöscht werden",

@@ -35,7 +35,7 @@ pub(crate) struct Miss {
 
 /// What is overlapped, in the order in which it is preferred.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Kind {
+enum OverlapKind {
     Circle,
     Arc,
     Line,
@@ -52,9 +52,9 @@ pub(crate) struct Found {
 /// The candidate that a text with this circle belongs to: the nearest overlapped circle, else arc, else line; the first of several at
 /// the same distance.
 pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes) -> Option<Found> {
-    let mut nearest: Option<(Kind, f64, usize)> = None;
-    let mut second: Option<(Kind, f64, usize)> = None;
-    let is_same_group = |one: Option<(Kind, f64, usize)>, other: usize| {
+    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
+    let mut second: Option<(OverlapKind, f64, usize)> = None;
+    let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
         let group = candidates[other].group;
         group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
     };
@@ -99,22 +99,22 @@ pub(crate) fn nearest_miss(circle: &TextCircle, candidates: &[Candidate], boxes:
 }
 
 /// How far a text is from a shape that it overlaps.
-fn overlap(text: &TextCircle, shape: &Shape) -> Option<(Kind, f64)> {
+fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
     match shape {
         Shape::Circle { centre, radius } => {
             let distance = text.distance_to_centre(*centre);
-            (distance < text.radius + radius).then_some((Kind::Circle, distance))
+            (distance < text.radius + radius).then_some((OverlapKind::Circle, distance))
         }
         Shape::Curve(Curve::Arc(arc)) => {
             // Looked at first: it is soon said, and true of few of the arcs around.
             if text.distance_to_circle(arc.centre, arc.radius) > text.radius {
                 return None;
             }
-            text.distance_to_arc(arc).map(|distance| (Kind::Arc, distance))
+            text.distance_to_arc(arc).map(|distance| (OverlapKind::Arc, distance))
         }
         Shape::Curve(Curve::Line(line)) => {
             let distance = text.distance_to_line(line)?;
-            (distance < text.radius).then_some((Kind::Line, distance))
+            (distance < text.radius).then_some((OverlapKind::Line, distance))
         }
     }
 }

@@ -15,7 +15,7 @@ use std::time::SystemTime;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 
-use super::{Entry, Kind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
 /// Paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,11 +95,11 @@ impl System for OsSystem {
         Ok(directory::each_entry(readable(directory), take)?)
     }
 
-    fn kind(&self, path: &Utf8Path) -> Kind {
+    fn kind(&self, path: &Utf8Path) -> FileKind {
         match fs::metadata(readable(path)) {
-            Ok(data) if data.is_dir() => Kind::Directory,
-            Ok(_) => Kind::File,
-            Err(_) => Kind::Missing,
+            Ok(data) if data.is_dir() => FileKind::Directory,
+            Ok(_) => FileKind::File,
+            Err(_) => FileKind::Missing,
         }
     }
 

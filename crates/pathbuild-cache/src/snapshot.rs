@@ -14,7 +14,7 @@ use crate::stamp::Stamp;
 
 /// Results with everything that they were made from, as they were kept. The default is that of nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Kept {
+pub struct Snapshot {
     /// The file up to the texts.
     bytes: Vec<u8>,
     tables: [Range<usize>; TABLES],
@@ -25,21 +25,21 @@ pub struct Kept {
 /// A file as it was read.
 #[derive(Clone, Copy, Debug)]
 pub struct KeptFile<'a> {
-    kept: &'a Kept,
+    kept: &'a Snapshot,
     row: Row<'a>,
 }
 
 /// A directory as it was listed.
 #[derive(Clone, Copy, Debug)]
 pub struct KeptDirectory<'a> {
-    kept: &'a Kept,
+    kept: &'a Snapshot,
     row: Row<'a>,
 }
 
 /// A result.
 #[derive(Clone, Copy, Debug)]
 pub struct KeptRecord<'a> {
-    kept: &'a Kept,
+    kept: &'a Snapshot,
     row: Row<'a>,
 }
 
@@ -47,7 +47,7 @@ pub struct KeptRecord<'a> {
 #[derive(Clone, Copy, Debug)]
 struct Row<'a>(&'a [u8]);
 
-impl Kept {
+impl Snapshot {
     /// What a file keeps behind its head; `None` where something is out of bounds.
     pub(crate) fn new(mut file: Vec<u8>, head: usize) -> Option<Self> {
         let counts = Row(file.get(head..head + COUNTS * WORD)?);

@@ -6,12 +6,12 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp};
 use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
 
-use super::{Keeper, Made, MadeOutput};
+use super::{FreshResult, MadeOutput, ResultStore};
 use crate::session::Session;
 
 /// A catalogue while it is put together.
 pub(super) struct Writing<'a> {
-    keeper: &'a Keeper,
+    result_store: &'a ResultStore,
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
@@ -30,14 +30,19 @@ pub(super) struct Writing<'a> {
 }
 
 impl<'a> Writing<'a> {
-    pub(super) fn new(keeper: &'a Keeper, session: &'a Session<'a>, begun: Clock, made: &'a [Made]) -> Self {
-        let kept = &keeper.kept;
+    pub(super) fn new(
+        result_store: &'a ResultStore,
+        session: &'a Session<'a>,
+        begun: Clock,
+        made: &'a [FreshResult],
+    ) -> Self {
+        let kept = &result_store.kept;
         let db = session.db();
         let traces = || made.iter().flat_map(|made| &made.traces);
         let read = traces().flat_map(|trace| &trace.files);
         let asked = traces().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories);
         Self {
-            keeper,
+            result_store,
             session,
             begun,
             catalogue: Catalogue::default(),
@@ -58,8 +63,8 @@ impl<'a> Writing<'a> {
     /// Takes over a record against which nothing was known, unless this run read something else in one of its drawings, or made one of
     /// its files of something else.
     pub(super) fn add_kept(&mut self, number: usize) {
-        let record = self.keeper.kept.record(number);
-        let is_written = |file: usize| self.written.contains(self.keeper.kept.file(file).path());
+        let record = self.result_store.kept.record(number);
+        let is_written = |file: usize| self.written.contains(self.result_store.kept.file(file).path());
         if record.files().any(|file| self.is_other(file)) || record.outputs().any(is_written) {
             return;
         }
@@ -72,7 +77,7 @@ impl<'a> Writing<'a> {
     }
 
     /// Adds a record that was made now; not where a drawing could not be read, or changed meanwhile: what follows from that passes with it.
-    pub(super) fn add_made(&mut self, made: &Made) {
+    pub(super) fn add_made(&mut self, made: &FreshResult) {
         let Some(payload) = &made.payload else { return };
         let db = self.session.db();
         let mut drawings = made.traces.iter().flat_map(|trace| &trace.files);
@@ -103,9 +108,11 @@ impl<'a> Writing<'a> {
 
     /// Whether this run read other bytes than those that are known of a file at which it did not look before.
     fn is_other(&self, number: usize) -> bool {
-        let file = self.keeper.kept.file(number);
-        let read =
-            self.read.get(file.path()).filter(|_| self.keeper.verdict.files[number] == FileState::Unlooked);
+        let file = self.result_store.kept.file(number);
+        let read = self
+            .read
+            .get(file.path())
+            .filter(|_| self.result_store.verdict.files[number] == FileState::Unlooked);
         read.is_some_and(|content| content.map(|(hash, _)| hash) != file.hash())
     }
 
@@ -113,9 +120,9 @@ impl<'a> Writing<'a> {
         if let Some(new) = self.kept_files[number] {
             return new;
         }
-        let file = self.keeper.kept.file(number);
+        let file = self.result_store.kept.file(number);
         let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
-        match self.keeper.verdict.files[number] {
+        match self.result_store.verdict.files[number] {
             FileState::Resting | FileState::Unlooked => {}
             FileState::Restored(stamp) => fact.stamp = stamp.settled(self.begun),
             // An output that is not what it should be: its hash is still that of what should be there.
@@ -133,9 +140,9 @@ impl<'a> Writing<'a> {
     /// A drawing that was read now.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
-        let known = self.keeper.kept.file_of(path);
+        let known = self.result_store.kept.file_of(path);
         let is_known = |number: &usize| {
-            self.keeper.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
+            self.result_store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
         match known.filter(is_known) {
             Some(number) => self.kept_file(number),
@@ -183,7 +190,7 @@ impl<'a> Writing<'a> {
         if let Some(new) = self.kept_directories[number] {
             return new;
         }
-        let fact = self.keeper.verdict.directories[number].clone();
+        let fact = self.result_store.verdict.directories[number].clone();
         let new = self.push_directory(fact);
         self.kept_directories[number] = Some(new);
         new
@@ -194,7 +201,7 @@ impl<'a> Writing<'a> {
         if let Some(known) = self.directories.get(path) {
             return *known;
         }
-        let fact = DirectoryFact::now(path, &self.keeper.base);
+        let fact = DirectoryFact::now(path, &self.result_store.base);
         self.push_directory(fact)
     }
 

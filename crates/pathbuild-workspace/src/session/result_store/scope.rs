@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use camino::Utf8Path;
-use pathbuild_db::system::{Kind, System};
+use pathbuild_db::system::{FileKind, System};
 
 use crate::session::{Found, Session};
 
@@ -44,7 +44,7 @@ impl Scope {
     /// Whether a result may be asked for another time: its drawing is there. A run of single drawings does not look at others.
     pub(super) fn may_return(&self, of: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(of));
-        let is_file = || system.kind(drawing) == Kind::File;
+        let is_file = || system.kind(drawing) == FileKind::File;
         match self {
             Self::All => is_file(),
             Self::Drawings { directories, .. } => {

@@ -106,7 +106,7 @@ pub trait System: Debug + Send + Sync {
     }
 
     /// What is under a name.
-    fn kind(&self, path: &Utf8Path) -> Kind;
+    fn kind(&self, path: &Utf8Path) -> FileKind;
 
     /// The one name of a file that can be reached under several.
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf;
@@ -127,7 +127,7 @@ pub trait System: Debug + Send + Sync {
 /// What is under a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Kind {
+pub enum FileKind {
     File,
     Directory,
     Missing,

@@ -9,8 +9,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use crate::facts::Catalogue;
 use crate::flat::TooMuch;
 use crate::format::{self, Key, Unusable};
-use crate::kept::Kept;
 use crate::private;
+use crate::snapshot::Snapshot;
 use crate::stamp::Clock;
 use crate::upkeep::is_ours;
 
@@ -25,7 +25,7 @@ pub enum Home {
 
 /// Where the results of one tree are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct TreeStore {
     directory: Utf8PathBuf,
     /// The real path of the tree, where results are only for it.
     tree: Option<Utf8PathBuf>,
@@ -37,7 +37,7 @@ pub(crate) const TREE: &str = "tree";
 pub(crate) const TAG: &str = "CACHEDIR.TAG";
 pub(crate) const SIGNATURE: &str = "Signature: 8a477f597d28d172789f06886806bc55";
 
-impl Place {
+impl TreeStore {
     /// That of the tree whose configuration is in this directory. Nothing is made yet.
     pub fn of_tree(home: &Home, tree: &Utf8Path) -> Self {
         match home {
@@ -71,7 +71,7 @@ impl Place {
     ///
     /// # Errors
     /// Why what is there cannot be used.
-    pub fn load(&self, key: &Key) -> Result<Option<Kept>, Unusable> {
+    pub fn load(&self, key: &Key) -> Result<Option<Snapshot>, Unusable> {
         match private::read(&self.directory.join(key.file_name())) {
             Ok(Some(file)) => format::decode(key, file).map(Some),
             Ok(None) => Ok(None),
