@@ -96,10 +96,11 @@ fn a_full_cache_changes_nothing() {
     for pages in 0..=16 {
         // It may not fit: then the disk is full.
         _ = fs::write(caches.join("filler"), vec![b'x'; pages * 4096]);
-        let kept = place.run("check --cache-dir caches --format json");
+        let kept = place.run("check --cache-dir caches/kept --format json");
         assert_eq!((kept.status, &kept.stdout), (Some(0), &without.stdout), "{kept}");
-        assert!(!kept.stderr.contains("nothing is kept"), "{kept}");
-        assert_eq!(place.run("check --cache-dir caches").status, Some(0));
+        // With room, something is kept: else nothing was tried.
+        assert!(pages > 0 || fs::read_dir(caches.join("kept")).unwrap().count() > 1, "{kept}");
+        fs::remove_dir_all(caches.join("kept")).ok();
     }
     drop(small);
 }

@@ -5,7 +5,7 @@ mod row;
 mod stats;
 
 use pathbuild_workspace::list::{Listed, Request};
-use pathbuild_workspace::posting::{PostProcessor, PostArguments};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
 use crate::args::{Format, ListArgs};
