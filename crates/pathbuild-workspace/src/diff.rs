@@ -115,11 +115,9 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) ->
 pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
     let Tree { session, inputs, root } = new;
     session.settled(|session| {
-        let mut new = Tree { session, inputs: *inputs, root: *root };
+        let mut new = Tree { session, inputs, root };
         let Tree { session, inputs, root } = &mut *old;
-        session.settled(|session| {
-            settled(&mut Tree { session, inputs: *inputs, root: *root }, &mut new, pictures)
-        })
+        session.settled(|session| settled(&mut Tree { session, inputs, root }, &mut new, pictures))
     })
 }
 

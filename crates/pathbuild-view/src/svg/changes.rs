@@ -111,12 +111,11 @@ fn stroke(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str, da
 
 fn color(kind: Option<ChangeKind>) -> &'static str {
     match kind {
-        None => RAPID,
+        None | Some(ChangeKind::Reordered) => RAPID,
         Some(ChangeKind::Added) => ADDED,
         Some(ChangeKind::Removed) => REMOVED,
         Some(ChangeKind::Altered { .. }) => BAR,
         Some(ChangeKind::Shifted(_)) => SHIFTED,
-        Some(ChangeKind::Reordered) => RAPID,
     }
 }
 

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::Diagnostic;
 use super::deliver::{Delivered, OutputSettings, Task};
 use super::job::{Job, Known, Maker, take_clashes};
 use super::store::{KnownPaths, Store, of};
-use super::targets::Targets;
+use super::targets::Selection;
 use super::write_queue::deliver_all;
 use super::{Request, options};
 use crate::session::{CheckedTarget, Found, Session};
@@ -23,7 +23,7 @@ pub(super) struct Making<'a> {
 
 /// What came of a run.
 pub(super) struct RunResult {
-    pub(super) asked: Targets,
+    pub(super) asked: Selection,
     /// What was not known.
     pub(super) answers: Vec<Answer>,
     pub(super) jobs: Vec<Job>,
@@ -63,7 +63,7 @@ impl Making<'_> {
     pub(super) fn make(&self, session: &mut Session<'_>) -> Result<RunResult, String> {
         let Request { task, poster, join, .. } = *self.request;
         let mut diagnostics = self.found.problems.clone();
-        let asked = Targets::new(session, self, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
+        let asked = Selection::new(session, self, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
         if task == Task::Print && join.is_none() && asked.targets.len() > 1 {
             return Err("`-o -` takes one path: it would be several programs".into());
         }

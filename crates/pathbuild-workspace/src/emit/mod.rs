@@ -39,7 +39,7 @@ pub(crate) use options::writing;
 pub use provenance::Provenances;
 use stale::Dealt;
 use store::{Run, Store};
-use targets::Targets;
+use targets::Selection;
 
 /// What is to become programs.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +141,7 @@ impl Request<'_> {
 }
 
 /// Says, to whoever wants to know more, how much is as it was in an earlier run.
-fn tell_known(context: &Workspace, asked: &Targets, answers: &[Answer]) {
+fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
     let open: usize = answers.iter().map(|answer| answer.checked.len()).sum();
     let drawings = asked.drawings().count();
     let read = asked.drawings().filter(|drawing| drawing.is_read).count();

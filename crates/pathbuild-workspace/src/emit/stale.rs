@@ -16,7 +16,7 @@ use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::deliver::Delivered;
 use super::job::Job;
-use super::targets::Targets;
+use super::targets::Selection;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session};
 
@@ -76,7 +76,7 @@ pub(super) fn deal_with(
 /// The programs that nothing would write now. `delivered`: what became of each job.
 pub(super) fn stale(
     session: &Session<'_>,
-    asked: &Targets,
+    asked: &Selection,
     jobs: &[Job],
     delivered: &[Delivered],
     poster: Option<&PostProcessor>,
@@ -233,7 +233,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(session: &Session<'_>, asked: &Targets, jobs: &[Job]) -> Self {
+    fn new(session: &Session<'_>, asked: &Selection, jobs: &[Job]) -> Self {
         let db = session.db();
         let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
         let out_dir = out_dir.map(|directory| session.normal(directory));

@@ -20,7 +20,7 @@ use pathbuild_gcode::provenance::Provenance;
 use super::Answer;
 use super::deliver::{Delivered, State, Task, is_of_other_version};
 use super::job::Job;
-use super::targets::Targets;
+use super::targets::Selection;
 use crate::posting::PostProcessor;
 use crate::workspace::Workspace;
 
@@ -130,7 +130,7 @@ pub(super) struct Run<'a> {
     pub(super) task: Task,
     pub(super) join: Option<&'a str>,
     pub(super) poster: Option<&'a PostProcessor>,
-    pub(super) asked: &'a Targets,
+    pub(super) asked: &'a Selection,
     /// What was not known.
     pub(super) answers: &'a [Answer],
     pub(super) jobs: &'a [Job],

@@ -14,7 +14,7 @@ use crate::session::{Argument, Drawing, Drawings, Session, Wanted};
 
 /// The paths to emit, and what the run knows of beside them.
 #[derive(Debug, Default)]
-pub(super) struct Targets {
+pub(super) struct Selection {
     /// Each path, once for each time that it was asked for.
     pub(super) targets: Vec<Target>,
     /// Drawings of which every path was considered.
@@ -25,7 +25,7 @@ pub(super) struct Targets {
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
-impl Targets {
+impl Selection {
     /// What the arguments mean, and what is wrong with them; `None` when there are none and the configuration names no targets. Paths that are
     /// joined are in the order of the arguments, which decides what is milled first.
     pub(super) fn new(

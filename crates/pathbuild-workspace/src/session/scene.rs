@@ -71,8 +71,7 @@ impl Session<'_> {
         let made = self.guarded(slice::from_ref(&checked.target), work).pop();
         match made {
             Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
-            Some(Err(problem)) => diagnostics.push(at(*problem)),
-            Some(Ok(Err(problem))) => diagnostics.push(at(*problem)),
+            Some(Err(problem) | Ok(Err(problem))) => diagnostics.push(at(*problem)),
             Some(Ok(Ok(None))) | None => {}
         }
         let drawn = drawn_path(&self.db, file, name);

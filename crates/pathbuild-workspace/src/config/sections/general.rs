@@ -1,5 +1,7 @@
 //! Keys outside any table.
 
+#![expect(clippy::doc_markdown, reason = "the texts are shown to people who write a pathbuild.toml")]
+
 use std::fmt::Debug;
 
 use camino::Utf8PathBuf;
