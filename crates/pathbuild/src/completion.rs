@@ -31,6 +31,7 @@ pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
 /// Names of paths, drawings and directories.
 pub(crate) fn paths() -> ArgValueCompleter {
     ArgValueCompleter::new(|current: &OsStr| {
+        #[expect(clippy::disallowed_methods, reason = "what a shell completes is no input of a run")]
         let files = PathCompleter::any().filter(|path| {
             path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
         });

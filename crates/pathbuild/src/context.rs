@@ -96,6 +96,7 @@ impl Context {
     }
 
     /// A result of a kind, in JSON: a line of the document.
+    #[expect(clippy::needless_pass_by_value, reason = "a row is made for this")]
     pub(crate) fn row(&self, kind: &str, row: Value) {
         self.printer.json(self.output.stream, lines::typed(kind, &row));
     }

@@ -35,9 +35,9 @@ impl Cli {
 
 /// The command line with `check` before the drawing that stands where the command should.
 fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
-    let named = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
-        (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) => named,
-        _ => return None,
+    let named = error.get(ContextKind::InvalidSubcommand);
+    let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
+        return None;
     };
     Utf8Path::new(named).extension().filter(|it| it.eq_ignore_ascii_case("dxf"))?;
     let place = arguments.iter().position(|argument| argument == named.as_str())?;

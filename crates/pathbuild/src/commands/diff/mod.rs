@@ -27,7 +27,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     };
     let pictures = output.has_pictures().then(|| Pictures { lang: context.lang() });
     let compared = match side::sides(context, args) {
-        Ok([Side::Drawings(old), Side::Drawings(new)]) => drawings(context, &old, &new, pictures),
+        Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
         Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
         Ok(_) => return context.usage("a program is compared with a path or another program"),
         Err(failure) => Err(failure),
@@ -41,12 +41,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     finish(context, &output, comparison)
 }
 
-fn drawings(
-    context: &Context,
-    old: &Drawings,
-    new: &Drawings,
-    pictures: Option<Pictures>,
-) -> Result<Comparison, Failure> {
+fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Pictures>) -> Comparison {
     let mut sessions = [Session::new(&old.workspace), Session::new(&new.workspace)];
     let [before, after] = &mut sessions;
     let mut before = Tree { session: before, inputs: &old.inputs, root: &old.root };
@@ -55,7 +50,7 @@ fn drawings(
     for (problems, side) in comparison.problems.iter_mut().zip([old, new]) {
         side.name(context, problems);
     }
-    Ok(comparison)
+    comparison
 }
 
 /// Two programs, or a program and a path.

@@ -44,7 +44,7 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
     let whole = place.join("tree");
     let index = place.join("index");
     // It is a repository as much as the one it comes from: ignore files count, and nothing is followed out of it.
-    fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
+    make_directory(&whole.join(".git"))?;
     git(&top, Some(&index), &["read-tree", &tree])?;
     git(&top, Some(&index), &["checkout-index", "--all", &format!("--prefix={whole}/")])?;
     let root = if below.is_empty() { whole } else { whole.join(below.trim_end_matches('/')) };
@@ -65,4 +65,9 @@ fn git(directory: &Utf8Path, index: Option<&Utf8Path>, arguments: &[&str]) -> Re
     }
     let said = String::from_utf8_lossy(&output.stderr);
     Err(format!("git: {}", said.lines().next().unwrap_or("it failed")))
+}
+
+#[expect(clippy::disallowed_methods, reason = "the directory is our own, among the system's temporary ones")]
+fn make_directory(place: &Utf8Path) -> Result<(), String> {
+    fs::create_dir_all(place).map_err(|error| error.to_string())
 }

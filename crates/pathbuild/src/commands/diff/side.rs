@@ -76,7 +76,7 @@ fn nature(context: &Context, argument: &str) -> Nature {
         FileKind::File if is_drawing => Nature::Drawings,
         FileKind::File => Nature::Program,
         _ if argument == "." => Nature::Drawings,
-        _ => Nature::Name,
+        FileKind::Missing => Nature::Name,
     }
 }
 

@@ -93,18 +93,17 @@ impl Stats {
             .materials
             .iter()
             .map(|(name, total)| (name.as_deref().map_or_else(none, str::to_owned), total));
-        text.push_str(&self.table(context, say("material M", "Material M"), materials));
+        text.push_str(&Self::table(context, say("material M", "Material M"), materials));
         let cutters = self.cutters.iter().map(|(tool, total)| {
             #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
             let shown = tool.map_or_else(none, |tool| decimal(tool as f64 / 1000.0, 3, lang));
             (shown, total)
         });
-        text.push_str(&self.table(context, say("cutter O", "Fräser O"), cutters));
+        text.push_str(&Self::table(context, say("cutter O", "Fräser O"), cutters));
         text
     }
 
     fn table<'a>(
-        &self,
         context: &Context,
         heading: &str,
         totals: impl Iterator<Item = (String, &'a Total)>,
