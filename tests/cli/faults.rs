@@ -64,17 +64,14 @@ fn a_full_disk_leaves_whole_programs() {
         fs::write(disk.join("filler"), vec![b'x'; (15 - free) * 4096]).unwrap();
         let run = place.run("emit . --out-dir disk");
         let found = fs::read_to_string(&out).unwrap();
-        match run.status {
-            Some(0) => {
-                written += 1;
-                assert_eq!(found.len(), whole.len(), "{run}");
-            }
-            _ => {
-                refused += 1;
-                assert_eq!(run.status, Some(1), "{run}");
-                assert!(run.stderr.contains("PB004"), "{run}");
-                assert_eq!(found, "before");
-            }
+        if run.status == Some(0) {
+            written += 1;
+            assert_eq!(found.len(), whole.len(), "{run}");
+        } else {
+            refused += 1;
+            assert_eq!(run.status, Some(1), "{run}");
+            assert!(run.stderr.contains("PB004"), "{run}");
+            assert_eq!(found, "before");
         }
         assert_eq!(debris(&disk), [""; 0]);
         fs::remove_file(disk.join("filler")).unwrap();

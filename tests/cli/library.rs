@@ -111,7 +111,7 @@ fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
         let found = output(&[&["check", "--format", "json"], arguments].concat()).stdout;
         let found = String::from_utf8(found).expect("JSON is UTF-8");
         let found = found.lines().filter(|line| line.starts_with(r#"{"type":"finding""#));
-        found.map(|line| format!("{line}\n")).collect::<String>()
+        found.collect::<Vec<_>>().join("\n")
     };
     let everything = ["mistakes", "components", "projects"];
     let whole = check(&everything);

@@ -221,7 +221,8 @@ fn gaps(count: usize) -> String {
 }
 
 fn polyline(count: usize) -> String {
-    let vertices: String = (0..=count).map(at).map(|(x, y)| format!("10\n{x}\n20\n{y}\n")).collect();
+    let vertices: Vec<String> = (0..=count).map(at).map(|(x, y)| format!("10\n{x}\n20\n{y}\n")).collect();
+    let vertices = vertices.concat();
     let drawn = format!("0\nLWPOLYLINE\n8\n1202.1P\n6\nCONTINUOUS\n90\n{}\n70\n0\n{vertices}", count + 1);
     entities(&drawn, at(count))
 }

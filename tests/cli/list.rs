@@ -56,8 +56,8 @@ fn a_state_tells_whether_the_program_on_disk_is_that_of_the_drawing() {
     let place = Place::of(LIBRARY);
     let state = |name: &str| {
         let run = place.run(&format!("list {name} --format json"));
-        let row = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
-        let row = row.filter(|row| row["path"] == name).next_back().unwrap_or_else(|| panic!("{run}"));
+        let mut rows = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let row = rows.rfind(|row| row["path"] == name).unwrap_or_else(|| panic!("{run}"));
         (row["state"].as_str().unwrap().to_owned(), row["program"].as_str().map(str::to_owned))
     };
     let is = |state: &str, program: Option<&str>| (state.to_owned(), program.map(str::to_owned));
