@@ -11,20 +11,22 @@ fn main() {
 }
 
 /// A hash of everything that the program is built from: our own sources, the versions of others', the compiler, the target and the profile.
-/// A version number would not do: it stays the same from one change to the next.
+/// In the workspace a version would not do: it stays the same from one change to the next. A published crate does not have the sources
+/// of the others, but their versions are exactly its own (Cargo.toml), and what was published under a version stays as it is.
 fn build_id() -> u128 {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut files = vec![workspace.join("Cargo.lock"), workspace.join("Cargo.toml")];
-    for name in CRATES {
-        let directory = workspace.join("crates").join(name);
-        files.push(directory.join("Cargo.toml"));
-        sources(&directory.join("src"), &mut files);
-        println!("cargo:rerun-if-changed={}", directory.join("src").display());
-    }
-    println!("cargo:rerun-if-changed={}", workspace.join("Cargo.lock").display());
-    files.sort();
+    let has_sources = workspace.join("crates/pathbuild-workspace/build.rs").is_file();
+    let files = if has_sources { workspace_files(&workspace) } else { Vec::new() };
     let mut hash = FNV_BASIS;
-    for variable in ["RUSTC", "TARGET", "PROFILE", "OPT_LEVEL", "CARGO_CFG_TARGET_FEATURE", "RUSTC_VERSION"] {
+    for variable in [
+        "CARGO_PKG_VERSION",
+        "RUSTC",
+        "TARGET",
+        "PROFILE",
+        "OPT_LEVEL",
+        "CARGO_CFG_TARGET_FEATURE",
+        "RUSTC_VERSION",
+    ] {
         hash = with(hash, std::env::var(variable).unwrap_or_default().as_bytes());
     }
     let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
@@ -38,8 +40,26 @@ fn build_id() -> u128 {
     hash
 }
 
+/// The files of the workspace that results depend on, in order.
+fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
+    let mut files = vec![workspace.join("Cargo.lock"), workspace.join("Cargo.toml")];
+    for name in CRATES {
+        let directory = workspace.join("crates").join(name);
+        files.push(directory.join("Cargo.toml"));
+        sources(&directory.join("src"), &mut files);
+        println!("cargo:rerun-if-changed={}", directory.join("src").display());
+    }
+    // Sheets are set in it.
+    let fonts = workspace.join("crates/pathbuild-view/fonts");
+    sources(&fonts, &mut files);
+    println!("cargo:rerun-if-changed={}", fonts.display());
+    println!("cargo:rerun-if-changed={}", workspace.join("Cargo.lock").display());
+    files.sort();
+    files
+}
+
 /// The crates that results depend on.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "pathbuild-cache",
     "pathbuild-db",
     "pathbuild-diagnostic",
@@ -48,6 +68,7 @@ const CRATES: [&str; 9] = [
     "pathbuild-path",
     "pathbuild-post",
     "pathbuild-toolpath",
+    "pathbuild-view",
     "pathbuild-workspace",
 ];
 

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_file, closure, locate,
-    path_names, q_project_findings,
+    Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_file, check_target, closure,
+    locate, path_names, q_project_findings,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{FilePattern, Restriction};
@@ -29,10 +29,10 @@ const EDITS: usize = 10;
 const OF_PROGRAM: u64 = 20;
 
 /// Kinds of faults, each of which is to be in one of twenty states at least.
-const KINDS: [&str; 25] = [
-    "PB002", "PB107", "PB201", "PB202", "PB203", "PB207", "PB301", "PB302", "PB303", "PB304", "PB401",
-    "PB501", "PB502", "PB503", "PB504", "PB505", "PB506", "PB507", "PB508", "PB509", "PB510", "PB511",
-    "PB515", "PB516", "PB517",
+const KINDS: [&str; 27] = [
+    "PB002", "PB107", "PB117", "PB201", "PB202", "PB203", "PB207", "PB301", "PB302", "PB303", "PB304",
+    "PB401", "PB407", "PB501", "PB502", "PB503", "PB504", "PB505", "PB506", "PB507", "PB508", "PB509",
+    "PB510", "PB511", "PB515", "PB516", "PB517",
 ];
 
 #[test]
@@ -185,7 +185,7 @@ impl Asked {
         let closure = closure(&self.db, target);
         let files: Vec<SourceFile> = closure.files(&self.db);
         let faults = files.iter().flat_map(|file| check_file(&self.db, *file));
-        let found = closure.diagnostics.iter().chain(faults).cloned();
+        let found = check_target(&self.db, target).chain(faults).cloned();
         found.map(|it| locate(&self.db, it)).collect()
     }
 }
@@ -199,7 +199,7 @@ impl OnDisk {
         let restrict: Vec<String> =
             rules.restrict.iter().map(|(parent, child)| format!("{parent}:{child}")).collect();
         let configuration = format!(
-            "library = [\"lib\"]\nsearch = {:?}\nrestrict = {restrict:?}\nfeed = 100\n",
+            "library = [\"lib\"]\nsearch = {:?}\nrestrict = {restrict:?}\nfeed = 100\nkeep-out = 'clamps'\n",
             rules.search
         );
         let place = Place::new().file("pathbuild.toml", configuration).file("spare/nothing", "");

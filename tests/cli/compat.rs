@@ -48,7 +48,10 @@ fn the_command_is_told_by_the_options() {
         translated(&["/xO2", "/c", "a.dxf"]).lines().last(),
         Some("pathbuild check --compatible -- a.dxf")
     );
-    assert_eq!(translated(&["a_Clean.gcode"]), "pathbuild adjust --compatible -- a_Clean.gcode");
+    assert_eq!(
+        translated(&["a_Clean.gcode", "--max-correction", "1"]),
+        "pathbuild adjust --max-correction 1 --compatible -- a_Clean.gcode"
+    );
     assert_eq!(
         translated(&["/m0,5", "a_Z.txt"]),
         "pathbuild adjust --max-correction=0,5 --compatible -- a_Z.txt"
@@ -81,11 +84,14 @@ fn a_drawing_named_from_the_root_is_no_option() {
 
 #[test]
 fn wrong_command_lines_are_refused() {
-    for arguments in [&["/k3", "a.dxf"][..], &["a.dxf", "/f"], &["/c"], &["/"]] {
+    for arguments in
+        [&["/k3", "a.dxf"][..], &["a.dxf", "/f"], &["/c"], &["/"], &["/f=", "a.dxf"], &["a_Clean.gcode"]]
+    {
         let run = compat(arguments);
         assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
     }
     assert_snapshot!(compat(&["/k3", "a.dxf"]));
+    assert_snapshot!("no_correction", compat(&["a_Clean.gcode"]));
     assert_snapshot!(compat(&["/fx", "/c", "a.dxf"]));
 }
 
@@ -116,4 +122,43 @@ fn options_with_a_hyphen_are_theirs_and_with_two_ours() {
         translated(&["-c", "/l", "de-AT", "a.dxf"]),
         "pathbuild check --lang=de --compatible -- a.dxf"
     );
+}
+
+#[test]
+fn options_are_written_as_people_write_them() {
+    let plain = "pathbuild emit --feed=150 --rapid=1000 --sweep-height=15 --lang=de --compatible -- a.dxf";
+    for line in [
+        "/f150 /v1000 /s15 /lde a.dxf",
+        "-f150 -v1000 -s15 -lde a.dxf",
+        "/F 150 /V 1000 /S 15 /L DE a.dxf",
+        "-F 150 -V 1000 -S 15 -L de-AT a.dxf",
+        "/f=150 /v:1000 -s=15 /l=de_AT a.dxf",
+        "a.dxf -f 150 -v 1000 -s 15 -l de",
+    ] {
+        assert_eq!(translated(&line.split(' ').collect::<Vec<_>>()), plain, "{line}");
+    }
+    let one = |line: &str| translated(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!(
+        one("-v 1000 a.dxf"),
+        "pathbuild emit --rapid=1000 --compatible -- a.dxf",
+        "not our --verbose"
+    );
+    assert_eq!(
+        one("-x B1 -c a.dxf").lines().next(),
+        Some("pathbuild texts --match=B1 --compatible -- a.dxf")
+    );
+    assert_eq!(
+        one("/x=51 /m=1 a").lines().next(),
+        Some("pathbuild adjust --max-correction=1 --show==51 --compatible -- a")
+    );
+    assert_eq!(compat(&["-h"]).stdout, compat(&["/?"]).stdout);
+    assert!(compat(&["--help"]).stdout.contains("Usage: pathbuild compat"));
+}
+
+#[test]
+fn the_path_that_is_called_compat_is_a_path() {
+    let run = Place::new().run("check compat -v --lang en");
+    assert!(!run.stderr.contains("unexpected argument"), "{run}");
+    let run = Place::new().run("-q compat --lang de -v 1000 /k3");
+    assert!(run.stderr.contains("unbekannte Option /k3"), "{run}");
 }

@@ -286,6 +286,7 @@ fn the_configuration_is_that_of_the_first_argument() {
     assert_eq!(feed("a/b/X.DXF"), "feed = 1");
     assert_eq!(feed("a/b/"), "feed = 1");
     assert_eq!(feed("a/b/../b/.."), "feed = 1");
+    assert_eq!(feed("a"), "feed = 1");
     assert_eq!(feed("2913.1P"), "feed = 2");
     assert_eq!(feed("--config pathbuild.toml a/b/x.dxf"), "feed = 2");
     assert_eq!(line(&place.run_in("a/b", &["config", "show", "x.dxf"]), "feed"), "feed = 1");

@@ -36,7 +36,7 @@ fn told(run: &Run, status: i32, lines: &[&str]) {
 fn nothing_has_changed() {
     let drawing = dxf("1001.1P", "1", LINE);
     let run = two(drawing.clone(), drawing).run("diff old new");
-    told(&run, 0, &["0 of 1 paths changed\n"]);
+    told(&run, 0, &["0 of 1 path changed\n"]);
     assert_eq!(run.stdout.lines().count(), 1, "{run}");
 }
 
@@ -45,14 +45,14 @@ fn a_drawing_that_lies_elsewhere_on_its_sheet_mills_the_same() {
     let shifted =
         "layer 1001.1P\nstart 100,50 \"T5 O2 I9 B1 MPlate S10 F200\"\nmill 100,50 140,50\nend 140,50\n";
     let place = two(dxf("1001.1P", "1", LINE), sheet(shifted).unwrap().to_dxf());
-    told(&place.run("diff old new"), 0, &["0 of 1 paths changed"]);
+    told(&place.run("diff old new"), 0, &["0 of 1 path changed"]);
 }
 
 #[test]
 fn deeper_faster_added_and_gone() {
     let old = dxf("1001.1P", "1", LINE);
     let deeper = two(old.clone(), dxf("1001.1P", "0.5", LINE)).run("diff old new");
-    told(&deeper, 0, &["1001.1P · parts/1001.1P.dxf: changed", "  0.5 mm deeper: ", "1 of 1 paths changed"]);
+    told(&deeper, 0, &["1001.1P · parts/1001.1P.dxf: changed", "  0.5 mm deeper: ", "1 of 1 path changed"]);
     let faster = two(old.clone(), dxf("1001.1P", "1", "mill 0,0 40,0 \"F300\"")).run("diff old new");
     told(&faster, 0, &["faster: F300 instead of F200"]);
     let place = two(old.clone(), old.clone())
@@ -120,7 +120,7 @@ fn a_program_and_the_path_that_it_was_made_from() {
     let diff = |config: &str| {
         place.run(&format!("diff programs/1001.1P_Milling.gcode 1001.1P --config {config}/pathbuild.toml"))
     };
-    told(&diff("old"), 0, &["0 of 1 paths changed"]);
+    told(&diff("old"), 0, &["0 of 1 path changed"]);
     told(&diff("new"), 0, &["0.5 mm deeper"]);
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
@@ -142,7 +142,7 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     git(&place, &["commit", "-q", "-m", "all"]);
     fs::write(place.path().join("parts/1001.1P.dxf"), dxf("1001.1P", "0.5", LINE)).unwrap();
     told(&place.run("diff HEAD"), 0, &["1001.1P · parts/1001.1P.dxf: changed", "0.5 mm deeper"]);
-    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 paths changed"]);
+    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
     git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
     told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
     // The configuration is that of each revision.

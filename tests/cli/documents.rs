@@ -38,7 +38,7 @@ fn run(place: &Place, line: &str) -> Run {
     place.run_in("work", &line.split_whitespace().collect::<Vec<_>>())
 }
 
-const COMMANDS: [&str; 25] = [
+const COMMANDS: [&str; 27] = [
     "check",
     "check 1235.1P --lang de",
     "check nothing.dxf",
@@ -64,6 +64,8 @@ const COMMANDS: [&str; 25] = [
     "cache verify",
     "cache dir",
     "view 1234.1P -o a.svg",
+    "sheet 1234.1P -o sheet.svg",
+    "texts",
 ];
 
 #[test]

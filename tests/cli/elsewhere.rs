@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::Place;
+use crate::support::{Place, Run};
 
 /// Components with faults and without, projects, one of them with probes, and one whose component is missing.
 const LIBRARY: &str = r#"
@@ -150,4 +150,133 @@ fn a_library_that_moves_with_its_cache_says_the_same() {
     fs::rename(place.path().join("one"), place.path().join("two")).unwrap();
     assert_eq!(outcome(&place, "two", "two", ""), expected);
     assert_eq!(outcome(&place, "two", "two", "--no-cache"), expected);
+}
+
+/// A library that writes into a directory of its own, beside a tree without configuration.
+const WORKSHOP: &str = r#"
+== lib/pathbuild.toml ==
+feed = 150
+rapid = 1000
+sweep-height = 20
+library = ["parts"]
+out-dir = "out"
+[tool.2mm]
+diameter = 2
+number = 1
+spindle = 12000
+== lib/parts/1234.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+== lib/parts/1300.dxf ==
+layer 1300.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+probe 20,15 "LA"
+end 40,0
+== stick/2000.dxf ==
+layer 2000.1P
+start 0,0 "T5 O2 I1 B4 MPlate"
+mill 0,0 40,0
+end 40,0
+"#;
+
+impl Place {
+    /// Runs in the library.
+    fn at_work(&self, line: &str) -> Run {
+        self.run_in("lib", &line.split_whitespace().collect::<Vec<_>>())
+    }
+}
+
+/// A workshop with a program that somebody carried away.
+fn carried() -> Place {
+    let place = Place::of(WORKSHOP);
+    assert_eq!(place.at_work("emit 1234.1P 1300.1P").status, Some(0));
+    let program = place.read("lib/out/1234_Milling.gcode");
+    let clean = place.read("lib/out/1300_Clean.gcode");
+    let values = place.read("lib/out/1300_Z.txt").replace("#51=", "#51=5.1");
+    place
+        .file("stick/1234.gcode", program)
+        .file("stick/1300_Clean.gcode", clean)
+        .file("stick/1300_Z.txt", values)
+}
+
+#[test]
+fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
+    let place = carried();
+    let verified = place.at_work("verify ../stick/1234.gcode --against 1234.1P");
+    assert_eq!(verified.status, Some(0), "{verified}");
+    assert!(
+        verified.stderr.contains("1234.gcode: 5 of 5 moves as in path 1234.1P of parts/1234.dxf"),
+        "{verified}"
+    );
+    let posted = place.at_work("post ../stick/1234.gcode --post linuxcnc");
+    assert!(posted.status == Some(0) && posted.stdout.contains("S12000"), "{posted}");
+    let adjusted = place.at_work("adjust ../stick/1300_Clean.gcode --max-correction 1");
+    assert_eq!(adjusted.status, Some(0), "{adjusted}");
+    assert!(!adjusted.stderr.contains("not compared"), "{adjusted}");
+    assert!(place.path().join("lib/out/1300_Milling.gcode").exists(), "out-dir is the library's: {adjusted}");
+    // The program's name alone means the one in out-dir, and where none is there, the one that it says.
+    assert_eq!(place.at_work("adjust ../stick/1300 --max-correction 1").status, Some(1), "no values in out");
+    fs::remove_file(place.path().join("lib/out/1300_Clean.gcode")).unwrap();
+    let adjusted = place.at_work("adjust ../stick/1300 --max-correction 1");
+    assert_eq!(adjusted.status, Some(0), "{adjusted}");
+    let diff = place.at_work("diff ../stick/1234.gcode 1234.1P");
+    assert!(diff.status == Some(0) && diff.stdout.contains("0 of 1 path changed"), "{diff}");
+}
+
+/// Each command that reads a program reads it by the limits of the working directory, but in another tree by that one's.
+#[test]
+fn a_program_in_another_tree_has_the_configuration_of_that() {
+    let small = "[limits]\nfile-size = 100\n";
+    let place = carried().file("lib/pathbuild.toml", small);
+    let commands =
+        ["verify {}", "import {}", "post {} --post grbl", "view {} -o x.svg", "adjust {} --max-correction 1"];
+    for command in commands {
+        let file = if command.starts_with("adjust") { "1300_Clean.gcode" } else { "1234.gcode" };
+        let run = place.at_work(&command.replace("{}", &format!("../stick/{file}")));
+        assert!(run.stderr.contains("PB005"), "{run}");
+    }
+    let place = place.file("stick/pathbuild.toml", "");
+    for command in commands {
+        let file = if command.starts_with("adjust") { "1300_Clean.gcode" } else { "1234.gcode" };
+        let run = place.at_work(&command.replace("{}", &format!("../stick/{file}")));
+        assert!(!run.stderr.contains("PB005"), "{run}");
+    }
+}
+
+/// The path says whose configuration it is, where neither the program nor the working directory has one.
+#[test]
+fn the_configuration_of_the_path_holds_for_a_program_from_elsewhere() {
+    let place = carried();
+    let run = place.run("verify stick/1234.gcode --against lib/parts/1234.dxf");
+    assert_eq!(run.status, Some(0), "{run}");
+    let place = place.file("stick/pathbuild.toml", "");
+    let run = place.run("verify stick/1234.gcode --against lib/parts/1234.dxf");
+    assert!(run.status == Some(2) && run.stderr.contains("PB003"), "two configurations: {run}");
+}
+
+#[test]
+fn a_drawing_outside_of_the_tree_is_told_that_no_configuration_holds() {
+    let place = carried();
+    let outside = place.at_work("emit ../stick/2000.dxf");
+    assert_eq!(outside.status, Some(2), "{outside}");
+    let reason =
+        "it lies outside of the tree of pathbuild.toml; give --config pathbuild.toml, or move the drawing";
+    assert!(outside.stderr.contains(reason), "{outside}");
+    let note = "note: pathbuild.toml does not hold for what lies outside of its tree";
+    assert!(place.at_work("check ../stick/2000.dxf").stderr.contains(note));
+    assert!(
+        place
+            .run_in("lib/parts", &["check", "../../stick/2000.dxf"])
+            .stderr
+            .contains("../pathbuild.toml does not")
+    );
+    assert_eq!(place.at_work("emit ../stick/2000.dxf --config pathbuild.toml").status, Some(0));
+    let nowhere = place.run("emit stick/2000.dxf");
+    assert!(nowhere.stderr.contains("no pathbuild.toml lies beside or above the drawing"), "{nowhere}");
+    for inside in ["check parts/1234.dxf", "verify ../stick/1234.gcode --against 1234.1P"] {
+        assert!(!place.at_work(inside).stderr.contains("does not hold"));
+    }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::conformance::recorded::{self, Form, Run, What};
-use crate::support::{self, Place, runs};
+use crate::support::{self, Place, runs, shown};
 use insta::assert_snapshot;
 use rayon::prelude::*;
 
@@ -64,7 +64,7 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
             if path.is_dir() {
                 open.extend((!path.ends_with(".pathbuild")).then_some(path));
             } else {
-                let name = path.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned();
+                let name = shown(path.strip_prefix(place.path()).unwrap());
                 files.push((name, fs::read(&path).unwrap()));
             }
         }
@@ -384,6 +384,27 @@ fn deps_are_rules_for_make() {
     assert_snapshot!(place.read("out.d"));
 }
 
+/// A drawing that may hold an embedded path by its name was read: an edit may make it a second definition.
+#[test]
+fn deps_have_drawings_that_were_searched_in_vain() {
+    let other = LIBRARY.split("== components/1300.dxf ==").nth(1).unwrap().split("== ").next().unwrap();
+    let other = other.replace("1300.", "1299.");
+    let place = Place::of(&format!("{LIBRARY}== components/1200-1299.dxf =={other}"));
+    let run = place.run("emit 8001.1P --deps out.d");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert_snapshot!(place.read("out.d"));
+}
+
+#[test]
+fn deps_are_told_without_writing_programs() {
+    let place = Place::of(LIBRARY);
+    place.run("emit --deps written.d --out-dir g");
+    let run = place.run("emit --check --deps out.d --out-dir other");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(!place.path().join("other").exists());
+    assert_eq!(place.read("out.d"), place.read("written.d").replace("g/", "other/"));
+}
+
 #[test]
 fn deps_that_cannot_be_written_are_an_error() {
     assert_snapshot!(Place::of(LIBRARY).run("emit 1234.1P -q --deps components"));
@@ -403,6 +424,12 @@ fn two_outputs_of_one_name_are_both_refused() {
             .replace("8001.1P", "8003.1P"),
     );
     assert_snapshot!(same.run("emit --out-dir all"));
+}
+
+/// Where files are the same in whatever case, as on Windows, there are no two such drawings.
+#[cfg(not(windows))]
+#[test]
+fn outputs_whose_names_differ_in_case_are_both_refused() {
     let same = Place::of(
         &LIBRARY
             .replace("8001 a b.dxf", "8002.DXF")

@@ -1,6 +1,6 @@
 //! `import`, `verify` and `post`: programs of any origin. (book: program/posts, book: program/reading)
 
-use crate::support::{Place, runs};
+use crate::support::{Place, runs, shared};
 use insta::assert_snapshot;
 
 /// A program as other software writes it: two tools, a circle, a dwell; no word on the plane.
@@ -164,6 +164,66 @@ fn what_was_emitted_is_what_the_drawing_says() {
     assert_snapshot!(cut_off);
 }
 
+/// The cut would lie within rounding, and yet the number is another one.
+#[test]
+fn an_arc_that_goes_on_into_the_next_line_is_another() {
+    let round = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 30,0\nmill arc centre 30,10 r 10 from 270 to 0\nmill 40,10 40,40\nend 40,40\n";
+    for post in ["native", "haas", "grbl", "xpertmill", "marlin"] {
+        let drawing = pathbuild_testkit::sheet(round).unwrap().to_dxf();
+        let place = Place::of(LIBRARY).file("parts/1235.dxf", drawing);
+        let run = place.run(&format!("emit 1235.1P --post {post} --out-dir out"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let file = std::fs::read_dir(place.path().join("out")).unwrap().next().unwrap().unwrap().path();
+        let good = std::fs::read_to_string(&file).unwrap();
+        let mut lines: Vec<String> = good.lines().map(str::to_owned).collect();
+        let is_arc = |line: &&mut String| line.starts_with("G3 ") || line.starts_with("G03 ");
+        let arc = lines.iter_mut().find(is_arc).unwrap_or_else(|| panic!("{post}: {good}"));
+        let longer = arc.replace("Y10.", "Y10.25").replace("Y10 ", "Y10.25 ");
+        assert_ne!(*arc, longer, "{post}");
+        *arc = longer;
+        let place = place.file("good.nc", &good).file("longer.nc", lines.join("\n") + "\n");
+        let verify = |file: &str| place.run(&format!("verify --dialect {post} --against 1235.1P {file}"));
+        assert_eq!(verify("good.nc").status, Some(0), "{}", verify("good.nc"));
+        let found = verify("longer.nc");
+        assert!(found.status == Some(1) && found.stderr.contains("PB739"), "{post}: {found}");
+    }
+}
+
+/// M30 leaves a tool length on; where G43 follows, that counts.
+#[test]
+fn a_tool_length_of_the_program_before_is_switched_off() {
+    let place = Place::of(LIBRARY);
+    for (post, is_needed) in [("native", true), ("grbl", true), ("linuxcnc", false), ("fanuc", false)] {
+        let run = place.run(&format!("emit 1234.1P --post {post} --out-dir {post}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let file = std::fs::read_dir(place.path().join(post)).unwrap().next().unwrap().unwrap().path();
+        let good = std::fs::read_to_string(&file).unwrap();
+        let without = good.replacen("G49 ", "", 1);
+        assert_ne!(good, without, "{post}");
+        std::fs::write(place.path().join("without.nc"), without).unwrap();
+        let found = place.run(&format!("verify --dialect {post} --against 1234.1P without.nc"));
+        assert_eq!(found.status, Some(i32::from(is_needed)), "{post}: {found}");
+        assert_eq!(found.stderr.contains("no G49 before"), is_needed, "{post}: {found}");
+    }
+}
+
+/// What another program wrote, and people milled, is no fault.
+#[test]
+fn programs_of_cambam_have_no_finding() {
+    let Some(folder) = shared("cambam-output") else { return };
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let programs: Vec<_> = files.filter(|file| file.extension().is_some_and(|it| it != "md")).collect();
+    assert!(programs.len() >= 6, "{programs:?}");
+    for program in programs {
+        let place = Place::new().file("a.nc", std::fs::read(&program).unwrap());
+        let run = place.run("verify a.nc --format concise");
+        assert!(
+            run.status == Some(0) && run.stderr.ends_with("errors: 0, warnings: 0\n"),
+            "{program:?}: {run}"
+        );
+    }
+}
+
 #[test]
 fn a_program_that_follows_a_tilted_plate_mills_nothing_by_rapid() {
     let tilted = "== parts/1700.dxf ==\nlayer 1700.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 40,0\nsweep 40,0 40,50\nmill 40,50 0,50\nprobe 20,15 \"LA\"\nprobe 20,35 \"LB\"\nend 0,50\n";
@@ -174,7 +234,8 @@ fn a_program_that_follows_a_tilted_plate_mills_nothing_by_rapid() {
     assert_eq!(place.run("adjust parts/1700.dxf --max-correction 1").status, Some(0));
     for against in ["", "--against 1700.1P"] {
         let run = place.run(&format!("verify parts/1700_Milling.gcode --cutter 2 {against}"));
-        assert_eq!((run.status, run.stderr.as_str()), (Some(0), "errors: 0, warnings: 0\n"), "{run}");
+        assert!(run.status == Some(0) && run.stderr.ends_with("errors: 0, warnings: 0\n"), "{run}");
+        assert_eq!(run.stderr.contains("10 of 10 moves as in path 1700.1P"), !against.is_empty(), "{run}");
     }
 }
 

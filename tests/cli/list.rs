@@ -51,6 +51,20 @@ fn paths_are_listed_with_what_a_workshop_asks_of_them() {
     assert_snapshot!(runs(&place, ["stats", "stats --lang de", "stats 1234.* --format json"]));
 }
 
+/// A pattern beside a directory means paths in that directory: of one that the library has elsewhere the drawing is named.
+#[test]
+fn a_path_of_another_directory_is_told_with_its_drawing() {
+    let place = Place::of(LIBRARY);
+    let elsewhere = place.run("list components 8001.1P");
+    assert_eq!(elsewhere.status, Some(1), "{elsewhere}");
+    assert!(elsewhere.stderr.contains("note: the library defines it in projects/8001.dxf"), "{elsewhere}");
+    let nowhere = place.run("list components 8009.1P");
+    assert_eq!(nowhere.status, Some(1), "{nowhere}");
+    assert!(!nowhere.stderr.contains("defines it"), "{nowhere}");
+    assert!(nowhere.stderr.contains("note: did you mean 8001.1P?"), "{nowhere}");
+    assert_eq!(place.run("list projects 8001.1P").status, Some(0));
+}
+
 #[test]
 fn a_state_tells_whether_the_program_on_disk_is_that_of_the_drawing() {
     let place = Place::of(LIBRARY);
@@ -127,7 +141,9 @@ fn completed(place: &Place, words: &[&str]) -> Vec<String> {
     program.env("_CLAP_IFS", "\n").args(["--", "pathbuild"]).args(words).current_dir(place.path());
     let output = program.output().unwrap();
     assert!(output.status.success());
-    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+    // Directories are completed by clap, as the system spells them.
+    let stdout = String::from_utf8(output.stdout).unwrap().replace('\\', "/");
+    stdout.lines().map(str::to_owned).collect()
 }
 
 #[test]

@@ -7,6 +7,8 @@
 
 mod agreement;
 mod book;
+#[cfg(unix)]
+mod build_systems;
 mod cache;
 mod check;
 mod compat;
@@ -22,6 +24,7 @@ mod example;
 mod explain_examples;
 mod faults;
 mod gcode;
+mod german;
 mod help;
 mod hostile;
 mod hostile_projects;
@@ -36,6 +39,7 @@ mod machines;
 mod meanwhile;
 mod nesting;
 mod nothing;
+mod pictures;
 mod posts;
 mod prefetch;
 mod probes;
@@ -44,6 +48,8 @@ mod projects;
 mod q_project;
 mod render;
 mod report;
+mod serve;
+mod sheet;
 mod shown;
 mod since;
 mod strangers;
@@ -54,3 +60,4 @@ mod usage;
 mod view;
 mod watch;
 mod why;
+mod words;

@@ -16,6 +16,7 @@ use pathbuild::{Context, ExitStatus, commands};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
 use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
+use pathbuild_diagnostic::Value;
 use pathbuild_workspace::{Workspace, config};
 
 use crate::support::Place;
@@ -92,11 +93,11 @@ impl System for Changing {
         OsSystem.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
         OsSystem.write(path, bytes)
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         OsSystem.remove(path)
     }
 }
@@ -113,8 +114,12 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
     let Ok(cli) = Cli::try_parse_from(["pathbuild"].into_iter().chain(line.split('|'))) else {
         panic!("{line}")
     };
-    let (settings, faults) =
-        config::load(&cli.common.overrides(), &cli.command.inputs(), &Utf8PathBuf::new());
+    let (settings, faults) = config::load(
+        &OsSystem::shared(),
+        &cli.common.overrides(),
+        &cli.command.inputs(),
+        &Utf8PathBuf::new(),
+    );
     assert!(faults.is_empty());
     let printer = Rc::new(Printer::new(Verbosity::Silent, ColorChoice::Never));
     let workspace = Workspace {

@@ -37,7 +37,7 @@ fn a_directory_of_the_configuration_that_is_missing_is_an_error() {
         let place = place(&[("pathbuild.toml", key), ("parts/1234.1P.dxf", PATH)]);
         for command in ["check".to_owned(), "check parts".to_owned(), format!("emit parts {OPTIONS} --check")]
         {
-            assert!(place.run(&command).stderr.contains("names gone, which is no directory"), "{command}");
+            assert!(place.run(&command).stderr.contains("names gone, which is not a directory"), "{command}");
             assert_eq!(place.run(&command).status, Some(1));
         }
         fs::create_dir(place.path().join("gone")).unwrap();

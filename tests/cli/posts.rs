@@ -291,6 +291,57 @@ fn current_and_stale_programs_of_posts_are_known() {
     assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
 }
 
+/// What was written for another machine is harmless while the path has the same moves, and dangerous once it has others.
+#[test]
+fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
+    let before = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
+    let after = before.replace("40,0", "41,0");
+    let drawn = |text: &str| pathbuild_testkit::sheet(text).unwrap().to_dxf();
+    for (old, new) in [("native", "fanuc"), ("fanuc", "native"), ("linuxcnc", "mach3"), ("mach3", "grbl")] {
+        let place = library("").file("1234.dxf", drawn(before));
+        for post in [old, new] {
+            assert_eq!(place.run(&format!("emit 1234.1P --post {post}")).status, Some(0));
+        }
+        let check = format!("emit 1234.1P --check --post {new}");
+        let same = place.run(&check);
+        assert_eq!((same.status, &*same.stdout), (Some(0), ""), "{old}: {same}");
+        let place = place.file("1234.dxf", drawn(&after));
+        assert_eq!(place.run(&format!("emit 1234.1P --post {new}")).status, Some(0));
+        for line in [check, format!("emit . --check --post {new} --restrict x:y")] {
+            let others = place.run(&line);
+            assert_eq!(others.status, Some(1), "{old}: {others}");
+            assert!(
+                others
+                    .stdout
+                    .lines()
+                    .any(|it| it.starts_with("1234_Milling.") && it.ends_with(": not current")),
+                "{old}: {others}"
+            );
+            assert!(
+                others.stderr.contains("PB520") && others.stderr.contains("has other moves than"),
+                "{old}: {others}"
+            );
+        }
+        assert_eq!(place.run(&format!("emit 1234.1P --post {new} --remove-stale")).status, Some(0));
+        assert_eq!(place.run(&format!("emit 1234.1P --check --post {new}")).status, Some(0));
+    }
+}
+
+/// Also under another post than the one that wrote it, by the extension.
+#[test]
+fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {
+    for post in pathbuild_post::BUILT_IN.iter().map(|post| post.name) {
+        let place = library("");
+        assert_eq!(place.run(&format!("emit 1234.1P --out-dir out --post {post}")).status, Some(0));
+        std::fs::remove_file(place.path().join("1234.dxf")).unwrap();
+        let stale = place.run("emit . --check --out-dir out");
+        assert!(
+            stale.stderr.contains("was written earlier, and nothing would write it now"),
+            "{post}: {stale}"
+        );
+    }
+}
+
 #[test]
 fn deps_name_the_post_and_what_it_puts_in() {
     let post = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\nprogram-start = '\\\\\\~*head.txt*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";

@@ -161,7 +161,7 @@ fn sarif_has_no_more_results_than_github_takes_and_says_so() {
         (25_000, 25_001),
         "warnings go first"
     );
-    assert!(outside.contains("\"text\": \"1 further results are left out\""));
+    assert!(outside.contains("\"text\": \"further results left out: 1\""));
 }
 
 #[test]

@@ -119,7 +119,12 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
         [[severity-in]]\nfiles = [\"old/new/*.dxf\"]\nPB007 = \"warning\"\n";
     #[expect(clippy::disallowed_methods, reason = "a test's own file")]
     std::fs::write(directory.join("pathbuild.toml"), text).unwrap();
-    let (settings, faults) = config::load(&Overrides::default(), &Inputs::default(), directory);
+    let (settings, faults) = config::load(
+        &pathbuild_db::system::OsSystem::shared(),
+        &Overrides::default(),
+        &Inputs::default(),
+        directory,
+    );
     assert_eq!(faults, []);
     let judged = |message, file: &str| {
         let diagnostic = Diagnostic::new(message).in_file(&directory.join(file));
@@ -163,21 +168,21 @@ fn the_summary_counts_and_agrees_in_number() {
     let one = of(vec![located(diagnostic(), 1), warning(2)], vec![file(1)]);
     assert_eq!(
         summary(&one, 1, time, Lang::En),
-        "1 path in 1 drawing: 1 error in 1 of them, 1 warning, 1 known (0.4 s)"
+        "1 path in 1 drawing: 1 error in 1 drawing, 1 warning, 1 known (0.4 s)"
     );
     assert_eq!(
         summary(&one, 0, time, Lang::De),
-        "1 Pfad in 1 Zeichnung: 1 Fehler in 1 davon, 1 Warnung (0,4 s)"
+        "1 Pfad in 1 Zeichnung: 1 Fehler in 1 Zeichnung, 1 Warnung (0,4 s)"
     );
     let other = diagnostic().in_file(Utf8Path::new("/work/b.dxf"));
     let errors = vec![located(diagnostic(), 1), located(diagnostic(), 2), other, warning(3), warning(4)];
     let many = of(errors, vec![file(1_000), file(1_014)]);
     assert_eq!(
         summary(&many, 0, time, Lang::En),
-        "2,014 paths in 2 drawings: 3 errors in 2 of them, 2 warnings (0.4 s)"
+        "2,014 paths in 2 drawings: 3 errors in 2 drawings, 2 warnings (0.4 s)"
     );
     assert_eq!(
         summary(&many, 0, time, Lang::De),
-        "2.014 Pfade in 2 Zeichnungen: 3 Fehler in 2 davon, 2 Warnungen (0,4 s)"
+        "2.014 Pfade in 2 Zeichnungen: 3 Fehler in 2 Zeichnungen, 2 Warnungen (0,4 s)"
     );
 }

@@ -2,7 +2,9 @@
 
 use std::ffi::OsString;
 
-use crate::support::{Place, Run, program, runs};
+#[cfg(unix)]
+use crate::support::program;
+use crate::support::{Place, Run, runs};
 use clap::{CommandFactory, Parser};
 use insta::assert_snapshot;
 use pathbuild::args::Cli;
@@ -58,14 +60,6 @@ fn unknown_commands_and_options_name_the_nearest() {
 #[test]
 fn options_without_their_value_are_wrong() {
     assert_snapshot!(runs(&Place::new(), ["check --feed", "check --format", "check --jobs", "emit -o"]));
-}
-
-#[test]
-fn what_is_not_built_is_refused() {
-    let place = Place::new().file("a.dxf", "");
-    let run = place.run("check a.dxf --pictures p");
-    assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
-    assert!(run.stderr.contains("is not built yet"), "{run}");
 }
 
 #[test]

@@ -246,6 +246,21 @@ fn a_program_is_seen_without_elements() {
 }
 
 #[test]
+fn a_line_has_the_colour_of_its_deepest_pass_whichever_way_it_goes() {
+    let fro = "G0 Y0\nG0 X0\nG1 Z2 F100\nG1 X10\nG1 Z1\nG1 X0\nG0 Z5\n";
+    let once = "G0 X0 Y5\nG1 Z1\nG1 X10\nG0 Z5\n";
+    let arcs = "G0 Y10\nG1 Z2\nG2 X20 I5 J0\nG1 Z1\nG3 X10 I-5 J0\nG0 Z5\n";
+    let circle = "G0 Y30\nG1 Z2\nG2 I5 J0\nG1 Z1\nG3 I5 J0\nG0 Z5\n";
+    let program = format!("G21 G90 G17 G94 G91.1\nG0 Z5\n{fro}{once}{arcs}{circle}M2\n");
+    let place = Place::new().file("a.gcode", program);
+    let run = place.run("view a.gcode -o a.svg");
+    let svg = place.read("a.svg");
+    let cuts = svg.split("id=\"cuts\"").nth(1).unwrap().split("</g>").next().unwrap();
+    let strokes: Vec<&str> = cuts.split("stroke=\"").skip(1).map(|text| &text[..7]).collect();
+    assert_eq!(strokes, ["#2a1454"; 4], "{run}\n{cuts}");
+}
+
+#[test]
 fn pictures_are_the_same_bytes_on_every_run() {
     let place = library();
     for file in ["a.svg", "b.svg"] {
@@ -301,4 +316,59 @@ fn what_cannot_be_shown_says_so() {
         let run = place.run(line);
         assert!(run.status != Some(0) && run.stderr.contains(said), "{run}");
     }
+}
+
+/// About where the texts of some layers of a picture stand: left, top, right, bottom in px, and what they say.
+fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    let layers = ["texts", "order", "ends", "probes", "embedded"];
+    let is_label = |node: &roxmltree::Node<'_, '_>| {
+        let layer = node.ancestors().find_map(|it| it.attribute("id")).unwrap_or_default();
+        node.has_tag_name("text") && layers.contains(&layer)
+    };
+    let label = |node: roxmltree::Node<'_, '_>| {
+        let number = |name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
+        let (text, size) = (node.text().unwrap_or_default().to_owned(), number("font-size"));
+        // Narrower than it is, so that what only touches counts as apart.
+        let width = 0.5 * size * text.chars().count() as f64;
+        let left =
+            if node.attribute("text-anchor").is_some() { number("x") - width / 2.0 } else { number("x") };
+        ([left, number("y") - 0.6 * size, left + width, number("y")], text)
+    };
+    document.descendants().filter(is_label).map(label).collect()
+}
+
+/// Number, start, parameters and names are read: none is printed over another.
+#[test]
+fn texts_of_a_picture_are_apart() {
+    let mut place = Place::new().file("pathbuild.toml", "sweep-height = 9\nfeed = 150\nrapid = 900\n");
+    let everything_at_one_place = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 3,0\nprobe 0,0 \"LA\"\nmill 3,0 40,20 \"B3\"\nmill 40,20 0,20\nend 0,20\n";
+    place = place.file("own/1234.1P.dxf", sheet(everything_at_one_place).unwrap().to_dxf());
+    let mut drawings = vec!["own/1234.1P.dxf".to_owned()];
+    let book = support::project().join("docs/drawings");
+    for folder in fs::read_dir(&book).unwrap().map(|entry| entry.unwrap().path()).filter(|it| it.is_dir()) {
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if file.extension().is_some_and(|it| it == "dxf") {
+                let drawing = format!("{name}/{}", file.file_name().unwrap().to_str().unwrap());
+                place = place.file(&drawing, fs::read(&file).unwrap());
+                drawings.push(drawing);
+            }
+        }
+    }
+    let mut pictures = 0;
+    for drawing in &drawings {
+        let seen = place.run_with(&["view", drawing, "-o", "picture.svg"]);
+        assert!(seen.stderr.contains("picture.svg: written"), "{seen}");
+        let texts = texts_of(&place.read("picture.svg"));
+        for (number, (a, text)) in texts.iter().enumerate() {
+            for (b, other) in &texts[..number] {
+                let meets = a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+                assert!(!meets, "{drawing}: {text:?} over {other:?}");
+            }
+        }
+        pictures += usize::from(!texts.is_empty());
+        fs::remove_file(place.path().join("picture.svg")).unwrap();
+    }
+    assert!(pictures > 15, "{pictures}");
 }

@@ -124,6 +124,16 @@ fn targets_that_mean_no_path_are_told_at_the_beginning() {
     assert_eq!(unmet("\"projects\"", "watch --format concise"), 0);
 }
 
+/// `watch parts` and `watch ./parts` are the same.
+#[test]
+fn a_directory_without_a_separator_is_watched() {
+    let place = Place::new().file("pathbuild.toml", "feed = 150\n");
+    let place = place.file("parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    let watch = Watch::begin(&place, "watch parts --format concise");
+    watch.write("parts/1001.dxf", dxf("1001.1P", 5, &["1009.1P"]));
+    assert!(watch.until("1001.dxf: changed").iter().any(|line| line.contains("PB503")));
+}
+
 #[test]
 fn drawings_that_come_go_and_are_renamed_are_noticed() {
     let place = library();
@@ -135,8 +145,8 @@ fn drawings_that_come_go_and_are_renamed_are_noticed() {
     watch.write("library/parts/1001 again.dxf", dxf("1001.1P", 5, &[]));
     let said = watch.until("again.dxf: changed");
     assert!(
-        said.last().unwrap().contains("2 drawings checked, 0 new findings, 1 gone")
-            || said.last().unwrap().contains("2 drawings checked, 0 new findings, 2 gone"),
+        said.last().unwrap().contains("2 drawings checked, 0 new findings, 1 fixed")
+            || said.last().unwrap().contains("2 drawings checked, 0 new findings, 2 fixed"),
         "{said:#?}"
     );
 
@@ -148,8 +158,18 @@ fn drawings_that_come_go_and_are_renamed_are_noticed() {
     fs::rename(from, place.path().join("library/projects/7001.dxf")).unwrap();
     let said = watch.until("7001.dxf: changed");
     // It is no longer looked for there.
-    assert!(said.last().unwrap().contains(" 1 new findings"), "{said:#?}");
+    assert!(said.last().unwrap().contains(" 1 new finding,"), "{said:#?}");
     assert!(said.iter().any(|line| line.contains("7001.dxf: warning[PB521]")), "{said:#?}");
+}
+
+/// As people type it: without a separator it could be the name of a path.
+#[test]
+fn a_directory_by_its_name_is_watched() {
+    let place = library().file("aside/1003.dxf", dxf("1003.1P", 5, &[]));
+    let watch = Watch::begin(&place, "watch aside --format concise");
+    watch.write("aside/1004.dxf", dxf("1004.1P", 5, &["1999.1P"]));
+    let said = watch.until("1004.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
 #[test]

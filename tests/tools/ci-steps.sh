@@ -42,16 +42,23 @@ open(p, "w", encoding="latin-1", newline="").write(t)
 P
 git commit -qam "Break a component"
 
-github() { # the action's step Check, as GitHub runs it
-  step "$root/action.yml" runs steps "$1" run > "$place/step.sh"
-  DIRECTORY=library BASE="$base" SARIF="$repository/pathbuild.sarif" RUNNER_TEMP="$place/temp" GITHUB_STEP_SUMMARY="$place/summary.md" \
+github() { # a step of the action by its name, as GitHub runs it
+  python3 -c '
+import sys, yaml
+steps = yaml.safe_load(open(sys.argv[1]))["runs"]["steps"]
+print(next(step["run"] for step in steps if step["name"] == sys.argv[2]))' "$root/action.yml" "$1" > "$place/step.sh"
+  rm -f "$place/summary.md"
+  DIRECTORY=library URL="https://example.invalid/artifact" BASE="$base" SARIF="$repository/pathbuild.sarif" RUNNER_TEMP="$place/temp" GITHUB_STEP_SUMMARY="$place/summary.md" \
     PATHBUILD_CACHE_DIR="$place/cache" bash --noprofile --norc -eo pipefail "$place/step.sh"
 }
-status=0; github 2 > "$place/annotations" 2> "$place/log" || status=$?
+status=0; github Check > "$place/annotations" 2> "$place/log" || status=$?
 [ "$status" = 1 ] || fail "the action ended with $status: $(cat "$place/log")"
 grep -q '^::error file=library/components/2050.1P.dxf,' "$place/annotations" || fail "no annotation: $(cat "$place/annotations")"
 grep -q 'error' "$place/summary.md" || fail "no summary"
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["runs"][0]["results"]' "$repository/pathbuild.sarif"
+
+github Moves > /dev/null 2> "$place/log" || fail "a path with errors ends the comparison: $(cat "$place/log")"
+grep -q '^| 2050.1P | components/2050.1P.dxf | has errors now' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
 
 gitlab() {
   step "$root/templates/pathbuild.gitlab-ci.yml" pathbuild script 0 > "$place/step.sh"
@@ -69,19 +76,35 @@ git checkout -q change -- library/components/2050.1P.dxf
 if hook 0 > /dev/null 2>&1; then fail "the hook passes a component that is broken"; fi
 git reset -q --hard main
 
+# A pull request that mills less deep.
+git checkout -qb higher
+sed -i 's/B-0.2/B-0.1/' library/components/2050.1P.dxf
+git commit -qam "Raise the bottom"
+github Moves > /dev/null 2> "$place/log" || fail "the comparison ended with an error: $(cat "$place/log")"
+grep -q '^| 8001.1P | projects/8001.1P.dxf | 0.1 mm higher' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
+grep -q '<html' "$place/temp/pathbuild-moves.html" || fail "no pictures"
+github "Link to the pictures"
+grep -q '^\[Pictures of the changes\](https://example.invalid/artifact)' "$place/summary.md" || fail "no link to the pictures"
+rm "$place/temp/pathbuild-moves.html"
+git checkout -q main
+
 # A pull request that breaks nothing.
 git checkout -qb harmless
 echo "A note." > library/NOTES.txt
 git add -A
 git commit -qm "Add a note"
-github 2 > "$place/annotations" 2> "$place/log" || fail "a harmless change is refused: $(cat "$place/log")"
+github Check > "$place/annotations" 2> "$place/log" || fail "a harmless change is refused: $(cat "$place/log")"
 [ ! -s "$place/annotations" ] || fail "annotations of a harmless change"
+github Moves > /dev/null 2> "$place/log" || fail "the comparison ended with an error: $(cat "$place/log")"
+grep -q '0 of [0-9]* paths changed' "$place/summary.md" || fail "no comparison of a harmless change: $(cat "$place/summary.md")"
+[ ! -f "$place/temp/pathbuild-moves.html" ] || fail "pictures of nothing"
+base=0000000000000000000000000000000000000000 github Moves > /dev/null 2>&1 || fail "an unknown base ends the comparison with an error"
 gitlab 2> "$place/log" || fail "the template refuses a harmless change: $(cat "$place/log")"
 
 # Programs: missing, written, changed by hand.
-if github 3 > "$place/out" 2>&1; then fail "programs that are missing are current"; fi
+if github Programs > "$place/out" 2>&1; then fail "programs that are missing are current"; fi
 (cd library && pathbuild emit -q > /dev/null)
-github 3 > "$place/out" 2>&1 || fail "programs just written are not current: $(cat "$place/out")"
+github Programs > "$place/out" 2>&1 || fail "programs just written are not current: $(cat "$place/out")"
 hook 1 > /dev/null 2>&1 || fail "the hook finds current programs not current"
 sed -i 's/X40.000/X41.000/' library/gcode/8001.1P_Milling.gcode
 if hook 1 > /dev/null 2>&1; then fail "a program changed by hand is current"; fi

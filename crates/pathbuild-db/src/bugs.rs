@@ -11,7 +11,7 @@ use salsa::Cancelled;
 ///
 /// # Errors
 /// PB006 when it panicked; without a place.
-pub(crate) fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
+pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         if payload.is::<Cancelled>() {
             resume_unwind(payload);
@@ -24,5 +24,10 @@ pub(crate) fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnosti
 pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+    bug(&reason)
+}
+
+/// PB006, without a place.
+pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", reason)
 }

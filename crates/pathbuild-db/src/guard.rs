@@ -9,19 +9,21 @@ use salsa::{CancellationToken, Cancelled, Database as _};
 
 use crate::bugs::internal_error;
 use crate::database::Database;
+use crate::db::Db as _;
 use crate::drift::Drifted;
 
 /// Work that is under way over one handle of the database.
 #[derive(Debug)]
 pub struct Underway {
-    begun: Instant,
+    /// `None`: there is no clock.
+    begun: Option<Instant>,
     token: CancellationToken,
 }
 
 impl Underway {
     /// Gives up the work if it has taken longer than this.
     pub fn stop_after(&self, limit: Duration) {
-        if self.begun.elapsed() > limit {
+        if self.begun.is_some_and(|begun| begun.elapsed() > limit) {
             self.token.cancel();
         }
     }
@@ -41,7 +43,7 @@ impl Database {
 
     /// Work that begins now on this handle.
     pub fn underway(&self) -> Underway {
-        Underway { begun: Instant::now(), token: self.cancellation_token() }
+        Underway { begun: self.system().now(), token: self.cancellation_token() }
     }
 
     /// Does some work on this handle.
@@ -57,10 +59,7 @@ impl Database {
             let problem = match payload.downcast_ref::<Cancelled>() {
                 // A query that another thread was running has panicked there. If it panics here too, it is known why.
                 Some(Cancelled::PropagatedPanic) => continue,
-                Some(_) => Diagnostic::new(&messages::LIMIT)
-                    .with("what", "the time that this path takes")
-                    .with("limit", format!("{} s", limit.as_secs_f64()))
-                    .with("key", "seconds-per-path"),
+                Some(_) => too_slow(limit),
                 None if payload.is::<Drifted>() => {
                     Diagnostic::new(&messages::UNREADABLE).with("reason", "it changes while it is being read")
                 }
@@ -69,4 +68,12 @@ impl Database {
             return Err(Box::new(problem));
         }
     }
+}
+
+/// PB005 for work that took longer than this, without a place.
+pub fn too_slow(limit: Duration) -> Diagnostic {
+    Diagnostic::new(&messages::LIMIT)
+        .with("what", "the time that this path takes")
+        .with("limit", format!("{} s", limit.as_secs_f64()))
+        .with("key", "seconds-per-path")
 }

@@ -21,9 +21,10 @@ mod scratch;
 mod settings;
 pub mod system;
 
+pub use bugs::{bug, catch_bugs};
 pub use database::Database;
 pub use db::Db;
-pub use guard::Underway;
+pub use guard::{Underway, too_slow};
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use listing::PendingListing;
 pub use queries::{

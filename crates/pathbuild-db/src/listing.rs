@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use camino::Utf8PathBuf;
 use rustc_hash::FxHashMap;
 
+use crate::bugs::catch_bugs;
 use crate::inputs::Directory;
 use crate::system::{Names, System};
 
@@ -31,9 +32,9 @@ pub struct PendingListing {
 }
 
 impl PendingListing {
-    /// Lists the directory.
+    /// Lists the directory. A bug that this shows is left to the query: it would end the run on this thread.
     pub fn run(self) {
-        if let Ok(listing) = self.system.list(&self.path) {
+        if let Ok(Ok(listing)) = catch_bugs(|| self.system.list(&self.path)) {
             // Nobody waits for the names of a directory that has changed since.
             _ = self.names.send(listing.files);
         }

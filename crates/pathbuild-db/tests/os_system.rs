@@ -3,7 +3,13 @@
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Entry, EntryKind, OsSystem, ReadError, System};
+#[cfg(unix)]
+use pathbuild_db::system::{Entry, EntryKind};
+use pathbuild_db::system::{OsSystem, ReadError, System};
+#[cfg(target_os = "linux")]
+use pathbuild_diagnostic::Value;
+#[cfg(target_os = "linux")]
+use pathbuild_diagnostic::reasons::NOT_REGULAR;
 use tempfile::TempDir;
 
 /// A directory with a file of so many bytes.
@@ -50,7 +56,7 @@ fn what_is_no_regular_file_is_refused() {
     use std::process::{Command, Stdio};
 
     let read = |path: &str| OsSystem.read(Utf8Path::new(path), 1_000_000);
-    let refused = Err(ReadError::Other("it is not a regular file".into()));
+    let refused = Err(ReadError::Other(Value::Word(&NOT_REGULAR)));
     assert_eq!(read("/dev/zero"), refused);
     assert_eq!(read("/dev/null"), refused);
     assert_eq!(read("/dev"), Err(ReadError::IsDirectory));
@@ -62,6 +68,7 @@ fn what_is_no_regular_file_is_refused() {
 }
 
 /// The entries of a directory, in order of name.
+#[cfg(unix)]
 fn entries(directory: &Utf8Path) -> Vec<(String, bool, EntryKind)> {
     let mut entries = Vec::new();
     let listed = OsSystem.each_entry(directory, &mut |Entry { name, is_exact, kind }| {

@@ -75,7 +75,7 @@ codes! {
     208 InvalidAtReference "invalid-at-reference" Error "PB208: @ with other letters, to no path, or to a path that uses @";
     209 InvalidRegex "invalid-regex" Error "PB209: E is no regular expression";
     210 ParameterWithoutEffect "parameter-without-effect" Warning "PB210: parameter without effect";
-    211 DoubtfulValue "doubtful-value" Warning "PB211: a value that is allowed and unlikely: B, I or F";
+    211 DoubtfulValue "doubtful-value" Warning "PB211: a value that is allowed and unlikely: B, D, I or F";
     301 InvalidVariableDefinition "invalid-variable-definition" Error "PB301: invalid variable definition";
     302 MissingVariableValue "missing-variable-value" Error "PB302: missing variable value";
     303 UnknownVariable "unknown-variable" Error "PB303: value without definition, or reference to none";
@@ -88,6 +88,7 @@ codes! {
     405 HelixTooLarge "helix-too-large" Error "PB405: a helical circle larger than A";
     406 NoRoomBetweenBars "no-room-between-bars" Error "PB406: the cutter does not fit between two support bars";
     407 InsideKeepOut "inside-keep-out" Error "PB407: the tool comes into a clamp";
+    408 NoGapBetweenBars "no-gap-between-bars" Warning "PB408: support bars without a gap: the whole segment is left standing";
     501 MissingSubpathName "missing-subpath-name" Error "PB501: missing subpath name";
     502 InvalidPathName "invalid-path-name" Error "PB502: invalid path name";
     503 PathNotFound "path-not-found" Error "PB503: path not found";

@@ -12,12 +12,13 @@ pub mod messages;
 mod number;
 mod page;
 mod place;
+pub mod reasons;
 pub mod shown;
 pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
 pub use message::{Lang, Message, Text, Value, Word};
-pub use number::Number;
+pub use number::{Number, in_prose};
 pub use page::{example, page};
 pub use place::{ElementId, EntityKind, Handle, Place, Point, TextFault};

@@ -92,7 +92,7 @@ impl Value {
     pub fn render(&self, lang: Lang) -> String {
         match self {
             Self::Text(text) => shown::line(text).into_owned(),
-            Self::Number(number) => number.to_string(),
+            Self::Number(number) => number.prose(lang),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
             Self::List(items) if items.is_empty() => Self::Word(&crate::words::NONE).render(lang),
@@ -168,6 +168,12 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
         let name = &rest[open + 1..open + length];
         filled.push_str(&rest[..open]);
         match arguments.iter().find(|(argument, _)| *argument == name) {
+            // A number behind a letter is a parameter or a word of G-code: `O2.5`.
+            Some((_, Value::Number(number)))
+                if filled.ends_with(|before: char| before.is_ascii_uppercase()) =>
+            {
+                _ = write!(filled, "{number}");
+            }
             Some((_, value)) => filled.push_str(&value.render(lang)),
             None => _ = write!(filled, "{{{name}}}"),
         }

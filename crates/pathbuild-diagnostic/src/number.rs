@@ -1,6 +1,8 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
+use crate::Lang;
+
 /// A finite or non-finite `f64` that can be compared exactly and hashed, so that values holding it are `Eq`.
 ///
 /// Equality is that of the bits, except that -0 equals 0. It is exact on purpose: whether two coordinates of a drawing coincide is
@@ -17,6 +19,21 @@ impl Number {
 impl From<f64> for Number {
     fn from(value: f64) -> Self {
         Self(value)
+    }
+}
+
+impl Number {
+    /// The number as it stands in a sentence of a language: `0.5`, in German `0,5`.
+    pub fn prose(self, lang: Lang) -> String {
+        in_prose(self.to_string(), lang)
+    }
+}
+
+/// A number as it stands in a sentence or a table of a language. Coordinates, parameters and G-code, which people type back, keep their point.
+pub fn in_prose(number: String, lang: Lang) -> String {
+    match lang {
+        Lang::En => number,
+        Lang::De => number.replace('.', ","),
     }
 }
 

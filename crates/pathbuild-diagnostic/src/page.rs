@@ -1,20 +1,15 @@
 use crate::{Code, Lang};
 
-/// Declares the pages: `PBnnn.en.md`, `PBnnn.de.md` and, where there is one, the example `PBnnn.draw`, which both show.
+/// Declares the pages: `PBnnn.en.md`, `PBnnn.de.md` and, where there is one, the example `PBnnn.draw`, which stands at the end of both as a
+/// table (tests/cli/book/examples.rs).
 macro_rules! pages {
     ($($code:ident $file:literal $($example:ident)?;)*) => {
         /// The page that `pathbuild explain` prints for a code, as Markdown: what it means, usual causes, what to do in the
         /// drawing, an example. `None` for a code that has no page.
         pub fn page(code: Code, lang: Lang) -> Option<&'static str> {
             match (code, lang) {
-                $((Code::$code, Lang::En) => Some(concat!(
-                    include_str!(concat!("pages/", $file, ".en.md"))
-                    $(, shown!($example "\n## Example\n", $file))?
-                )),
-                (Code::$code, Lang::De) => Some(concat!(
-                    include_str!(concat!("pages/", $file, ".de.md"))
-                    $(, shown!($example "\n## Beispiel\n", $file))?
-                )),)*
+                $((Code::$code, Lang::En) => Some(include_str!(concat!("pages/", $file, ".en.md"))),
+                (Code::$code, Lang::De) => Some(include_str!(concat!("pages/", $file, ".de.md"))),)*
                 #[allow(unreachable_patterns, reason = "codes may be added before their pages")]
                 _ => None,
             }
@@ -34,12 +29,6 @@ macro_rules! pages {
 macro_rules! drawn {
     (example $file:literal) => {
         include_str!(concat!("pages/", $file, ".draw"))
-    };
-}
-
-macro_rules! shown {
-    (example $heading:literal, $file:literal) => {
-        concat!($heading, "\n```text\n", include_str!(concat!("pages/", $file, ".draw")), "```\n")
     };
 }
 
@@ -91,6 +80,7 @@ pages! {
     HelixTooLarge "PB405" example;
     NoRoomBetweenBars "PB406" example;
     InsideKeepOut "PB407" example;
+    NoGapBetweenBars "PB408" example;
     MissingSubpathName "PB501" example;
     InvalidPathName "PB502" example;
     PathNotFound "PB503" example;

@@ -2,11 +2,13 @@
 
 use crate::message::Word;
 
+/// Declares words, each with its documentation.
 macro_rules! words {
     ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
         $($(#[$doc])* pub static $key: Word = Word { en: $en, de: $de };)*
     };
 }
+pub(crate) use words;
 
 words! {
     /// An empty list.

@@ -34,7 +34,13 @@ fn an_example_says_which_diagnostic_it_gives() {
         let example = example(code).unwrap_or_else(|| panic!("{code} has no example"));
         assert!(example.starts_with("$ "), "{code} has no command");
         assert!(example.contains(&format!("#! {code}")), "{code} is not noted");
-        assert!(page(code, Lang::De).is_some_and(|page| page.contains(example)), "{code} does not show it");
+        for lang in [Lang::En, Lang::De] {
+            let said = page(code, lang).is_some_and(|page| page.contains(&format!("\n- {code}")));
+            assert!(
+                said,
+                "{code} is not said in {lang:?}: PATHBUILD_UPDATE=1 cargo test --test cli book::examples"
+            );
+        }
     }
 }
 

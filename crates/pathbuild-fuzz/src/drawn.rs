@@ -38,7 +38,12 @@ impl<'a> Choices<'a> {
 const LINE_TYPES: [&str; 9] =
     ["CONTINUOUS", "DIVIDE", "BORDER", "CENTER", "DASHED", "HIDDEN", "DASHDOT", "DOT", "PHANTOM"];
 
-const LAYERS: [&str; 5] = ["1001.1P", "1001.1P~A", "1001.2P", "8001.1P", "0"];
+const LAYERS: [&str; 6] = ["1001.1P", "1001.1P~A", "1001.2P", "8001.1P", "0", CLAMPS];
+
+/// The layer of clamps.
+const CLAMPS: &str = "clamps";
+
+const CLAMP_TEXTS: [&str; 6] = ["Z25", "Z4", "Z0", "25", "Z25 T2", "Z1e9"];
 
 const WORDS: [&str; 40] = [
     "T5",
@@ -101,7 +106,7 @@ pub(crate) fn dxf(choices: &mut Choices<'_>) -> String {
 }
 
 fn any(text: &mut String, choices: &mut Choices<'_>) {
-    let kind = choices.below(12);
+    let kind = choices.below(14);
     let layer = choices.of(&LAYERS);
     let line_type = choices.of(&LINE_TYPES);
     let (x, y) = (choices.coordinate(), choices.coordinate());
@@ -128,6 +133,12 @@ fn any(text: &mut String, choices: &mut Choices<'_>) {
             let content = (0..=choices.below(3)).map(|_| choices.of(&WORDS)).collect::<Vec<_>>().join("\\P");
             written(text, "MTEXT", layer, x, y, &content);
         }
+        11 => clamp(text, choices, x, y),
+        12 => {
+            let radius = choices.of(&RADII);
+            entity(text, "CIRCLE", CLAMPS, line_type, &[at[0], at[1], (40, radius)]);
+            written(text, "TEXT", CLAMPS, x, y, choices.of(&CLAMP_TEXTS));
+        }
         _ => {
             let mut pairs = vec![(90, 3.0), (70, f64::from(choices.below(2)))];
             for _ in 0..3 {
@@ -137,6 +148,16 @@ fn any(text: &mut String, choices: &mut Choices<'_>) {
             entity(text, "LWPOLYLINE", layer, line_type, &pairs);
         }
     }
+}
+
+/// A rectangle, mostly closed, with a height in it.
+fn clamp(text: &mut String, choices: &mut Choices<'_>, x: f64, y: f64) {
+    let (right, top) = (x + choices.coordinate(), y + choices.coordinate());
+    let closed = if choices.below(8) == 7 { 0.0 } else { 1.0 };
+    let corners = [(10, x), (20, y), (10, right), (20, y), (10, right), (20, top), (10, x), (20, top)];
+    entity(text, "LWPOLYLINE", CLAMPS, "CONTINUOUS", &[&[(90, 4.0), (70, closed)][..], &corners].concat());
+    let (middle, height) = ([f64::midpoint(x, right), f64::midpoint(y, top)], choices.of(&CLAMP_TEXTS));
+    written(text, "TEXT", CLAMPS, middle[0], middle[1], height);
 }
 
 fn entity(text: &mut String, kind: &str, layer: &str, line_type: &str, pairs: &[(u16, f64)]) {

@@ -10,3 +10,6 @@ pub mod provenance;
 pub mod read;
 pub mod summary;
 pub mod verify;
+mod written_arc;
+
+pub use written_arc::WrittenArc;

@@ -310,10 +310,18 @@ fn o_words_take_the_rest_of_their_line() {
 
 #[test]
 fn one_message_is_said_so_often_and_then_counted() {
-    let many = "?\n".repeat(50);
-    let mut reader = BlockReader::new(many.as_bytes(), Native.rules());
-    while reader.next_block().is_some() {}
-    let problems = reader.into_problems().into_diagnostics();
+    let said = |lines: usize| {
+        let many = "?\n".repeat(lines);
+        let mut reader = BlockReader::new(many.as_bytes(), Native.rules());
+        while reader.next_block().is_some() {}
+        reader.into_problems().into_diagnostics()
+    };
+    assert!(said(20).iter().all(|problem| problem.notes.is_empty()));
+    assert_eq!(
+        said(21)[19].notes[0].text(pathbuild_diagnostic::Lang::En),
+        "this is said of one more line, which is not shown"
+    );
+    let problems = said(50);
     assert_eq!(problems.len(), 20);
     assert_eq!(
         problems[19].notes[0].text(pathbuild_diagnostic::Lang::En),

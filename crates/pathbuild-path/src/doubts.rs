@@ -15,6 +15,8 @@ pub struct Doubts {
     pub below_plate: f64,
     /// How many times T an infeed may be.
     pub infeed: f64,
+    /// How many times T a mark may be deep.
+    pub mark_depth: f64,
     /// The machine's largest feed in mm/min.
     pub maximum_feed: Option<f64>,
     /// By how much a text must be nearer to its element than to another, in mm.
@@ -23,7 +25,7 @@ pub struct Doubts {
 
 impl Default for Doubts {
     fn default() -> Self {
-        Self { below_plate: 0.5, infeed: 1.0, maximum_feed: None, text_margin: 0.1 }
+        Self { below_plate: 0.5, infeed: 1.0, mark_depth: 0.5, maximum_feed: None, text_margin: 0.1 }
     }
 }
 
@@ -35,6 +37,32 @@ impl Doubts {
         Some(problem.with("limit", maximum))
     }
 }
+
+/// What is doubtful about a mark whose bottom, own or the path's, is at this height in mm, and whether that is the path's.
+pub(crate) fn check_mark(
+    bottom: f64,
+    own: &Values<'_>,
+    path: &Values<'_>,
+    limits: &Doubts,
+) -> Option<(Diagnostic, bool)> {
+    let thickness = path.number(Letter::T).number()?;
+    let depth = thickness - bottom;
+    if !above(depth, limits.mark_depth * thickness) {
+        return None;
+    }
+    let is_own = own.has(Letter::D);
+    let message = if is_own { &messages::DEEP_MARK } else { &messages::DEEP_MARKS_OF_PATH };
+    let problem = Diagnostic::new(message)
+        .with("value", bottom)
+        .with("depth", depth)
+        .with("thickness", thickness)
+        .with("example", thickness - thickness.min(SHALLOW));
+    let says = if is_own { own } else { path };
+    Some((says.underline(Letter::D, problem), !is_own))
+}
+
+/// A usual depth of a mark in mm.
+const SHALLOW: f64 = 0.2;
 
 /// What is doubtful about the values that `own` gives and that have an effect on the element. `path`: the path's.
 pub(crate) fn check(

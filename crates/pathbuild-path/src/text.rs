@@ -234,7 +234,18 @@ impl<'t> ParameterText<'t> {
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        (how == Use::Ignored).then(|| Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", first))
+        (how == Use::Ignored).then(|| self.without_effect(letter, piece, class))
+    }
+
+    /// What to do depends on what was meant: who writes one of the two depths where the other counts must not just remove it.
+    fn without_effect(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
+        let counts = |other| class.use_of(other) == Use::Needed;
+        let problem = match letter {
+            Letter::B if counts(Letter::D) => Diagnostic::new(&messages::BOTTOM_OF_MARK),
+            Letter::D if counts(Letter::B) => Diagnostic::new(&messages::DEPTH_OF_MILLING),
+            _ => return Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", letter.as_char()),
+        };
+        problem.with("letter", letter.as_char()).with("value", self.value(piece))
     }
 
     fn twice(self, letter: Letter, piece: &LetterValue) -> Diagnostic {

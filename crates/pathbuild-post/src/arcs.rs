@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
+use pathbuild_gcode::WrittenArc;
 
 use super::job::{Plane, Units};
 use super::step::Arc;
@@ -74,28 +75,30 @@ impl Rounding<'_> {
         Polar::of(arc, plane).sweep < PI && plane.axes()[..2].iter().all(|axis| alike(*axis))
     }
 
-    /// Controls refuse an arc, or run a wild one, when the rounded centre is not as far from the end as from the start.
-    pub(crate) fn check(&self, arc: &Arc, plane: Plane, units: Units) -> Result<(), Box<Diagnostic>> {
-        let rounded = |point: [f64; 3]| point.map(|at| (self.length)(at));
-        let (from, to) = (rounded(arc.from), rounded(arc.to));
-        let centre = |axis: usize| {
-            if self.is_absolute {
-                (self.length)(arc.centre[axis])
-            } else {
-                from[axis] + (self.length)(arc.centre[axis] - arc.from[axis])
-            }
-        };
+    /// The arc with a centre whose rounded numbers are as far from its end as from its start: see [`WrittenArc::fit`].
+    pub(crate) fn fitted(&self, arc: &Arc, plane: Plane, units: Units) -> Result<Arc, Box<Diagnostic>> {
         let [u, v, _] = plane.axes();
-        let radius = |point: [f64; 3]| libm::hypot(point[u] - centre(u), point[v] - centre(v));
-        let (start, end) = (radius(from), radius(to));
-        let tolerance = if units == Units::Inches { 0.000_2 } else { 0.002 };
-        if (start - end).abs() <= tolerance {
-            return Ok(());
-        }
-        let text = |radius: f64| format!("{radius:.4}");
-        let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(arc.to[0], arc.to[1]));
-        Err(Box::new(diagnostic.with("start", text(start)).with("end", text(end))))
+        let origin = if self.is_absolute { [0.0; 3] } else { arc.from };
+        let written = WrittenArc {
+            from: [arc.from[u], arc.from[v]],
+            to: [arc.to[u], arc.to[v]],
+            centre: [arc.centre[u] - origin[u], arc.centre[v] - origin[v]],
+            length: self.length,
+            is_absolute: self.is_absolute,
+            unit: units.millimetres(),
+        };
+        let by = written.fit().map_err(|radii| not_round(arc, radii))?;
+        let mut fitted = *arc;
+        fitted.centre[u] += by[0];
+        fitted.centre[v] += by[1];
+        Ok(fitted)
     }
+}
+
+fn not_round(arc: &Arc, radii: [f64; 2]) -> Box<Diagnostic> {
+    let [start, end] = radii.map(|radius| format!("{radius:.4}"));
+    let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(arc.to[0], arc.to[1]));
+    Box::new(diagnostic.with("start", start).with("end", end))
 }
 
 /// The arc in that many equal pieces, each beginning where the one before ends.

@@ -60,7 +60,8 @@ impl Post {
         }
         let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
             .map_err(|_| vec![Diagnostic::new(&posts::POST_NOT_UTF8).in_file(file)])?;
-        let (engine, warnings) = if text.trim_start().starts_with('<') {
+        let is_cambam = text.trim_start().starts_with('<') || file.extension() == Some("cbpp");
+        let (engine, warnings) = if is_cambam {
             let (definition, warnings) = cambam::Definition::parse(text, file)?;
             (Engine::CamBam(Box::new(definition)), warnings)
         } else {

@@ -3,6 +3,8 @@
 use std::fmt;
 
 use camino::Utf8Path;
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::NO_DIRECTORY_OF_POST;
 
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::Machine;
@@ -82,8 +84,8 @@ pub trait PostFiles: fmt::Debug {
     /// refuse.
     ///
     /// # Errors
-    /// Why there is none, as the system says it.
-    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, String>;
+    /// Why there is none.
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value>;
 }
 
 /// No files at all.
@@ -91,7 +93,7 @@ pub trait PostFiles: fmt::Debug {
 pub struct NoFiles;
 
 impl PostFiles for NoFiles {
-    fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, String> {
-        Err("this post has no directory".to_owned())
+    fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, Value> {
+        Err(Value::Word(&NO_DIRECTORY_OF_POST))
     }
 }

@@ -1,6 +1,7 @@
 //! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
 
-use pathbuild_diagnostic::{Diagnostic, Note, TextFault, messages::posts};
+use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_diagnostic::{Diagnostic, Note, TextFault};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
@@ -83,6 +84,9 @@ fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
 }
 
 fn as_post_s(found: Diagnostic) -> Diagnostic {
+    if found.message.code == gcode::MOVES_MISSING.code && found.place.line.is_none() {
+        return Diagnostic::new(&posts::MOVES_LOST);
+    }
     let line = u64::from(found.place.line.unwrap_or(0));
     let mut diagnostic = Diagnostic::new(&posts::POST_DIFFERS).with("line", line);
     diagnostic.place.line = found.place.line;

@@ -47,6 +47,9 @@ struct Signature {
 const COMPONENTS: u32 = 6;
 const PROJECTS: u32 = 4;
 
+/// How long the rapid move is between what a project embeds, in mm.
+const SWEEP: u32 = 30;
+
 /// Paths of a chain: two more than may be embedded in each other.
 const CHAIN: u32 = 13;
 
@@ -175,9 +178,9 @@ fn signature(number: u32) -> Signature {
             material: "Fixture",
             definitions: " :X1001.1P,1005.1P",
             values: " :X1005.1P",
-            length: 80,
+            length: 110,
         },
-        (8, _) => Signature { thickness: 7, material: "Fixture", definitions: "", values: "", length: 80 },
+        (8, _) => Signature { thickness: 7, material: "Fixture", definitions: "", values: "", length: 110 },
         (_, 1 | 3) => Signature { thickness, material, definitions: " :B0~1", values: " :B0,5", length: 40 },
         (_, 2) => {
             Signature { thickness, material, definitions: " :K?XY :A0,1", values: " :KX :A1", length: 40 }
@@ -242,7 +245,26 @@ fn component(number: u32, random: &mut Random) -> Vec<u8> {
     if number == 1001 {
         proxies(&mut text, paths, random);
     }
+    if random.once_in(4) {
+        clamp(&mut text, random);
+    }
     dxf(&text)
+}
+
+/// A clamp beside the middle of the first path, of what lies behind it in projects, or of the rapid move there: just touching, in the way,
+/// lower or higher than the moves, or drawn so that its height is not clear.
+fn clamp(text: &mut String, random: &mut Random) {
+    let x = random.pick(&[15, 15, 52, 82]);
+    let y = random.pick(&["1", "0.75"]);
+    let height = random.pick(&["0.5", "3", "9", "40"]);
+    let (said, closed) = match random.below(8) {
+        0 => (height.to_owned(), " closed"),
+        1 => (format!("Z{height}"), ""),
+        _ => (format!("Z{height}"), " closed"),
+    };
+    _ = writeln!(text, "layer {}", random.pick(&["clamps", "CLAMPS"]));
+    _ = writeln!(text, "polyline {x},{y} {},{y} {},20 {x},20{closed}", x + 6, x + 6);
+    _ = writeln!(text, "text {},10 \"{said}\"", x + 3);
 }
 
 /// Lines to be copied into projects, one for most paths.
@@ -307,7 +329,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
             _ if random.once_in(6) => format!("{embedded}.1p"),
             _ => format!("{embedded}.1P"),
         };
-        let height = if random.once_in(4) { " H1" } else { "" };
+        let height = if random.once_in(4) { " H0,75" } else { "" };
         let said = match fault {
             3 => format!(">{name} T{thickness}{values}"),
             6 => format!("T{thickness} M{material}"),
@@ -326,8 +348,15 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
         let length = length + u32::from(fault == 14);
         _ = writeln!(text, "subpath {x},0 {},0 \"{said}\"", x + length);
         x += length;
+        if segment == 0 {
+            _ = writeln!(text, "sweep {x},0 {},0", x + SWEEP);
+            x += SWEEP;
+        }
     }
     _ = writeln!(text, "end {x},0");
+    if random.once_in(4) {
+        clamp(&mut text, random);
+    }
     dxf(&text)
 }
 

@@ -47,7 +47,12 @@ const text = (page, selector) => page.locator(selector).innerText();
   const line = await page.locator(".row.now i").innerText();
   assert.match(await text(page, ".row.now"), /G0[0-3]/);
   assert.match(await text(page, "#details"), /2050\.1P/);
-  // A click on a line runs to its move.
+  // A click on a line runs to its move; lines beyond the window are made as the list is scrolled.
+  await page.locator("#code").hover();
+  for (let turn = 0; turn < 50 && (await page.locator(".row", { hasText: "G02" }).count()) === 0; turn++) {
+    await page.mouse.wheel(0, 100);
+    await page.waitForTimeout(20);
+  }
   await page.locator(".row", { hasText: "G02" }).first().click();
   assert.notEqual(await page.locator(".row.now i").innerText(), line);
   assert.match(await text(page, ".row.now"), /G02/);

@@ -8,6 +8,8 @@ mod changes;
 #[cfg(feature = "pictures")]
 mod page;
 #[cfg(feature = "pictures")]
+mod pages;
+#[cfg(feature = "pictures")]
 mod raster;
 mod scene;
 mod svg;
@@ -16,13 +18,18 @@ pub use build::{
     DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, keep_out, other_layers,
     program_path,
 };
-pub use changes::{Change, ChangeKind, Group, compare, groups, phrase};
+pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
-pub use page::page;
+pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]
-pub use raster::{pdf, png};
+pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
     Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Parameter,
     Point, ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
 };
-pub use svg::{Picture, Shown, changes_svg, escaped, svg};
+#[cfg(not(feature = "pictures"))]
+pub use svg::sheet_pdf;
+pub use svg::{
+    Picture, Sheet, SheetProbe, SheetTool, Shown, Spot, changes_svg, cutout_svg, escaped, sheet_html,
+    sheet_pages, sheet_svg, svg,
+};

@@ -3,12 +3,14 @@
 
 use std::sync::{Arc, LazyLock};
 
+use pathbuild_diagnostic::Lang;
 use resvg::tiny_skia::{Pixmap, Transform};
 use usvg::fontdb::Database;
 use usvg::{Options, Tree};
 
+use crate::pages;
 use crate::scene::Scene;
-use crate::svg::{Shown, svg};
+use crate::svg::{Sheet, Shown, sheet_pages, svg, xmp};
 
 /// The letters that pictures need, of the font `DejaVu Sans`.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
@@ -48,7 +50,17 @@ pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
 pub fn pdf(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
-    pdf.map_err(|error| error.to_string())
+    pdf.map(|pdf| pages::in_order(&pdf)).map_err(|error| error.to_string())
+}
+
+/// A sheet as PDF, a page of A4 each.
+///
+/// # Errors
+/// A bug.
+pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, String> {
+    let pages = sheet_pages(sheet, lang);
+    let trees: Vec<Tree> = pages.iter().map(|page| tree(page)).collect::<Result<_, _>>()?;
+    pages::joined(&trees, &xmp(&sheet.head))
 }
 
 fn tree(svg: &str) -> Result<Tree, String> {

@@ -8,8 +8,9 @@ use std::io::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::reasons::{IS_DIRECTORY, IS_THERE, NO_DIRECTORY, NO_FILE, NOT_UTF_8, reason};
+use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::workspace::Workspace;
 
@@ -22,14 +23,14 @@ pub fn is_there(file: &Utf8Path) -> bool {
 ///
 /// # Errors
 /// Why it cannot be read. It must be a regular file of at most `limit` bytes.
-pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Box<str>> {
+pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Value> {
     let bytes = system.read(file, limit).map_err(|error| match error {
-        ReadError::Missing => "there is no such file".into(),
-        ReadError::IsDirectory => "it is a directory".into(),
+        ReadError::Missing => Value::Word(&NO_FILE),
+        ReadError::IsDirectory => Value::Word(&IS_DIRECTORY),
         ReadError::TooLarge { size } => format!("it has {size} bytes, the limit is {limit}").into(),
         ReadError::Other(reason) => reason,
     })?;
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".into())
+    String::from_utf8(bytes).map_err(|_| Value::Word(&NOT_UTF_8))
 }
 
 /// Writes files that must not be there yet, with the directories that lead to them; if one of them is there, none.
@@ -43,7 +44,7 @@ pub fn create(files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
         return Err(old);
     }
     files.iter().try_for_each(|(file, content)| {
-        create_new(file, content).map_err(|reason| vec![cannot_write(file, &reason.to_string())])
+        create_new(file, content).map_err(|error| vec![cannot_write(file, reason(&error))])
     })
 }
 
@@ -53,7 +54,7 @@ fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
 }
 
 fn already_there(file: &Utf8Path) -> Diagnostic {
-    cannot_write(file, "it is there already")
+    cannot_write(file, Value::Word(&IS_THERE))
 }
 
 /// Writes a file whole or not at all. What is no file, such as a device or a pipe, is written to as it is: it was named.
@@ -62,16 +63,16 @@ fn already_there(file: &Utf8Path) -> Diagnostic {
 /// A diagnostic that says why it cannot be written.
 pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
-        return Err(Box::new(cannot_write(file, "there is no such directory")));
+        return Err(Box::new(cannot_write(file, Value::Word(&NO_DIRECTORY))));
     }
     let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
     let written = if is_stream && is_allowed {
-        fs::write(file, text).map_err(|reason| reason.to_string().into())
+        fs::write(file, text).map_err(|error| reason(&error))
     } else {
         context.system.write(file, text.as_bytes()).map(|_| ())
     };
-    written.map_err(|reason: Box<str>| Box::new(cannot_write(file, &reason)))
+    written.map_err(|reason| Box::new(cannot_write(file, reason)))
 }
 
 /// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.
@@ -83,8 +84,10 @@ pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic 
 pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'static str) -> Diagnostic {
     let diagnostic = match error {
         ReadError::Missing => Diagnostic::new(&files::MISSING),
-        ReadError::IsDirectory => Diagnostic::new(&files::UNREADABLE).with("reason", "it is a directory"),
-        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", &**reason),
+        ReadError::IsDirectory => {
+            Diagnostic::new(&files::UNREADABLE).with("reason", Value::Word(&IS_DIRECTORY))
+        }
+        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", reason.clone()),
         ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
             .with("what", format!("the file's size of {size} bytes"))
             .with("limit", format!("{limit} bytes"))
@@ -94,7 +97,7 @@ pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'stat
 }
 
 /// PB004.
-pub fn cannot_write(file: &Utf8Path, reason: &str) -> Diagnostic {
+pub fn cannot_write(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
 }

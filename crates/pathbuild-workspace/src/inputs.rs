@@ -22,17 +22,6 @@ impl Inputs {
     pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
         self.inputs.iter().map(|text| Input::new(text))
     }
-
-    /// The directory from which the configuration is looked for: that of the first argument, else the working directory (empty).
-    pub fn first_directory(&self) -> Utf8PathBuf {
-        match self.iter().next() {
-            Some(Input::Place(place)) if is_drawing(place) => {
-                place.parent().unwrap_or(Utf8Path::new("")).to_owned()
-            }
-            Some(Input::Place(place)) => place.to_owned(),
-            Some(Input::Name(_)) | None => Utf8PathBuf::new(),
-        }
-    }
 }
 
 /// One of them.
@@ -51,6 +40,21 @@ impl<'a> Input<'a> {
             || text.contains(std::path::is_separator)
             || matches!(text, "." | "..");
         if is_place { Self::Place(Utf8Path::new(text)) } else { Self::Name(text) }
+    }
+
+    /// The directory or program from which upwards its configuration is looked for; of a name the working directory (empty).
+    pub(crate) fn beginning(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
+        match self {
+            Self::Place(place) if is_drawing(place) => place.parent().unwrap_or(Utf8Path::new("")),
+            Self::Place(place) => place,
+            Self::Name(name) if is_directory(name.into()) => name.into(),
+            Self::Name(_) => Utf8Path::new(""),
+        }
+    }
+
+    /// Whether it is a file that is made of drawings, or by hand: a program can lie outside of the tree whose configuration holds for it.
+    pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
+        matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }
 }
 

@@ -8,6 +8,7 @@ use pathbuild_diagnostic::Lang;
 
 use crate::config::Settings;
 use crate::reporter::Reporter;
+use crate::session::relative;
 
 /// What a run works in.
 #[derive(Debug)]
@@ -44,6 +45,13 @@ impl Workspace {
         Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
+    /// The configuration of the working directory, as an argument names it, where it does not hold because what is worked on lies outside
+    /// of its tree.
+    pub fn configuration_not_used(&self) -> Option<Utf8PathBuf> {
+        let file = self.settings.not_used.as_deref()?;
+        Some(relative(file, &self.working_directory))
+    }
+
     /// The language of everything that is said.
     pub fn lang(&self) -> Lang {
         self.own_lang.unwrap_or(self.settings.general.lang.value)
@@ -55,5 +63,10 @@ impl Workspace {
             Lang::En => en,
             Lang::De => de,
         }
+    }
+
+    /// One of two phrases with a value where `{}` stands.
+    pub fn phrase(&self, en: &str, de: &str, value: &str) -> String {
+        self.choose(en, de).replace("{}", value)
     }
 }

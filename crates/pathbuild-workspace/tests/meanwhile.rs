@@ -20,6 +20,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
 use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
+use pathbuild_diagnostic::Value;
 use pathbuild_testkit::Workshop;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
@@ -136,11 +137,11 @@ impl System for Mischief {
         OsSystem.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
         OsSystem.write(path, bytes)
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         OsSystem.remove(path)
     }
 }
@@ -201,7 +202,7 @@ impl OnDisk {
     fn check(&self, system: Arc<dyn System>, is_kept: bool, jobs: Option<u16>) -> Vec<String> {
         let given = Overrides { config: Some(self.path().join("pathbuild.toml")), ..Overrides::default() };
         let inputs = Inputs::default();
-        let (settings, faults) = config::load(&given, &inputs, self.path());
+        let (settings, faults) = config::load(&OsSystem::shared(), &given, &inputs, self.path());
         assert!(faults.is_empty(), "{faults:?}");
         let caches = Utf8PathBuf::from_path_buf(self.caches.path().join("kept")).unwrap();
         let workspace = Workspace {
@@ -305,6 +306,37 @@ fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
             let files = |found: &[String]| found.iter().filter(|it| it.starts_with('"')).count();
             assert_eq!(files(&found), files(&expected), "{victim}: all drawings are checked");
             assert_eq!(place.check(Arc::new(OsSystem), true, jobs), expected, "{victim}");
+        }
+    }
+}
+
+/// The same of a directory that cannot be listed for a bug.
+#[test]
+fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
+    let workshop = Workshop::new(3);
+    for victim in ["lib/parts", "lib/projects"] {
+        for jobs in [None, Some(1)] {
+            let place = OnDisk::new(&workshop);
+            let expected = place.check(Arc::new(OsSystem), false, None);
+            let bug = Mischief {
+                trigger: victim.to_owned(),
+                countdown: AtomicU32::new(1),
+                is_before: true,
+                event: Event::Panic,
+                victim: place.path().join(victim),
+                bytes: Vec::new(),
+            };
+            let found = place.check(Arc::new(bug), true, jobs);
+            let said: Vec<_> = found.iter().filter(|found| found.contains("a bug that")).collect();
+            assert!(said.iter().any(|found| found.contains("InternalError")), "{victim}: {found:#?}");
+            assert!(said.iter().all(|found| found.contains(victim)), "{victim}: {found:#?}");
+            let others = if victim == "lib/parts" { "lib/projects/" } else { "lib/parts/" };
+            assert!(found.iter().any(|found| found.contains(others)), "{victim}: {found:#?}");
+            assert_eq!(
+                place.check(Arc::new(OsSystem), true, jobs),
+                expected,
+                "{victim}: nothing of it is kept"
+            );
         }
     }
 }

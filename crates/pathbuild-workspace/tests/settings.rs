@@ -52,6 +52,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("tool", "[tool.2mm]\ndiameter = 2", PROGRAMS),
     ("macros", "[macros]\na = 'b'", PROGRAMS),
     ("emit.targets", "[emit]\ntargets = ['8*']", NONE),
+    ("emit.sheet", "[emit]\nsheet = 'svg'", PROGRAMS),
     ("limits.file-size", "[limits]\nfile-size = '1 MiB'", BOTH),
     ("limits.entities", "[limits]\nentities = 1", BOTH),
     ("limits.embedding-moves", "[limits]\nembedding-moves = 1", BOTH),
@@ -77,6 +78,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("machine.junction-deviation", "[machine]\njunction-deviation = 1", NONE),
     ("warnings.below-plate", "[warnings]\nbelow-plate = 1", BOTH),
     ("warnings.infeed", "[warnings]\ninfeed = 2", BOTH),
+    ("warnings.mark-depth", "[warnings]\nmark-depth = 1", BOTH),
     ("warnings.text-margin", "[warnings]\ntext-margin = 1", BOTH),
     ("watch.debounce", "[watch]\ndebounce = '1 s'", NONE),
     ("watch.poll", "[watch]\npoll = true", NONE),
@@ -113,7 +115,12 @@ fn every_setting_is_tried() {
 
 fn settings(base: &Utf8Path, text: &str) -> Settings {
     fs::write(base.join("pathbuild.toml"), text).unwrap();
-    let (settings, faults) = config::load(&Overrides::default(), &Inputs::default(), base);
+    let (settings, faults) = config::load(
+        &pathbuild_db::system::OsSystem::shared(),
+        &Overrides::default(),
+        &Inputs::default(),
+        base,
+    );
     assert!(faults.is_empty(), "{text}: {faults:?}");
     Settings { file: Some(Utf8PathBuf::from("pathbuild.toml")), ..settings }
 }

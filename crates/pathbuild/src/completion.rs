@@ -3,7 +3,6 @@
 
 use std::ffi::{OsStr, OsString};
 
-use clap::CommandFactory;
 use clap_complete::engine::ValueCompleter;
 use clap_complete::env::CompleteEnv;
 use clap_complete::{ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter};
@@ -13,15 +12,16 @@ use pathbuild_post::BUILT_IN;
 use pathbuild_workspace::session::Session;
 
 use crate::args::{Cli, Command, CommonArgs};
-use crate::context_of;
 use crate::exit::ExitStatus;
+use crate::{context_of, german, lang_of};
 
 /// The variable by which a shell asks.
 pub(crate) const VARIABLE: &str = "PATHBUILD_COMPLETE";
 
 /// Answers a shell that wants to complete a command line; `None`: this is a run of its own.
 pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
-    match CompleteEnv::with_factory(Cli::command).var(VARIABLE).try_complete(arguments, None) {
+    let definition = || german::command(lang_of(arguments));
+    match CompleteEnv::with_factory(definition).var(VARIABLE).try_complete(arguments, None) {
         Ok(false) => None,
         Ok(true) => Some(ExitStatus::Success),
         Err(_) => Some(ExitStatus::Usage),

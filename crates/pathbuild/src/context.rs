@@ -17,7 +17,7 @@ use crate::exit::ExitStatus;
 use crate::output::Output;
 use crate::printer::{Printer, Stream};
 use crate::render::{View, json as lines, render};
-use crate::report::{Findings, judge};
+use crate::report::Findings;
 use crate::usage;
 
 /// The surroundings of a run.
@@ -52,7 +52,8 @@ impl Context {
 
     /// What a run in another tree works in: its own configuration holds, and nothing is kept for later. Also what is wrong with that.
     pub fn elsewhere(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
-        let (settings, faults) = config::load(&self.overrides, inputs, &self.working_directory);
+        let (settings, faults) =
+            config::load(&OsSystem::shared(), &self.overrides, inputs, &self.working_directory);
         let workspace = Workspace {
             system: system_of(&settings),
             settings,
@@ -63,11 +64,6 @@ impl Context {
             reporter: self.printer.clone(),
         };
         (workspace, faults)
-    }
-
-    /// Findings with the severities of the configuration, in order, each once.
-    pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
-        Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
     }
 
     /// Shows findings: to people on stderr, to programs in the document of the run.
@@ -127,7 +123,10 @@ impl Context {
         let mut failed = Vec::new();
         for report in &self.output.reports {
             let view = if report.format.is_for_machines() { self.machine_view() } else { self.plain_view() };
-            let text = self.output.whole(report.format, status.code(), &view);
+            let text = match report.format {
+                Format::Html => self.output.page(self, &view),
+                format => self.output.whole(format, status.code(), &view),
+            };
             if report.is_stdout() {
                 self.printer.document(Stream::Stdout, &text);
             } else {
@@ -141,7 +140,7 @@ impl Context {
     /// The view of a program: names of files from the repository's root.
     fn machine_view(&self) -> View {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
-        View { root: Some(config::repository(directory).to_owned()), ..self.plain_view() }
+        View { root: Some(config::repository(&OsSystem, directory).to_owned()), ..self.plain_view() }
     }
 
     /// The view of somebody who reads a file.
@@ -168,19 +167,27 @@ impl Context {
     }
 
     /// Refuses to run without anything to work on.
-    pub fn nothing_named(&self, command: &str) -> ExitStatus {
+    pub fn nothing_named(&self) -> ExitStatus {
         let advice = match self.settings.file {
-            Some(_) => "or set `library` in pathbuild.toml",
-            None => {
-                "or write a pathbuild.toml: `pathbuild init`, or `pathbuild init --example` with a small library to learn on"
+            Some(_) => {
+                self.choose("or set `library` in pathbuild.toml", "oder `library` in pathbuild.toml setzen")
             }
+            None => self.choose(
+                "or write a pathbuild.toml: `pathbuild init`, or `pathbuild init --example` with a small library to learn on",
+                "oder eine pathbuild.toml schreiben: `pathbuild init`, oder `pathbuild init --example` mit einer kleinen Bibliothek zum Lernen",
+            ),
         };
-        self.usage(&format!("nothing to {command}: name drawings, paths or directories, {advice}"))
+        let reason = self.phrase(
+            "nothing to work on: name drawings, paths or directories after `{}`, ",
+            "nichts zu tun: hinter `{}` Zeichnungen, Pfade oder Verzeichnisse nennen ",
+            self.output.command,
+        );
+        self.usage(&(reason + advice))
     }
 
     /// Says what is wrong with the command line.
     pub fn usage(&self, reason: &str) -> ExitStatus {
-        usage::wrong(reason, &self.printer)
+        usage::wrong(reason, self.lang(), &self.printer)
     }
 
     /// The view of somebody who looks at that stream.
@@ -200,6 +207,6 @@ impl Context {
 pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
     match &settings.confined {
         Some(confined) => Arc::new(confined.clone()),
-        None => Arc::new(OsSystem),
+        None => OsSystem::shared(),
     }
 }

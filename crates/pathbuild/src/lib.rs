@@ -6,12 +6,18 @@ pub mod commands;
 mod completion;
 mod context;
 mod exit;
+pub mod german;
 mod numbers;
 mod output;
 pub mod printer;
 pub mod progress;
 pub mod render;
 pub mod report;
+#[cfg(feature = "serve")]
+mod serving;
+#[cfg(not(feature = "serve"))]
+#[path = "serving/missing.rs"]
+mod serving;
 mod surroundings;
 mod table;
 mod usage;
@@ -21,6 +27,7 @@ use std::ffi::OsString;
 use std::rc::Rc;
 
 use camino::Utf8PathBuf;
+use pathbuild_db::system::{OsSystem, spelt};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{Overrides, User};
 use pathbuild_workspace::{Workspace, config};
@@ -35,23 +42,29 @@ use printer::{ColorChoice, Printer};
 
 /// Runs the program with the arguments that the shell gave it, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = compat::guarded(arguments.into_iter().collect());
     if let Some(status) = completion::answer(&arguments) {
         return status;
     }
     match Cli::read(&arguments) {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
         Ok(cli) => execute(&cli),
-        Err(error) => print(|printer| usage::answer(&error, printer)),
+        Err(error) => {
+            let lang = lang_of(&arguments);
+            // The definition in German says what it finds in German.
+            let said = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
+            print(|printer| usage::answer(&said, lang, printer))
+        }
     }
 }
 
 /// Runs what a command line of another program comes to.
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
-    let translated = match compat::translate(&args.arguments) {
+    let lang = lang_of(arguments);
+    let translated = match compat::translate(&args.arguments, lang) {
         Ok(Translated::Commands(translated)) => translated,
-        Ok(Translated::Help) => return print(|printer| usage::help(compat::HELP, printer)),
-        Err(reason) => return print(|printer| usage::wrong(&reason, printer)),
+        Ok(Translated::Help) => return print(|printer| usage::help(compat::help(lang), printer)),
+        Err(reason) => return print(|printer| usage::wrong(&reason, lang, printer)),
     };
     let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shown(command));
     if args.print {
@@ -63,6 +76,12 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
         run(compat::spliced(arguments, args.arguments.len(), command))
     });
     each.max().unwrap_or(ExitStatus::Success)
+}
+
+/// The language of what is said about a command line that is not run: as for every other.
+pub(crate) fn lang_of(arguments: &[OsString]) -> Lang {
+    let common = CommonArgs { lang: Cli::lang(arguments), ..CommonArgs::default() };
+    context_of(&Cli { command: Command::Man, common }).0.lang()
 }
 
 /// Prints what needs no configuration.
@@ -77,11 +96,12 @@ fn execute(cli: &Cli) -> ExitStatus {
         return watching::run(cli, args);
     }
     let (context, faults) = context_of(cli);
-    if let Some(refusal) = context.output.refusal() {
+    if let Some(refusal) = context.output.refusal(&context) {
         let status = context.usage(&refusal);
         return context.printer.finish(status);
     }
     context.begin();
+    say_configuration_not_used(&context);
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {
@@ -91,14 +111,26 @@ fn execute(cli: &Cli) -> ExitStatus {
     context.printer.finish(status)
 }
 
+/// Who works in a tree with a configuration expects that it holds: where it does not, that is said.
+fn say_configuration_not_used(context: &Context) {
+    if let Some(file) = context.configuration_not_used() {
+        let line = context.phrase(
+            "note: {} does not hold for what lies outside of its tree (--config {} makes it hold); no other was found",
+            "Hinweis: {} gilt nicht für das, was außerhalb ihres Baums liegt (mit --config {} gilt sie); eine andere wurde nicht gefunden",
+            file.as_str(),
+        );
+        context.printer.status(line);
+    }
+}
+
 /// The surroundings, and what is wrong with the configuration.
 fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     let Cli { command, common } = cli;
     let working_directory = working_directory();
     let (user, mut faults) =
-        surroundings::user_configuration().map(|file| User::load(&file)).unwrap_or_default();
+        surroundings::user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default();
     let given = Overrides { trusted: user.trusted, ..common.overrides() };
-    let (settings, more) = config::load(&given, &command.inputs(), &working_directory);
+    let (settings, more) = config::load(&OsSystem::shared(), &given, &command.inputs(), &working_directory);
     faults.extend(more);
     let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
     let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
@@ -121,5 +153,5 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
 #[expect(clippy::disallowed_methods, reason = "this is where the program asks once")]
 fn working_directory() -> Utf8PathBuf {
     let directory = std::env::current_dir().ok();
-    directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).unwrap_or_default()
+    directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()
 }

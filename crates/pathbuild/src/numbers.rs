@@ -1,6 +1,6 @@
 //! Numbers as people of a language write them.
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, in_prose};
 
 /// A count with its thousands set apart: `2,014`, in German `2.014`.
 pub(crate) fn count(number: usize, lang: Lang) -> String {
@@ -19,14 +19,16 @@ pub(crate) fn count(number: usize, lang: Lang) -> String {
     grouped
 }
 
+/// A count with its noun: `1 path`, `2,014 paths`.
+pub(crate) fn counted(number: usize, lang: Lang, [one, many]: [&str; 2]) -> String {
+    format!("{} {}", count(number, lang), if number == 1 { one } else { many })
+}
+
 /// A number with so many decimals, without zeros at its end: `12.5`, in German `12,5`.
 pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {
     let text = format!("{number:.places$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     // A small negative number is rounded to -0.
     let text = if text == "-0" { "0" } else { text };
-    match lang {
-        Lang::En => text.to_owned(),
-        Lang::De => text.replace('.', ","),
-    }
+    in_prose(text.to_owned(), lang)
 }

@@ -4,15 +4,18 @@ use std::cell::RefCell;
 
 use serde_json::{Map, Value, json};
 
+use pathbuild_workspace::Workspace;
+
 use crate::args::{Command, CommonArgs, Format, ReportFile};
+use crate::context::Context;
 use crate::printer::Stream;
-use crate::render::{Rendered, View, json as lines, render};
-use crate::report::Findings;
+use crate::render::{Rendered, View, json as lines, page, render};
+use crate::report::{Findings, pictures};
 
 /// The document of a run, and everything that goes into it at the end.
 #[derive(Debug)]
 pub(crate) struct Output {
-    command: &'static str,
+    pub(crate) command: &'static str,
     pub(crate) format: Format,
     /// Where a format for programs goes.
     pub(crate) stream: Stream,
@@ -38,17 +41,30 @@ impl Output {
     }
 
     /// Why the options ask for what there is not.
-    pub(crate) fn refusal(&self) -> Option<String> {
+    pub(crate) fn refusal(&self, workspace: &Workspace) -> Option<String> {
         let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
         let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
         if !self.is_document && (!self.reports.is_empty() || self.format.is_report()) {
-            return Some(format!("`{}` has no findings to report", self.command));
+            return Some(workspace.phrase(
+                "`{}` has no findings to report",
+                "`{}` hat keine Meldungen für einen Bericht",
+                self.command,
+            ));
         }
         if on_stdout > 0 && on_stdout + taken > 1 {
-            return Some("standard output holds one document: give the other report a file".to_owned());
+            let reason = workspace.choose(
+                "standard output holds one document: give the other report a file",
+                "die Standardausgabe fasst ein Dokument: für den anderen Bericht eine Datei angeben",
+            );
+            return Some(reason.to_owned());
         }
-        (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty()))
-            .then(|| "`watch` never ends: it shows findings as full, concise, json or github".to_owned())
+        (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty())).then(|| {
+            let reason = workspace.choose(
+                "`watch` never ends: it shows findings as full, concise, json or github",
+                "`watch` endet nie: es zeigt Meldungen als full, concise, json oder github",
+            );
+            reason.to_owned()
+        })
     }
 
     /// Whether stdout is a program's, so that people's lines go elsewhere.
@@ -93,6 +109,12 @@ impl Output {
             format if format.is_whole() => Some(self.whole(format, status, view)),
             _ => None,
         }
+    }
+
+    /// The page of a report.
+    pub(crate) fn page(&self, context: &Context, view: &View) -> Rendered {
+        let found = self.found.borrow();
+        page(&found, &pictures(context, &found.diagnostics), view)
     }
 
     /// The text of a report.

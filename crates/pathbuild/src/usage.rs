@@ -1,17 +1,20 @@
 //! Wrong usage: what the program was called with cannot be done, whatever the drawings say. (exit status 2)
 
 use clap::error::ErrorKind;
+use pathbuild_diagnostic::Lang;
 
 use crate::exit::ExitStatus;
+use crate::german;
 use crate::printer::Printer;
 
-/// Prints what clap found: help and version, which were asked for, or an error of usage.
-pub(crate) fn answer(error: &clap::Error, printer: &Printer) -> ExitStatus {
-    let text = error.render();
+/// Prints what clap found by the definition in that language: help and version, which were asked for, or an error of usage.
+pub(crate) fn answer(error: &clap::Error, lang: Lang, printer: &Printer) -> ExitStatus {
+    let text = error.render().to_string();
+    let text = if lang == Lang::De { german::shown(&text) } else { text };
     match error.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            printer.result(text);
-            ExitStatus::Success
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => help(&text, printer),
+        _ if lang == Lang::De && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            wrong(&german::reason(error), lang, printer)
         }
         _ => {
             printer.usage(text);
@@ -27,7 +30,11 @@ pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
 }
 
 /// Prints why the program cannot do what it was called for.
-pub(crate) fn wrong(reason: &str, printer: &Printer) -> ExitStatus {
-    printer.usage(format_args!("error: {reason}\n\nFor more information, try '--help'.\n"));
+pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
+    let (error, advice) = match lang {
+        Lang::En => ("error", "For more information, try '--help'."),
+        Lang::De => ("Fehler", german::ADVICE),
+    };
+    printer.usage(format_args!("{error}: {reason}\n\n{advice}\n"));
     ExitStatus::Usage
 }

@@ -8,6 +8,8 @@ use crate::commands::watch;
 use crate::context::Context;
 use crate::context_of;
 use crate::exit::ExitStatus;
+use crate::say_configuration_not_used;
+use crate::serving::Server;
 use camino::Utf8PathBuf;
 
 /// How often a configuration that is wrong is looked at.
@@ -16,25 +18,38 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// Watches until nothing can be watched. What is wrong at the beginning ends the run; later it is waited for somebody who puts it right.
 pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
+    let mut server = None;
     loop {
+        // Before it is read for good: what changes from here on is noticed.
+        let sources = Sources::of(&context_of(cli).0);
         let (context, faults) = context_of(cli);
-        if let Some(refusal) = context.output.refusal() {
+        if let Some(refusal) = context.output.refusal(&context) {
             let status = context.usage(&refusal);
             return context.printer.finish(status);
         }
-        if !has_begun {
+        if !has_begun && server.is_none() {
             context.begin();
+            say_configuration_not_used(&context);
+            match Server::start(&context, &args.serving) {
+                Ok(started) => server = started,
+                Err(reason) => return context.printer.finish(context.usage(&reason)),
+            }
         }
-        let sources = Sources::of(&context);
+        let waits = server.as_ref().is_some_and(Server::waits);
         let is_lost = has_begun && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {
             // An editor may remove the file before it writes the new one.
             true if is_lost => Some(ExitStatus::Usage),
-            true => watch::run(&context, args),
-            false => Some(context.refuse(faults)),
+            true => watch::run(&context, args, server.as_ref()),
+            false => {
+                if let Some(server) = &server {
+                    server.halt(&faults, "");
+                }
+                Some(context.refuse(faults))
+            }
         };
         match ended {
-            Some(status) if !has_begun || status == ExitStatus::Success => {
+            Some(status) if !has_begun && !waits || status == ExitStatus::Success => {
                 return context.printer.finish(status);
             }
             Some(_) => {
@@ -43,6 +58,9 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     "die Konfiguration oder ihr Postprozessor fehlt oder ist falsch: nichts wird geprüft, bis das berichtigt ist",
                 ));
                 while Sources::of(&context_of(cli).0) == sources {
+                    if server.as_ref().is_some_and(Server::is_over) {
+                        return context.printer.finish(ExitStatus::Success);
+                    }
                     thread::sleep(PAUSE);
                 }
             }

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use clap::{Arg, Command, CommandFactory};
-use pathbuild::args::Cli;
+use clap::{Arg, Command};
+use pathbuild::german;
 use pathbuild_diagnostic::{Code, Lang, Severity, page};
 use pathbuild_path::{ElementClass, Letter, LineType, Use};
 
@@ -30,7 +30,7 @@ fn table(name: &str, lang: Lang) -> String {
     match name {
         "letters" => letters(lang),
         "line-type-names" => line_type_names(),
-        "commands" => commands(),
+        "commands" => commands(lang),
         "diagnostics" => diagnostics(lang),
         "configuration" => configuration(),
         _ => panic!("no table is called {name}"),
@@ -95,15 +95,15 @@ fn line_type_names() -> String {
     table
 }
 
-fn commands() -> String {
-    let mut cli = Cli::command();
-    cli.build();
+fn commands(lang: Lang) -> String {
+    let cli = german::command(lang);
     let mut text = String::new();
     let visible = cli.get_subcommands().filter(|it| !it.is_hide_set() && it.get_name() != "help");
     for command in visible {
         command_text(&mut text, "pathbuild", command);
     }
-    text + "## Common options\n\n" + &options(cli.get_arguments())
+    let common = if lang == Lang::De { "Allgemeine Optionen" } else { "Common options" };
+    format!("{text}## {common}\n\n{}", options(cli.get_arguments()))
 }
 
 fn command_text(text: &mut String, before: &str, command: &Command) {

@@ -6,6 +6,7 @@
 mod citations;
 mod console;
 mod drawings;
+mod examples;
 mod generated;
 mod html;
 mod links;

@@ -1,5 +1,5 @@
 //! Pictures: `pictures/FOLDER-PATH.svg` is what `view PATH` draws in the copy of the drawings of that folder; where a drawing has
-//! the name, `view NAME.dxf`.
+//! the name, `view NAME.dxf`. `pictures/sheet-FOLDER-PATH.svg` is what `sheet PATH` makes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -40,12 +40,13 @@ fn wrong(file: &str) -> Option<String> {
     let (Some(lang), Some((folder, path))) = (lang, name.and_then(|name| name.rsplit_once('-'))) else {
         return Some(format!("{file}: not named pictures/FOLDER-PATH.svg"));
     };
+    let (command, folder) = folder.strip_prefix("sheet-").map_or(("view", folder), |rest| ("sheet", rest));
     let place = scratch::place(folder, lang);
     let directory = if folder == "fixtures" { "fixtures/library" } else { "." };
     let picture = place.path().join("picture.svg");
     let drawing = format!("{path}.dxf");
     let what = if place.path().join(&drawing).exists() { &drawing } else { path };
-    let run = place.run_in(directory, &["view", what, "-o", &picture.to_string_lossy()]);
+    let run = place.run_in(directory, &[command, what, "-o", &picture.to_string_lossy()]);
     match fs::read(&picture) {
         Ok(drawn) => kept(&project().join(file), &drawn),
         Err(_) => Some(format!("{file}: nothing to see\n{run}")),

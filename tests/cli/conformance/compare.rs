@@ -25,13 +25,16 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
     let compatible = (run.form == Form::Recorded).then_some("--compatible");
     let place = copy_of(&run.case);
     let before = files_below(place.path());
-    let output = program()
+    let output = match program()
         .args([&arguments[0], "--no-cache", "--format=json"])
         .args(compatible)
         .args(&arguments[1..])
         .current_dir(place.path())
         .output()
-        .unwrap();
+    {
+        Ok(output) => output,
+        Err(error) => return vec![format!("not started: {error}")],
+    };
     let mut differences = Vec::new();
     differences.extend(odd_end(&output));
     let fails = fs::read_to_string(expected.join("exit")).unwrap().trim() != "0";
@@ -53,11 +56,14 @@ fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     let place = copy_of(&run.case);
     let input = files_below(place.path()).into_iter().find(|name| name.ends_with("_Clean.gcode")).unwrap();
     let name = input.strip_suffix("_Clean.gcode").unwrap();
-    let output = program()
+    let output = match program()
         .args(["adjust", &format!("--max-correction={max_correction}"), name])
         .current_dir(place.path())
         .output()
-        .unwrap();
+    {
+        Ok(output) => output,
+        Err(error) => return vec![format!("not started: {error}")],
+    };
     let mut differences = Vec::new();
     differences.extend(odd_end(&output));
     let fails = fs::read_to_string(expected.join("exit")).unwrap().trim() != "0";

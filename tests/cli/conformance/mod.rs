@@ -8,6 +8,7 @@ mod reduced;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
+use std::mem;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -42,12 +43,30 @@ fn foreign_runs_are_equal() {
 
 /// The differences of each run. Fails where there is one that is not known.
 fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
-    let differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
+    let mut differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
+    if cfg!(windows) {
+        compare_again(runs, &mut differences);
+    }
     say(what, &differences.iter().collect::<Vec<_>>());
     let faults: Vec<String> =
         runs.iter().zip(&differences).filter_map(|(run, found)| fault(run, found)).collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     differences
+}
+
+/// Of some hundred processes Wine loses one, more where the machine is busy: it is not started, or its end is not its own
+/// (tests/tools/windows.sh). So a few runs that differ are compared again, one by one, and named.
+#[allow(clippy::explicit_write, reason = "likewise eprintln!")]
+fn compare_again(runs: &[Run], differences: &mut [Vec<String>]) {
+    let different: Vec<usize> = (0..runs.len()).filter(|&index| !differences[index].is_empty()).collect();
+    if different.len() > 1 + runs.len() / 100 {
+        return;
+    }
+    for index in different {
+        let first = mem::replace(&mut differences[index], compare::differences(&runs[index]));
+        let found = first.join("; ");
+        writeln!(std::io::stderr(), "compared again: {}: {found}", runs[index].name()).unwrap();
+    }
 }
 
 /// Says how many runs are equal. Not with println!, which the test harness keeps to itself where all is well.

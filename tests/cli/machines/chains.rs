@@ -6,6 +6,8 @@
 use std::fmt::Write;
 
 use camino::Utf8PathBuf;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_post::{BUILT_IN, Language, load};
 use pathbuild_testkit::sheet;
@@ -15,7 +17,7 @@ use rayon::prelude::*;
 
 use super::changes::Dice;
 use super::programs::{Named, of_inputs};
-use super::{fault, say, shown};
+use super::{fault, say, shown, texts};
 use crate::support::Place;
 
 /// T5 I1 B2: passes at 4, 3 and 2.
@@ -47,7 +49,12 @@ fn of_drawing(number: usize) -> Vec<String> {
     let drawing = sheet(&text).unwrap_or_else(|error| panic!("{error:?}\n{text}")).to_dxf();
     let place = Place::new().file("1000.dxf", drawing);
     let directory = Utf8PathBuf::from_path_buf(place.path().to_owned()).unwrap();
-    let (mut settings, _) = config::load(&config::Overrides::default(), &Inputs::default(), &directory);
+    let (mut settings, _) = config::load(
+        &pathbuild_db::system::OsSystem::shared(),
+        &config::Overrides::default(),
+        &Inputs::default(),
+        &directory,
+    );
     let general = &mut settings.general;
     (general.feed.value, general.rapid.value) = (Some(150.0), Some(1000.0));
     let programs = of_inputs(settings, vec![directory.join("1000.dxf").into_string()], "drawing");
@@ -78,6 +85,10 @@ fn of_chain(chain: &Chain, it: &Named) -> Option<String> {
     let text = native::program(&it.program, &Header::default(), &options);
     if let Err(problem) = native::read_back(&text, &it.program) {
         return Some(format!("{}: {problem:?}", it.name));
+    }
+    let read = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
+    if let Some(problem) = read.problems.iter().find(|problem| problem.is_error()) {
+        return Some(format!("{}: {}", it.name, texts(std::slice::from_ref(problem))));
     }
     let mut posts = BUILT_IN.iter().filter(|post| post.language != Language::Native);
     posts.find_map(|post| fault(post.name, &load(post.name).unwrap(), it))

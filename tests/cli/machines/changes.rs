@@ -30,8 +30,13 @@ struct Written {
 
 const SPEED: f64 = 12_000.0;
 
-/// So many changes are tried of each program of each post.
+/// So many changes are tried of each program of each post; `PATHBUILD_CHANGES` tries more.
 const CHANGES: usize = 4;
+
+fn changes() -> usize {
+    let count = std::env::var("PATHBUILD_CHANGES").ok().and_then(|count| count.parse().ok());
+    count.unwrap_or(CHANGES)
+}
 
 /// Numbers are changed by these.
 const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
@@ -68,7 +73,7 @@ fn of_program(post: &str, language: Language, it: &Named, seed: usize) -> (usize
     let before = effects(&written.text, written.dialect, &it.program);
     let mut dice = Dice::new(seed as u64);
     let (mut count, mut faults) = (0, Vec::new());
-    for _ in 0..CHANGES {
+    for _ in 0..changes() {
         let Some((what, changed)) = change(&written, &mut dice) else { continue };
         if is_alike(&effects(&changed, written.dialect, &it.program), &before) {
             continue;
@@ -137,7 +142,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     }
     found.extend(rules.finish());
     found.extend(coarse_arcs(text.as_bytes(), dialect));
-    found.extend(against.finish());
+    found.extend(against.finish().differences);
     found
 }
 
@@ -150,8 +155,14 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let mut spindle = Spindle { turning: Turning::Unstated, speed: 0.0 };
     let low = program.start_height() - 0.05;
     let mut effects = Vec::new();
+    let mut has_length = false;
     for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
+        // A length counts from the next move on: of several before it the last.
+        if matches!(&action, Action::Move(it) if !it.is_nothing()) && std::mem::take(&mut has_length) {
+            effects.push((nothing(), None));
+        }
         match action {
+            Action::Change(Change::ToolLength(_)) => has_length = true,
             Action::Spindle(now) => spindle = now,
             Action::Move(it) if it.is_nothing() => {}
             Action::Move(it) if it.pace != Pace::Rapid => effects.push((it, Some(spindle))),

@@ -51,7 +51,8 @@ fn of_run(run: &Run) -> Vec<Named> {
     let case = Utf8PathBuf::from_path_buf(run.case.clone()).unwrap();
     let line = [vec!["pathbuild".to_owned()], arguments.clone()].concat();
     let cli = Cli::try_parse_from(&line).unwrap();
-    let (mut settings, faults) = config::load(&cli.common.overrides(), &Inputs::default(), &case);
+    let (mut settings, faults) =
+        config::load(&OsSystem::shared(), &cli.common.overrides(), &Inputs::default(), &case);
     if !faults.is_empty() {
         return Vec::new();
     }

@@ -303,12 +303,17 @@ fn programs_with_more_in_their_names_are_found_by_their_drawing() {
     succeed(&emit(&place, "ab.dxf"));
     let values = place.read("a_112_Z.txt").replace("=\n", "=5\n").replace("T=5\n", "T=");
     write(&place, "a_112_Z.txt", &values);
-    let run = place.run("adjust a.dxf --max-correction 0.2");
-    succeed(&run);
-    assert!(place.path().join("a_112_Milling.gcode").exists(), "{run}");
-    assert!(!place.path().join("ab_112_Milling.gcode").exists(), "{run}");
-    let run = place.run("adjust ac.dxf --max-correction 0.2");
-    assert!(run.status == Some(1) && run.stderr.contains("ac_Clean.gcode"), "{run}");
+    for drawing in ["a.dxf", "a"] {
+        succeed(&place.run(&format!("adjust {drawing} --max-correction 0.2")));
+        assert!(!place.path().join("ab_112_Milling.gcode").exists());
+        remove(&place, "a_112_Milling.gcode");
+    }
+    for (argument, missing) in
+        [("ac.dxf", "ac_Clean.gcode"), ("ac", "ac_Clean.gcode"), ("a_Z.txt", "a_Clean.gcode")]
+    {
+        let run = place.run(&format!("adjust {argument} --max-correction 0.2"));
+        assert!(run.status == Some(1) && run.stderr.contains(missing), "{run}");
+    }
 }
 
 #[test]

@@ -21,7 +21,7 @@ pub fn faults(text: &str) -> Vec<String> {
         if command.exit.is_some_and(|exit| run.status != Some(exit)) || !matches!(run.status, Some(0..=2)) {
             faults.push(format!("exit status {:?}\n{run}", run.status));
         }
-        for found in diagnostics(&run) {
+        for found in findings(&run) {
             match open.iter().position(|expect| agrees(expect, index, &found)) {
                 Some(position) => _ = open.remove(position),
                 None => faults.push(format!("not expected: {found}")),
@@ -38,7 +38,7 @@ pub fn faults(text: &str) -> Vec<String> {
 }
 
 /// The diagnostics among the lines of both streams.
-fn diagnostics(run: &Run) -> Vec<Json> {
+pub fn findings(run: &Run) -> Vec<Json> {
     let lines = run.stdout.lines().chain(run.stderr.lines());
     let objects = lines.filter(|line| line.starts_with('{')).map(|line| serde_json::from_str(line).unwrap());
     objects.filter(|object: &Json| object["type"] == "finding").collect()

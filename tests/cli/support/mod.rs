@@ -62,9 +62,15 @@ impl Place {
         self.caches.path()
     }
 
+    /// The user's directory of configurations.
+    pub fn configurations(&self) -> &Path {
+        self.configurations.path()
+    }
+
     /// Where results of this tree are kept.
     pub fn cache(&self) -> PathBuf {
-        let mut trees = fs::read_dir(self.caches.path().join("pathbuild")).into_iter().flatten();
+        let below = if cfg!(windows) { "pathbuild/cache" } else { "pathbuild" };
+        let mut trees = fs::read_dir(self.caches.path().join(below)).into_iter().flatten();
         trees.next().map_or_else(|| self.caches.path().join("none"), |tree| tree.unwrap().path())
     }
 
@@ -85,12 +91,13 @@ impl Place {
     /// Runs `pathbuild` in a directory below.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
         let mut program = program();
-        program.env("XDG_CACHE_HOME", self.caches.path());
-        program.env("XDG_CONFIG_HOME", self.configurations.path());
+        let (caches, configurations) =
+            if cfg!(windows) { ("LOCALAPPDATA", "APPDATA") } else { ("XDG_CACHE_HOME", "XDG_CONFIG_HOME") };
+        program.env(caches, self.caches.path()).env(configurations, self.configurations.path());
         let output = program.args(arguments).current_dir(self.path().join(directory)).output().unwrap();
         let text = |bytes: Vec<u8>| {
-            let text = String::from_utf8(bytes).unwrap().replace(&*self.path().to_string_lossy(), "<PLACE>");
-            let text = text.replace(&*self.cache().to_string_lossy(), "<CACHE>");
+            let text = String::from_utf8(bytes).unwrap().replace(&shown(self.path()), "<PLACE>");
+            let text = text.replace(&shown(&self.cache()), "<CACHE>");
             // How long it took is another number on another day.
             Regex::new(r"(?m)\(\d+([.,])\d s\)$").unwrap().replace_all(&text, "(0${1}0 s)").into_owned()
         };
@@ -101,6 +108,12 @@ impl Place {
             stderr: text(output.stderr),
         }
     }
+}
+
+/// A path as the program shows it.
+pub fn shown(path: &Path) -> String {
+    let path = path.to_string_lossy();
+    if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
 }
 
 /// The program, in an environment that says nothing.

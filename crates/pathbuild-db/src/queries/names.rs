@@ -1,12 +1,11 @@
 //! What file names say about paths: the drawings of a directory by the name ranges in theirs. (book: language/layers-and-names)
 
-use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_path::{FilePattern, PathKey, RangeTable};
 
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
-use crate::system::Names;
+use crate::system::{Names, join};
 
 /// The drawings of a directory by the path names in theirs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -33,7 +32,7 @@ impl NameTable {
         let name = |file: &u32| self.names.get(*file as usize);
         let mut files = self.ranges.files(key);
         files.sort_unstable_by_key(name);
-        let file = |name| db.file(&joined(directory.path(db), name));
+        let file = |name| db.file(&join(directory.path(db), name));
         files.iter().filter_map(name).map(file).collect()
     }
 }
@@ -60,13 +59,4 @@ fn is_drawing(name: &str) -> bool {
     let bytes = name.as_bytes();
     bytes.len() > EXTENSION.len()
         && bytes[bytes.len() - EXTENSION.len()..].eq_ignore_ascii_case(EXTENSION.as_bytes())
-}
-
-/// A file in a directory, whose path is normalised.
-pub(super) fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
-    // At once in the memory that it needs.
-    let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.len());
-    path.push(directory);
-    path.push(name);
-    path
 }

@@ -6,14 +6,14 @@ use rustc_hash::FxHashSet;
 
 use super::index::{FileIndex, file_index};
 use super::lookup::{own_directory, search_path};
-use super::names::{EXTENSION, joined};
+use super::names::EXTENSION;
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
-use crate::system::FileKind;
+use crate::system::{FileKind, join};
 
 /// The drawing of a directory that most likely defines a path: the one of its name, if there is one.
 pub fn likely_file(db: &dyn Db, directory: Directory, name: &str) -> Option<SourceFile> {
-    let path = joined(directory.path(db), &format!("{name}{EXTENSION}"));
+    let path = join(directory.path(db), format!("{name}{EXTENSION}"));
     (db.system().kind(&path) == FileKind::File).then(|| db.file(&path))
 }
 

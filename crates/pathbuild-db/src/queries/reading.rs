@@ -81,7 +81,7 @@ fn unreadable(error: ReadError, limit: u64) -> Diagnostic {
     match error {
         ReadError::Missing => Diagnostic::new(&messages::MISSING),
         ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
-        ReadError::Other(reason) => Diagnostic::new(&messages::UNREADABLE).with("reason", &*reason),
+        ReadError::Other(reason) => Diagnostic::new(&messages::UNREADABLE).with("reason", reason),
         ReadError::TooLarge { size } => Diagnostic::new(&messages::LIMIT)
             .with("what", format!("the file's size of {size} bytes"))
             .with("limit", format!("{limit} bytes"))

@@ -2,12 +2,14 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::SystemTime;
+use std::time::{Instant, SystemTime};
 
-use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::LEADS_OUT;
 
-use super::{Entry, FileKind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, Written, clean};
 
 /// Another system, of which nothing is read or written through links that lead from inside a directory to outside. A name that lies
 /// outside by itself is allowed: a tree can give none that is not held against [`Confined::holds`] first, so a person gave it.
@@ -20,9 +22,6 @@ pub struct Confined {
     root: Utf8PathBuf,
     real_root: Utf8PathBuf,
 }
-
-/// What is said of what is refused.
-const LEADS_OUT: &str = "it leads out of the repository, which is not trusted";
 
 impl Confined {
     /// A system confined to a directory.
@@ -67,13 +66,13 @@ impl Confined {
     }
 
     fn allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {
-        if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(LEADS_OUT.into())) }
+        if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Word(&LEADS_OUT))) }
     }
 
     /// Writing replaces a link, so it is the directory that must not lead out.
-    fn changeable(&self, path: &Utf8Path) -> Result<&dyn System, Box<str>> {
+    fn changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
-        if self.allows(directory) { Ok(&*self.below) } else { Err(LEADS_OUT.into()) }
+        if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Word(&LEADS_OUT)) }
     }
 }
 
@@ -132,26 +131,15 @@ impl System for Confined {
         self.below.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
         self.changeable(path)?.write(path, bytes)
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         self.changeable(path)?.remove(path)
     }
-}
 
-/// The path without `.` and `..`, as it is written: links are not followed, so that a linked drawing belongs where it is seen.
-pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
-    let mut clean = Utf8PathBuf::new();
-    for component in path.components() {
-        match component {
-            Utf8Component::ParentDir if clean.file_name().is_some() => _ = clean.pop(),
-            // Nothing is above the root.
-            Utf8Component::ParentDir if clean.has_root() => {}
-            Utf8Component::CurDir => {}
-            other => clean.push(other),
-        }
+    fn now(&self) -> Option<Instant> {
+        self.below.now()
     }
-    clean
 }

@@ -44,7 +44,7 @@ pub enum EntryKind {
 
 impl Names {
     /// Those behind these.
-    pub(crate) fn extend(&mut self, names: &Self) {
+    pub fn extend(&mut self, names: &Self) {
         let begin = self.text.len();
         self.text.push_str(&names.text);
         self.ends.extend(names.ends.iter().map(|end| begin + end));

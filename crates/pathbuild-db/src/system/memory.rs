@@ -1,10 +1,12 @@
-//! Files in memory, for tests and for drawings that are not saved yet.
+//! Files in memory: for tests, and for the page that compiles in a browser.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
+use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
 
 use super::{FileKind, Listing, ReadError, System, Written};
 
@@ -12,9 +14,15 @@ use super::{FileKind, Listing, ReadError, System, Written};
 #[derive(Debug, Default)]
 pub struct MemorySystem {
     files: Mutex<BTreeMap<Utf8PathBuf, Vec<u8>>>,
+    has_no_clock: bool,
 }
 
 impl MemorySystem {
+    /// Without files, where nobody tells the time.
+    pub fn without_clock() -> Self {
+        Self { has_no_clock: true, ..Self::default() }
+    }
+
     /// Puts a file there, or other bytes into it.
     pub fn put(&self, path: impl Into<Utf8PathBuf>, bytes: impl Into<Vec<u8>>) {
         self.files().insert(path.into(), bytes.into());
@@ -47,7 +55,7 @@ impl System for MemorySystem {
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
         let files = self.files();
         let (mut names, mut directories) = (BTreeSet::new(), BTreeSet::new());
-        for rest in files.keys().filter_map(|path| path.strip_prefix(directory).ok()) {
+        for rest in below(&files, directory).filter_map(|path| path.strip_prefix(directory).ok()) {
             let mut components = rest.components();
             let Some(name) = components.next() else { continue };
             if components.next().is_some() { &mut directories } else { &mut names }.insert(name.as_str());
@@ -59,7 +67,7 @@ impl System for MemorySystem {
         let files = self.files();
         if files.contains_key(path) {
             FileKind::File
-        } else if path.as_str().is_empty() || files.keys().any(|file| file.starts_with(path)) {
+        } else if path.as_str().is_empty() || below(&files, path).next().is_some() {
             FileKind::Directory
         } else {
             FileKind::Missing
@@ -70,13 +78,26 @@ impl System for MemorySystem {
         path.to_owned()
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
         let before = self.files().insert(path.to_owned(), bytes.to_vec());
         Ok(if before.as_deref() == Some(bytes) { Written::Unchanged } else { Written::Changed })
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         self.files().remove(path);
         Ok(())
     }
+
+    fn now(&self) -> Option<Instant> {
+        (!self.has_no_clock).then(Instant::now)
+    }
+}
+
+/// The files in a directory and below: paths are ordered part by part, so they stand together.
+fn below<'a>(
+    files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
+    directory: &Utf8Path,
+) -> impl Iterator<Item = &'a Utf8PathBuf> {
+    let from = files.range::<Utf8Path, _>((Bound::Included(directory), Bound::Unbounded));
+    from.map(|(path, _)| path).take_while(move |path| path.starts_with(directory))
 }

@@ -3,21 +3,27 @@
 mod confined;
 mod listing;
 mod memory;
+// The program in a browser has no files but those it is given.
+#[cfg(not(target_family = "wasm"))]
 mod os;
 mod overlay;
+mod spelling;
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
-use std::time::SystemTime;
+use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
+use pathbuild_diagnostic::Value;
 
-pub use confined::{Confined, clean};
+pub use confined::Confined;
 pub use listing::{Entry, EntryKind, Listing, Names};
 pub use memory::MemorySystem;
+#[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
 pub use overlay::Overlay;
+pub use spelling::{clean, join, spelt};
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {
@@ -115,13 +121,18 @@ pub trait System: Debug + Send + Sync {
     ///
     /// # Errors
     /// The reason why it cannot be written; nothing is left under the name that was not there before.
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>>;
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value>;
 
     /// Removes a file; that there is none is no error.
     ///
     /// # Errors
     /// The reason why it cannot be removed.
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>>;
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value>;
+
+    /// What time it is, for limits of time; `None` where there is no clock: who started the work there ends it when it takes too long.
+    fn now(&self) -> Option<Instant> {
+        Some(Instant::now())
+    }
 }
 
 /// What is under a name.
@@ -153,6 +164,6 @@ pub enum ReadError {
         /// How many there are.
         size: u64,
     },
-    /// The system's reason.
-    Other(Box<str>),
+    /// Any other reason.
+    Other(Value),
 }

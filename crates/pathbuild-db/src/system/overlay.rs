@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::SystemTime;
+use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
@@ -90,11 +91,15 @@ impl System for Overlay {
         self.below.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
         self.below.write(path, bytes)
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         self.below.remove(path)
+    }
+
+    fn now(&self) -> Option<Instant> {
+        self.below.now()
     }
 }

@@ -41,7 +41,7 @@ messages! {
     /// A layer that is a path and holds clamps.
     KEEP_OUT_IS_PATH: InvalidConfiguration {
         en: "layer {layer} is a path by `path-pattern`, and holds clamps by `keep-out`",
-        de: "Layer {layer} ist nach `path-pattern` ein Pfad, und enthält nach `keep-out` Spannmittel",
+        de: "Layer {layer} ist nach `path-pattern` ein Pfad und enthält nach `keep-out` Spannmittel",
         help_en: "write `keep-out` so that it matches the whole names of layers with clamps only, or rename the layer",
         help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
@@ -85,7 +85,7 @@ messages! {
     }
     /// A directory that is not there.
     NO_DIRECTORY: InvalidConfiguration {
-        en: "`{key}` names {directory}, which is no directory",
+        en: "`{key}` names {directory}, which is not a directory",
         de: "`{key}` nennt {directory}, das kein Verzeichnis ist",
         help_en: "correct the name; names in pathbuild.toml are relative to it, those of options to the working directory",
         help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf deren Ort, die von Optionen auf das Arbeitsverzeichnis",
@@ -106,14 +106,14 @@ messages! {
     }
     /// No regular expression.
     BROKEN_REGEX: InvalidConfiguration {
-        en: "`{key}` is no regular expression: {reason}",
+        en: "`{key}` is not a regular expression: {reason}",
         de: "`{key}` ist kein regulärer Ausdruck: {reason}",
         help_en: "a character that means itself has a backslash before it, or stands in brackets: [.]",
         help_de: "ein Zeichen, das für sich selbst steht, hat einen Backslash davor oder steht in Klammern: [.]",
     }
     /// No glob.
     BROKEN_GLOB: InvalidConfiguration {
-        en: "`{key}` is no pattern of names: {reason}",
+        en: "`{key}` is not a pattern of names: {reason}",
         de: "`{key}` ist kein Namensmuster: {reason}",
         help_en: "* is any text, ** also across directories, ? one character, [a-c] one of several",
         help_de: "* ist beliebiger Text, ** auch über Verzeichnisse hinweg, ? ein Zeichen, [a-c] eines von mehreren",
@@ -143,22 +143,22 @@ messages! {
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
-        help_en: "it stops a program from being right; mend the drawing, or keep known errors in a file with --baseline",
-        help_de: "damit wäre das Programm nicht richtig; die Zeichnung verbessern, oder bekannte Fehler mit --baseline in einer Datei festhalten",
+        help_en: "otherwise a wrong program could result; correct the drawing, or keep known errors in a file with --baseline",
+        help_de: "sonst könnte ein falsches Programm entstehen; die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten",
     }
     /// Two configurations in one run.
     OTHER_CONFIGURATION: InvalidConfiguration {
         en: "{argument} lies under {other}, but this run has {used}",
         de: "{argument} liegt unter {other}, dieser Lauf hat aber {used}",
         help_en: "run once for each configuration, or name the one that is meant with --config",
-        help_de: "für jede Konfiguration einen eigenen Lauf machen, oder die gemeinte mit --config nennen",
+        help_de: "für jede Konfiguration einen eigenen Lauf machen oder die gemeinte mit --config nennen",
     }
     /// The same, where the first argument has none.
     UNEXPECTED_CONFIGURATION: InvalidConfiguration {
         en: "{argument} lies under {other}, but this run has no configuration, because its first argument has none",
         de: "{argument} liegt unter {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
         help_en: "run once for each, or name the configuration that is meant with --config",
-        help_de: "für jedes einen eigenen Lauf machen, oder die gemeinte Konfiguration mit --config nennen",
+        help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
     }
     /// A baseline that is not there.
     BASELINE_UNREADABLE: InvalidConfiguration {
@@ -172,7 +172,7 @@ messages! {
         en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
         de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
         help_en: "remove it, or write the file anew with --update-baseline",
-        help_de: "die Zeile entfernen, oder die Datei mit --update-baseline neu schreiben",
+        help_de: "die Zeile entfernen oder die Datei mit --update-baseline neu schreiben",
     }
 }
 

@@ -20,14 +20,14 @@ messages! {
         en: "path {name} has a second start marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Startmarke; die erste ist bei {first}",
         help_en: "remove one, or put it on another path's layer",
-        help_de: "eine davon entfernen, oder auf den Layer eines anderen Pfads legen",
+        help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
     /// Two end markers.
     TWO_ENDS: TwoEnds {
         en: "path {name} has a second end marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Endmarke; die erste ist bei {first}",
         help_en: "remove one, or put it on another path's layer",
-        help_de: "eine davon entfernen, oder auf den Layer eines anderen Pfads legen",
+        help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
     /// PHANTOM circle of no known diameter.
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
@@ -46,7 +46,7 @@ messages! {
     /// A known line type on the wrong kind of entity.
     LINE_TYPE_ON_ENTITY: UnknownLineType {
         en: "line type {line_type} has no meaning on {element}",
-        de: "Linientyp {line_type} hat auf {element} keine Bedeutung",
+        de: "{element} mit Linientyp {line_type} hat keine Bedeutung",
         help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
         help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
     }
@@ -67,16 +67,16 @@ messages! {
     /// A text that a small shift gives to another element.
     NEARLY_OTHER_ELEMENT: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",
-        de: "der Text \"{text}\" gehört zu {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
+        de: "zum Text \"{text}\" gehört {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name; `text-margin` under [warnings] sets the limit",
-        help_de: "den Text näher an sein Element schieben, oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
+        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
     }
     /// A text that belongs to an element because that comes first.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
-        de: "der Text \"{text}\" ist {other} bei {other_point} so nah wie {element} bei {point}, zu dem er nur gehört, weil es in der Datei zuerst kommt",
+        de: "zum Text \"{text}\" gehört {element} bei {point} nur, weil es in der Datei zuerst kommt: {other} bei {other_point} ist genauso nah",
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name",
-        help_de: "den Text näher an sein Element schieben, oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
+        help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
     /// Note: what it may have been meant for.
     NEAREST_ELEMENT: TextWithoutElement {
@@ -86,7 +86,7 @@ messages! {
     /// Note: it would be found on another layer.
     ELEMENT_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer} it would belong to {element} at {point}",
-        de: "auf Layer {layer} würde er zu {element} bei {point} gehören",
+        de: "auf Layer {layer} würde {element} bei {point} zu ihm gehören",
     }
     /// Smaller than the cutter.
     CIRCLE_TOO_SMALL: CircleTooSmall {
@@ -100,14 +100,14 @@ messages! {
         en: "the element is not in the plane: Z is {z} mm",
         de: "das Element liegt nicht in der Ebene: Z ist {z} mm",
         help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
-        help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN, oder Z und Erhebung auf 0 setzen)",
+        help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
     }
     /// Frozen or off.
     LAYER_NOT_VISIBLE: LayerNotVisible {
         en: "layer {layer} is frozen or off, but its path counts all the same",
         de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad zählt trotzdem",
         help_en: "make it visible, or rename it if the path is not wanted any more",
-        help_de: "sichtbar machen, oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
+        help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
     }
     /// A turn marker that never acts.
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
@@ -128,14 +128,14 @@ messages! {
         en: "a layer with clamps is frozen or off, but its clamps count all the same",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel zählen trotzdem",
         help_en: "make it visible, or move the clamps that are gone to a layer that `keep-out` does not name",
-        help_de: "sichtbar machen, oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
+        help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
     }
     /// A gap in a clamp's outline.
     OUTLINE_OPEN: InvalidKeepOut {
         en: "the outline of a clamp does not close: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss eines Spannmittels ist nicht geschlossen: er endet bei {point} und bei {other}, {distance} mm auseinander",
         help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
-        help_de: "einen Kreis, eine geschlossene Polylinie, oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
+        help_de: "einen Kreis, eine geschlossene Polylinie oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
     }
     /// Three ends in one point.
     OUTLINE_BRANCHES: InvalidKeepOut {

@@ -25,7 +25,7 @@ messages! {
         en: "this is a directory, not a drawing",
         de: "das ist ein Verzeichnis, keine Zeichnung",
         help_en: "name a drawing in it, or use `pathbuild check` for the whole directory",
-        help_de: "eine Zeichnung darin nennen, oder `pathbuild check` für das ganze Verzeichnis",
+        help_de: "eine Zeichnung darin nennen oder `pathbuild check` für das ganze Verzeichnis",
     }
     /// Nothing in it.
     EMPTY_FILE: InvalidDxf {
@@ -46,7 +46,7 @@ messages! {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
         de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
         help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" does not believe the header",
-        help_de: "die Einheit in der Zeichnung auf Millimeter stellen, oder `units` in pathbuild.toml: \"drawing\" rechnet um, \"mm\" glaubt dem Kopf nicht",
+        help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml: \"drawing\" rechnet um, \"mm\" glaubt dem Kopf nicht",
     }
     /// A bug.
     INTERNAL: InternalError {

@@ -36,7 +36,7 @@ messages! {
         en: "{word} is not in the drawing's program: it may change where, how deep or how fast the tool cuts",
         de: "{word} steht nicht im Programm der Zeichnung: es kann ändern, wo, wie tief oder wie schnell gefräst wird",
         help_en: "remove it, or write the program again with `pathbuild emit`",
-        help_de: "das Wort entfernen, oder das Programm mit `pathbuild emit` neu schreiben",
+        help_de: "das Wort entfernen oder das Programm mit `pathbuild emit` neu schreiben",
     }
     /// `verify --against`: another place.
     DRAWN_ELSEWHERE: MovesDiffer {
@@ -85,7 +85,7 @@ messages! {
         en: "the tool is T{found}, for the drawing it is T{expected}",
         de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
-        help_de: "das Programm mit `pathbuild emit` neu schreiben, oder `number` in [tool.NAME] berichtigen",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
     }
     /// `verify --against`: G43, H.
     LENGTHS_DIFFER: MovesDiffer {
@@ -99,7 +99,7 @@ messages! {
         en: "the spindle runs with `{found}`, for the drawing's cutter it is `{expected}`",
         de: "die Spindel läuft mit `{found}`, für den Fräser der Zeichnung ist es `{expected}`",
         help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
-        help_de: "das Programm mit `pathbuild emit` neu schreiben, oder [tool.NAME] berichtigen",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
     }
     /// `verify --against`: no dwell behind M3.
     SPUN_UP_TOO_SHORT: MovesDiffer {
@@ -134,7 +134,7 @@ messages! {
         en: "{word} still holds at the end: the next program begins elsewhere",
         de: "{word} gilt am Ende noch: das nächste Programm beginnt anderswo",
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
-        help_de: "vor dem Ende G92.1 schreiben, oder G52 X0 Y0 Z0",
+        help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
     /// Nothing in the file looks like a word of G-code.
     NOT_G_CODE: NotGCode {
@@ -148,14 +148,14 @@ messages! {
         en: "`{found}` begins no word; the line is left out",
         de: "mit `{found}` beginnt kein Wort; die Zeile bleibt unbeachtet",
         help_en: "remove it, or put the remark into a comment",
-        help_de: "das Zeichen entfernen, oder die Bemerkung in einen Kommentar setzen",
+        help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
     /// The same where the dialect passes over what it does not know.
     UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
         en: "`{found}` begins no word; it is passed over",
         de: "mit `{found}` beginnt kein Wort; es wird übergangen",
         help_en: "remove it, or put the remark into a comment",
-        help_de: "das Zeichen entfernen, oder die Bemerkung in einen Kommentar setzen",
+        help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
     /// `X` and then no number.
     WORD_WITHOUT_NUMBER: InvalidWord {
@@ -230,7 +230,7 @@ messages! {
     /// Too deep.
     NESTED_TOO_DEEPLY: InvalidExpression {
         en: "brackets are nested deeper than {most}; the line is left out",
-        de: "Klammern sind tiefer als {most} geschachtelt; die Zeile bleibt unbeachtet",
+        de: "Klammern sind tiefer als {most} verschachtelt; die Zeile bleibt unbeachtet",
         help_en: "set a parameter to a part of the expression first",
         help_de: "zuerst einen Parameter auf einen Teil des Ausdrucks setzen",
     }
@@ -239,7 +239,7 @@ messages! {
         en: "the line has {length} characters; {dialect} takes {most}",
         de: "die Zeile hat {length} Zeichen; {dialect} nimmt {most}",
         help_en: "split the line, or shorten its comments",
-        help_de: "die Zeile teilen, oder ihre Kommentare kürzen",
+        help_de: "die Zeile teilen oder ihre Kommentare kürzen",
     }
     /// The reader's own limit.
     LINE_MUCH_TOO_LONG: LongLine {
@@ -288,14 +288,14 @@ messages! {
         en: "{dialect} obeys `{found}` at once, even in a comment: {effect}",
         de: "{dialect} gehorcht `{found}` sofort, auch in einem Kommentar: {effect}",
         help_en: "write ASCII only, and no ! ? ~",
-        help_de: "nur ASCII schreiben, und kein ! ? ~",
+        help_de: "nur ASCII schreiben, kein ! ? ~",
     }
     /// Behind M30 or the closing %.
     AFTER_END: AfterProgramEnd {
         en: "the program ends in line {line}; this and what follows is not read",
         de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
         help_en: "remove it, or the earlier end",
-        help_de: "entfernen, oder das frühere Ende",
+        help_de: "entfernen oder das frühere Ende",
     }
     /// No M2, M30, %.
     NO_END: NoProgramEnd {
@@ -309,7 +309,7 @@ messages! {
         en: "a switch at the machine can leave this line out; it is read as if it were run",
         de: "ein Schalter an der Maschine kann diese Zeile auslassen; sie wird gelesen, als würde sie ausgeführt",
         help_en: "remove `/`, or the line",
-        help_de: "`/` entfernen, oder die Zeile",
+        help_de: "`/` entfernen oder die Zeile",
     }
     /// `/` that does nothing.
     SLASH_DROPPED: OptionalLine {
@@ -323,21 +323,21 @@ messages! {
         en: "{dialect} does not know {word}",
         de: "{dialect} kennt {word} nicht",
         help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
-        help_de: "die Datei mit --dialect als anderen Dialekt lesen, oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
+        help_de: "die Datei mit --dialect als anderen Dialekt lesen oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
     }
     /// A letter.
     LETTER_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know the letter {word}",
         de: "{dialect} kennt den Buchstaben {word} nicht",
         help_en: "read the file as another dialect with --dialect, or remove the word",
-        help_de: "die Datei mit --dialect als anderen Dialekt lesen, oder das Wort entfernen",
+        help_de: "die Datei mit --dialect als anderen Dialekt lesen oder das Wort entfernen",
     }
     /// `#` or `[ ]`.
     UNKNOWN_EXPRESSION: UnknownWord {
         en: "{dialect} knows no parameters and expressions; the line is left out",
         de: "{dialect} kennt keine Parameter und Ausdrücke; die Zeile bleibt unbeachtet",
         help_en: "write numbers, or read the file as another dialect with --dialect",
-        help_de: "Zahlen schreiben, oder die Datei mit --dialect als anderen Dialekt lesen",
+        help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
     /// `%` for GRBL.
     UNKNOWN_PERCENT: UnknownWord {
@@ -358,14 +358,14 @@ messages! {
         en: "subroutines and branches (O words) are not followed; the lines below are read once, in the order of the file",
         de: "Unterprogramme und Verzweigungen (O-Wörter) werden nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
         help_en: "write the moves out, or check the program at the control",
-        help_de: "die Bewegungen ausschreiben, oder das Programm an der Steuerung prüfen",
+        help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
     }
     /// A command.
     NOT_FOLLOWED: WordNotFollowed {
         en: "{word} is not followed: moves from here on may be others than those of the machine",
         de: "{word} wird nicht verfolgt: ab hier können die Bewegungen andere sein als die der Maschine",
         help_en: "check the program at the control, or write the moves out",
-        help_de: "das Programm an der Steuerung prüfen, oder die Bewegungen ausschreiben",
+        help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
     /// An axis.
     AXIS_NOT_FOLLOWED: WordNotFollowed {
@@ -379,7 +379,7 @@ messages! {
         en: "{dialect} passes over {word}",
         de: "{dialect} übergeht {word}",
         help_en: "remove it, or switch it by hand",
-        help_de: "entfernen, oder von Hand schalten",
+        help_de: "entfernen oder von Hand schalten",
     }
     /// F, by option.
     FEED_IGNORED: IgnoredWord {
@@ -438,7 +438,7 @@ messages! {
     /// G53 with G91.
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
         en: "G53 counts from the machine's zero, and G91 from where the tool is",
-        de: "G53 zählt ab Maschinennull, und G91 von da, wo das Werkzeug ist",
+        de: "G53 zählt ab Maschinennull und G91 von da, wo das Werkzeug ist",
         help_en: "switch to G90 before",
         help_de: "vorher auf G90 schalten",
     }
@@ -454,7 +454,7 @@ messages! {
         en: "nothing in this line uses {word}",
         de: "nichts in dieser Zeile verwendet {word}",
         help_en: "remove it, or add the G word that it belongs to",
-        help_de: "entfernen, oder das G-Wort ergänzen, zu dem es gehört",
+        help_de: "entfernen oder das G-Wort ergänzen, zu dem es gehört",
     }
     /// Division by zero and the like.
     NO_VALUE: CannotEvaluate {
@@ -536,21 +536,21 @@ messages! {
         en: "with G93 every cutting move needs its own F",
         de: "mit G93 braucht jede Fräsbewegung ihr eigenes F",
         help_en: "write F in this line, or switch to G94",
-        help_de: "F in diese Zeile schreiben, oder auf G94 schalten",
+        help_de: "F in diese Zeile schreiben oder auf G94 schalten",
     }
     /// G95 with the spindle standing.
     FEED_PER_TURN_WITHOUT_SPEED: MissingFeed {
         en: "with G95 the feed depends on the spindle, and no speed is set",
         de: "mit G95 hängt der Vorschub von der Spindel ab, und es ist keine Drehzahl gesetzt",
         help_en: "set S, or switch to G94",
-        help_de: "S setzen, oder auf G94 schalten",
+        help_de: "S setzen oder auf G94 schalten",
     }
     /// Radii.
     RADII_DIFFER: ArcRadiiDiffer {
         en: "the arc begins with the radius {start} and ends with {end}: {difference} mm more than {dialect} takes",
         de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: {difference} mm mehr, als {dialect} nimmt",
         help_en: "write I and J with more decimals, or check the centre",
-        help_de: "I und J mit mehr Nachkommastellen schreiben, oder den Mittelpunkt prüfen",
+        help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
     /// No centre, no radius.
     ARC_WITHOUT_CENTRE: InvalidArc {
@@ -618,21 +618,21 @@ messages! {
         en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
         de: "eine Eilgangbewegung auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
-        help_de: "den Fräser vorher anheben, oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+        help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
     /// Kilometres of milling.
     TOO_LARGE_TO_FOLLOW: LimitReached {
         en: "following the material of this program exceeds the limit of {limit} cells; not checked: rapid moves into material",
         de: "das Material dieses Programms zu verfolgen überschreitet die Grenze von {limit} Zellen; nicht geprüft: Eilgang ins Material",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "viel zu große Zahlen berichtigen, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// Arcs and slopes without end.
     TOO_MANY_PIECES: LimitReached {
         en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, das überschreitet die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "viel zu große Radien und Höhen berichtigen, oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// Rapid down.
     RAPID_PLUNGE: RapidPlunge {
@@ -674,7 +674,7 @@ messages! {
         en: "the spindle still turns when the program ends",
         de: "die Spindel dreht sich noch, wenn das Programm endet",
         help_en: "switch it off with M5, or end the program with M30",
-        help_de: "sie mit M5 ausschalten, oder das Programm mit M30 beenden",
+        help_de: "sie mit M5 ausschalten oder das Programm mit M30 beenden",
     }
     /// I, J, K with one or two decimals, and nothing finer in the program.
     COARSE_ARCS: CoarseArcs {
@@ -695,28 +695,28 @@ messages! {
         en: "S {speed} is outside the machine's {least} to {most}",
         de: "S {speed} liegt außerhalb der {least} bis {most} der Maschine",
         help_en: "change S, or the spindle's range under [machine]",
-        help_de: "S ändern, oder den Bereich der Spindel unter [machine]",
+        help_de: "S ändern oder den Bereich der Spindel unter [machine]",
     }
     /// F.
     FEED_TOO_HIGH: FeedTooHigh {
         en: "a feed of {feed} mm/min, {axis} of which are more than the machine's {most}",
         de: "ein Vorschub von {feed} mm/min, der in {axis} mehr ist als die {most} der Maschine",
         help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
-        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder die Geschwindigkeit unter [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
     }
     /// F as such.
     FEED_ABOVE_MOST: FeedTooHigh {
         en: "a feed of {feed} mm/min; the machine's largest is {most}",
         de: "ein Vorschub von {feed} mm/min; der größte der Maschine ist {most}",
         help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
-        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern, oder `maximum-feed` unter [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder `maximum-feed` unter [machine]",
     }
     /// Placed box.
     OUTSIDE_MACHINE: OutsideMachine {
         en: "{axis} {value} is outside the machine's {least} to {most}",
         de: "{axis} {value} liegt außerhalb der {least} bis {most} der Maschine",
         help_en: "move the part, or change the travel under [machine]",
-        help_de: "das Werkstück versetzen, oder den Verfahrweg unter [machine] ändern",
+        help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] ändern",
     }
     /// Size only.
     LARGER_THAN_MACHINE: OutsideMachine {
@@ -775,6 +775,11 @@ messages! {
     MOVES_TOO_MANY: MovesDiffer {
         en: "the other's moves end in line {line}; these go on",
         de: "die Bewegungen des anderen enden in Zeile {line}; diese gehen weiter",
+    }
+    /// Said under the last of many, where one more is left.
+    ONE_MORE: DoubtfulSpelling {
+        en: "this is said of one more line, which is not shown",
+        de: "das gilt für eine weitere Zeile, die nicht gezeigt wird",
     }
     /// Said under the last of many.
     MORE: DoubtfulSpelling {

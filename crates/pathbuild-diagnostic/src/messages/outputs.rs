@@ -38,10 +38,10 @@ messages! {
     }
     /// A path that no other drawing finds.
     STRAY_PATH: StrayPath {
-        en: "path {name} is not looked for in a file of this name, so other drawings cannot embed it",
-        de: "Pfad {name} wird in einer Datei dieses Namens nicht gesucht, andere Zeichnungen können ihn nicht einbetten",
+        en: "other drawings cannot embed path {name}: its name is not in the name of this file",
+        de: "andere Zeichnungen können Pfad {name} nicht einbetten: sein Name steht nicht im Namen dieser Datei",
         help_en: "put the path's name into the file's name, or correct the layer's name",
-        help_de: "den Namen des Pfads in den Dateinamen aufnehmen, oder den Namen des Layers berichtigen",
+        help_de: "den Namen des Pfads in den Dateinamen aufnehmen oder den Namen des Layers berichtigen",
     }
     /// A pattern of targets that no path has.
     NO_TARGET: NoPath {
@@ -64,7 +64,12 @@ messages! {
         help_en: "`pathbuild list` shows all; * stands for any characters, ? for one",
         help_de: "`pathbuild list` zeigt alle; * steht für beliebige Zeichen, ? für eines",
     }
-    /// Note: names that are nearly the same.
+    /// Note: the drawing that defines the path.
+    DEFINED_IN: PathNotFound {
+        en: "the library defines it in {near}: name that drawing",
+        de: "die Bibliothek enthält ihn in {near}: diese Zeichnung nennen",
+    }
+    /// A note: the path whose name is nearest.
     NEAR_PATH: PathNotFound {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
@@ -74,7 +79,7 @@ messages! {
         en: "{name} would be written by {first} and by {second}",
         de: "{name} würde von {first} und von {second} geschrieben",
         help_en: "give one of them an R (a suffix of the output's name), or use --out-dir in separate runs",
-        help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe), oder --out-dir in getrennten Läufen verwenden",
+        help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe) oder --out-dir in getrennten Läufen verwenden",
     }
     /// Output that nothing writes any more.
     STALE: StaleOutput {
@@ -87,7 +92,7 @@ messages! {
     OLDER_OUTPUT: OlderOutput {
         en: "path {path} was not written, and {name} is older",
         de: "Pfad {path} wurde nicht geschrieben, und {name} ist älter",
-        help_en: "do not mill from {name} before the path's errors are mended and it is written anew",
+        help_en: "do not mill from {name} before the path's errors are fixed and it is written anew",
         help_de: "nicht nach {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
     /// What `adjust` wrote, of another program than the path's now.
@@ -96,6 +101,13 @@ messages! {
         de: "{name} wurde aus einem anderen Programm gemacht, als {clean} jetzt ist",
         help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
+    }
+    /// Output of another post, of before the path was changed.
+    STALE_OTHER_MOVES: StaleOutput {
+        en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",
+        de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
+        help_en: "do not run it: emit with that post, or emit --remove-stale removes it",
+        help_de: "nicht laufen lassen: mit jenem Postprozessor neu schreiben (emit), oder emit --remove-stale entfernt es",
     }
     /// A path without an embedding.
     LACKS_PATH: QProjectLacksPath {

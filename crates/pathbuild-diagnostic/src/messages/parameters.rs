@@ -6,7 +6,7 @@ messages! {
         en: "{letter} missing",
         de: "{letter} fehlt",
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
-        help_de: "{element} braucht {letter}: ans Element schreiben, oder an die Startmarke des Pfads",
+        help_de: "{element} braucht {letter}: ans Element schreiben oder an die Startmarke des Pfads",
     }
     /// O or T of the path itself.
     MISSING_AT_START: MissingParameter {
@@ -106,40 +106,54 @@ messages! {
         help_en: "write the infeed of one pass, for example I0.5",
         help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I0.5",
     }
+    /// A mark that leaves little of the material.
+    DEEP_MARK: DoubtfulValue {
+        en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
+        de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
+        help_en: "D is the height of the mark's bottom above the plate, not its depth: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
+        help_de: "D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
+    }
+    /// The same of marks that have the path's D.
+    DEEP_MARKS_OF_PATH: DoubtfulValue {
+        en: "marks without D have this one, {value}: they are {depth} mm deep in material of {thickness} mm",
+        de: "Markierungen ohne D haben dieses, {value}: sie sind {depth} mm tief in Material von {thickness} mm",
+        help_en: "where this D is that of support bars, give each mark its own: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
+        help_de: "wo dieses D das der Stützstege ist, jeder Markierung ein eigenes geben: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
+    }
     /// Faster than the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
         en: "F is {value}, but the machine's largest feed is {limit}",
         de: "F ist {value}, der größte Vorschub der Maschine ist aber {limit}",
         help_en: "correct F, or `maximum-feed` under [machine]",
-        help_de: "F berichtigen, oder `maximum-feed` unter [machine]",
+        help_de: "F berichtigen oder `maximum-feed` unter [machine]",
     }
     /// The same of the option.
     FALLBACK_FEED_ABOVE_MACHINE: DoubtfulValue {
         en: "the feed {value} that holds for this path, which has no F, is above the machine's largest, {limit}",
         de: "der Vorschub {value}, der für diesen Pfad ohne F gilt, liegt über dem größten der Maschine, {limit}",
         help_en: "lower `feed` (--feed), write F into the path, or correct `maximum-feed` under [machine]",
-        help_de: "`feed` (--feed) senken, F in den Pfad schreiben, oder `maximum-feed` unter [machine] berichtigen",
+        help_de: "`feed` (--feed) senken, F in den Pfad schreiben oder `maximum-feed` unter [machine] berichtigen",
     }
     /// The sweep height that an emitted path gets because it has none.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",
         de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T mit {limit}",
         help_en: "give the path an S, or raise sweep-height",
-        help_de: "dem Pfad ein S geben, oder sweep-height erhöhen",
+        help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }
     /// Material or a probe that H raises as high as rapid moves run.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
         en: "what stands here reaches up to {limit}, and sweeps of this path run at {value}: rapid moves would run into it",
         de: "was hier steht, reicht bis {limit}, und Leerfahrten dieses Pfades laufen auf {value}: Eilgangbewegungen führen hinein",
         help_en: "give this path a greater S, or raise the material less (H)",
-        help_de: "diesem Pfad ein größeres S geben, oder das Material weniger anheben (H)",
+        help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }
     /// A letter twice in one text.
     TWICE: DuplicateParameter {
         en: "{letter} is given twice",
         de: "{letter} ist zweimal angegeben",
-        help_en: "remove one of them; which one holds is never guessed",
-        help_de: "eines davon entfernen; welches gilt, wird nie geraten",
+        help_en: "remove one of them; pathbuild does not guess which one you mean",
+        help_de: "eines davon entfernen; pathbuild rät nicht, welches gemeint ist",
     }
     /// A variable twice in one text.
     VARIABLE_TWICE: DuplicateParameter {
@@ -215,14 +229,28 @@ messages! {
     WITHOUT_EFFECT: ParameterWithoutEffect {
         en: "{letter} has no effect here",
         de: "{letter} hat hier keine Wirkung",
-        help_en: "remove it, so that nobody believes it holds",
-        help_de: "entfernen, damit niemand glaubt, dass es gilt",
+        help_en: "remove it; it has no effect",
+        help_de: "entfernen; es bewirkt nichts",
+    }
+    /// B of what is only marked.
+    BOTTOM_OF_MARK: ParameterWithoutEffect {
+        en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",
+        de: "{letter} hat hier keine Wirkung: eine Markierung (Linientyp DIVIDE) geht bis D",
+        help_en: "write D{value} if that is how deep the mark is; what goes down to B is line type CONTINUOUS",
+        help_de: "D{value} schreiben, wenn die Markierung so tief ist; bis B geht der Linientyp CONTINUOUS",
+    }
+    /// D of what is milled to the bottom.
+    DEPTH_OF_MILLING: ParameterWithoutEffect {
+        en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
+        de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",
+        help_en: "write B{value} if that is how deep it is; what goes down to D is a mark, line type DIVIDE",
+        help_de: "B{value} schreiben, wenn es so tief ist; bis D geht eine Markierung, Linientyp DIVIDE",
     }
     /// Only the chain's first segment's value counts.
     WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {
-        en: "{letter} has no effect here: a milling chain has that of its first segment",
-        de: "{letter} hat hier keine Wirkung: eine Fräskette hat jenes ihres ersten Segments",
+        en: "{letter} has no effect here: the first segment's {letter} applies to the whole chain",
+        de: "{letter} hat hier keine Wirkung: für die ganze Fräskette gilt der Wert des ersten Segments",
         help_en: "write it on the chain's first segment, or on the path's start marker",
-        help_de: "ans erste Segment der Kette schreiben, oder an die Startmarke des Pfads",
+        help_de: "ans erste Segment der Kette schreiben oder an die Startmarke des Pfads",
     }
 }

@@ -28,14 +28,14 @@ messages! {
     /// An option's value.
     POST_OPTION: InvalidPost {
         en: "{option} is \"{value}\", not {expected}",
-        de: "{option} ist »{value}«, nicht {expected}",
+        de: "{option} ist \"{value}\", nicht {expected}",
     }
     /// `{$` without an end.
     POST_UNCLOSED_MACRO: InvalidPost {
         en: "a macro in {section} is not closed",
         de: "ein Makro in {section} ist nicht geschlossen",
         help_en: "close it with \"}\"",
-        help_de: "es mit »}« schließen",
+        help_de: "es mit \"}\" schließen",
     }
     /// `{$spindle(left)}`.
     POST_MACRO_ARGUMENTS: InvalidPost {
@@ -47,14 +47,14 @@ messages! {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
         help_en: "define it as \"$name=value\" in PostProcessorMacros or in the configuration",
-        help_de: "als »$name=Wert« in PostProcessorMacros oder in der Konfiguration definieren",
+        help_de: "als \"$name=Wert\" in PostProcessorMacros oder in der Konfiguration definieren",
     }
     /// Nobody knows the name, but one is like it.
     UNKNOWN_MACRO_NEAREST: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
         help_en: "did you mean {nearest}?",
-        help_de: "war {nearest} gemeint?",
+        help_de: "ist {nearest} gemeint?",
     }
     /// Not known to CamBam or pathbuild.
     POST_UNKNOWN_ELEMENT: DoubtfulPost {
@@ -69,7 +69,7 @@ messages! {
     /// A line of `PostProcessorMacros`.
     POST_MACRO_LINE: DoubtfulPost {
         en: "\"{text}\" defines no macro and is left out",
-        de: "»{text}« definiert kein Makro und wird übergangen",
+        de: "\"{text}\" definiert kein Makro und wird übergangen",
         help_en: "a macro is defined as $name=value",
         help_de: "ein Makro wird als $name=Wert definiert",
     }
@@ -81,7 +81,7 @@ messages! {
     /// A contains B contains A.
     MACRO_DEPTH: EndlessMacro {
         en: "{section} contains itself, or macros are nested more than {limit} deep",
-        de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} geschachtelt",
+        de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} verschachtelt",
     }
     /// `{$mops}` in MOP.
     BLOCK_WITHIN_ITSELF: EndlessMacro {
@@ -121,7 +121,7 @@ messages! {
         en: "the post writes nothing that drills the hole at {place}: {section} is empty",
         de: "der Postprozessor schreibt nichts, was die Bohrung bei {place} ausführt: {section} ist leer",
         help_en: "write the hole as moves (cycles = false), or give the post a text for it",
-        help_de: "die Bohrung als Bewegungen schreiben (cycles = false), oder dem Postprozessor einen Text dafür geben",
+        help_de: "die Bohrung als Bewegungen schreiben (cycles = false) oder dem Postprozessor einen Text dafür geben",
     }
     /// Start and end are at different distances from the centre, as written.
     ARC_ROUNDED: RoundedArc {
@@ -140,7 +140,7 @@ messages! {
     /// No words.
     LINE_UNREADABLE: UnreadableLine {
         en: "the post writes \"{line}\", which is no G-code; what it does to the machine is not followed",
-        de: "der Postprozessor schreibt »{line}«, das kein G-Code ist; was es an der Maschine bewirkt, wird nicht verfolgt",
+        de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; was es an der Maschine bewirkt, wird nicht verfolgt",
         help_en: "if that is meant, set SuppressParserErrors in the post",
         help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
     }
@@ -163,7 +163,7 @@ messages! {
         en: "T{index} is not in the tool table",
         de: "T{index} ist nicht in der Werkzeugtabelle",
         help_en: "put the cutter that is meant into the machine's table and as [tool.NAME] with `number` into pathbuild.toml, or change T",
-        help_de: "den gemeinten Fräser in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen, oder T ändern",
+        help_de: "den gemeinten Fräser in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen oder T ändern",
     }
     /// Nothing to write.
     JOB_EMPTY: NothingToPost {
@@ -180,19 +180,19 @@ messages! {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "`pathbuild post list` lists the built-in ones; a file is given with its extension",
-        help_de: "`pathbuild post list` zählt die eingebauten auf; eine Datei gibt man mit ihrer Endung an",
+        help_de: "`pathbuild post list` führt die eingebauten auf; eine Datei gibt man mit ihrer Endung an",
     }
     /// As above, but there is one like it.
     POST_UNKNOWN_NEAREST: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "did you mean {nearest}?",
-        help_de: "war {nearest} gemeint?",
+        help_de: "ist {nearest} gemeint?",
     }
     /// A note: the command after writing.
     POST_BUILD_SKIPPED: DoubtfulPost {
         en: "the post's command \"{command}\" was not run; --run-post-build runs it",
-        de: "der Befehl »{command}« des Postprozessors wurde nicht ausgeführt; --run-post-build führt ihn aus",
+        de: "der Befehl \"{command}\" des Postprozessors wurde nicht ausgeführt; --run-post-build führt ihn aus",
     }
     /// A note: nobody but its owner answers for the program.
     POST_UNCHECKED: DoubtfulPost {
@@ -202,16 +202,16 @@ messages! {
     /// A name that would be executed.
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
-        de: "{macro} in {section} setzt »{text}« außerhalb eines Kommentars, wo die Maschine es ausführte",
+        de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführte",
         help_en: "write it in a comment in the post, or give the drawing another name",
-        help_de: "es im Postprozessor in einen Kommentar schreiben, oder die Zeichnung anders nennen",
+        help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
     }
     /// Wrapped round a cylinder of no diameter.
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
         help_en: "give the radius with --surface, or write it from the drawing with emit, which knows T",
-        help_de: "den Radius mit --surface angeben, oder mit emit aus der Zeichnung schreiben, das T kennt",
+        help_de: "den Radius mit --surface angeben oder mit emit aus der Zeichnung schreiben, das T kennt",
     }
     /// The spindle would never turn.
     SPINDLE_UNKNOWN: MissingPostValue {
@@ -225,7 +225,7 @@ messages! {
         en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
         de: "T{index} läuft mit {speed} und in {operation} mit {other} 1/min, dieser Postprozessor schreibt aber eine Drehzahl je Werkzeug",
         help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
-        help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben, oder je Pfad ein Programm schreiben",
+        help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
     }
     /// A byte needs two hexadecimal digits.
     BYTE_EXPECTED: InvalidControlText {
@@ -264,7 +264,7 @@ messages! {
         en: "the key {key} is not known",
         de: "der Schlüssel {key} ist unbekannt",
         help_en: "did you mean {nearest}?",
-        help_de: "war {nearest} gemeint?",
+        help_de: "ist {nearest} gemeint?",
     }
     /// `[alias]` of a variable that there is not.
     ALIAS_UNKNOWN: DoubtfulControlText {
@@ -283,7 +283,7 @@ messages! {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
         help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
-        help_de: "war {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
+        help_de: "ist {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
     }
     /// A contains B contains A.
     VARIABLE_DEPTH: EndlessMacro {
@@ -298,12 +298,12 @@ messages! {
     /// Statements or terms in each other.
     TEXT_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: nested more than {limit} deep",
-        de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} geschachtelt",
+        de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} verschachtelt",
     }
     /// `~` that begins no variable.
     LONE_TILDE: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"~\" begins no variable",
-        de: "{text}, Zeile {line}, Spalte {column}: mit »~« beginnt keine Variable",
+        de: "{text}, Zeile {line}, Spalte {column}: mit \"~\" beginnt keine Variable",
         help_en: "a variable is written ~Name~, a tilde \\~",
         help_de: "eine Variable schreibt man ~Name~, eine Tilde \\~",
     }
@@ -327,7 +327,7 @@ messages! {
     /// A paragraph sign.
     STATEMENT_UNKNOWN: InvalidControlText {
         en: "{text}, line {line}, column {column}: statements with \"§\" are not understood",
-        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit »§« werden nicht verstanden",
+        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht verstanden",
         help_en: "the manual that describes them is not known",
         help_de: "das Handbuch, das sie beschreibt, ist nicht bekannt",
     }
@@ -346,22 +346,22 @@ messages! {
     /// The name of a file does not end.
     INSERTION_OPEN: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of the file to insert does not end with \"*\"",
-        de: "{text}, Zeile {line}, Spalte {column}: der Name der einzufügenden Datei endet nicht mit »*«",
+        de: "{text}, Zeile {line}, Spalte {column}: der Name der einzufügenden Datei endet nicht mit \"*\"",
     }
     /// A term stops too early.
     TERM_ENDS: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term ends where a value or \")\" is expected",
-        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck endet, wo ein Wert oder »)« erwartet wird",
+        de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck endet, wo ein Wert oder \")\" erwartet wird",
     }
     /// A character that is none of a term.
     TERM_UNEXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is not expected here",
-        de: "{text}, Zeile {line}, Spalte {column}: »{found}« wird hier nicht erwartet",
+        de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" wird hier nicht erwartet",
     }
     /// Two points.
     TERM_NUMBER: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is no number",
-        de: "{text}, Zeile {line}, Spalte {column}: »{found}« ist keine Zahl",
+        de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
     /// Division by zero and the like.
     TERM_NOT_FINITE: InvalidControlText {
@@ -414,7 +414,7 @@ messages! {
         en: "{text}, line {line}, column {column}: {name} is written with all its decimals",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird mit allen Nachkommastellen geschrieben",
         help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
-        help_de: "sie in eine Anweisung setzen, die rundet, etwa mit ».« oder »#«",
+        help_de: "sie in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
     }
     /// A file that is not there, or not below the post.
     INSERTION_REFUSED: InjectedFile {
@@ -447,21 +447,21 @@ messages! {
         en: "there is no dialect {name}; one of {known}",
         de: "es gibt keinen Dialekt {name}, nur {known}",
         help_en: "did you mean {nearest}?",
-        help_de: "war {nearest} gemeint?",
+        help_de: "ist {nearest} gemeint?",
     }
     /// A word, or a character, that is no use to the target.
     WORD_REJECTED: RejectedWord {
         en: "line {line} of the output: {dialect} does not take \"{word}\"",
-        de: "Zeile {line} der Ausgabe: {dialect} nimmt »{word}« nicht an",
+        de: "Zeile {line} der Ausgabe: {dialect} nimmt \"{word}\" nicht an",
         help_en: "change the post's text, or name the dialect that the control really has",
-        help_de: "den Text im Postprozessor ändern, oder den Dialekt nennen, den die Steuerung wirklich hat",
+        help_de: "den Text im Postprozessor ändern oder den Dialekt nennen, den die Steuerung wirklich hat",
     }
     /// A line.
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} takes {longest}",
         de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt {longest} an",
         help_en: "give the post's number format fewer decimals, or its texts several lines",
-        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben, oder seinen Texten mehrere Zeilen",
+        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seinen Texten mehrere Zeilen",
     }
     /// The text was read back.
     POST_DIFFERS: PostDiffers {
@@ -469,6 +469,13 @@ messages! {
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
         help_en: "look at the post's text for this line; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+    }
+    /// There is no line to show.
+    MOVES_LOST: PostDiffers {
+        en: "the output ends before all moves of the program are made",
+        de: "die Ausgabe endet, bevor alle Bewegungen des Programms gemacht sind",
+        help_en: "look at the post's texts for moves; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "die Texte für Bewegungen im Postprozessor ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
     /// What is wrong is in a file that there will not be.
     IN_OUTPUT: PostDiffers {
@@ -493,14 +500,14 @@ messages! {
     /// The command after writing failed.
     POST_BUILD_FAILED: PostBuildFailed {
         en: "the post's command \"{command}\" failed: {reason}",
-        de: "der Befehl »{command}« des Postprozessors ist fehlgeschlagen: {reason}",
+        de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
         help_en: "the program was written; only the command failed",
         help_de: "das Programm wurde geschrieben, nur der Befehl ist fehlgeschlagen",
     }
     /// The definition is a stranger's.
     POST_BUILD_REFUSED: PostBuildFailed {
         en: "the post's command \"{command}\" is not run: the repository is not trusted",
-        de: "der Befehl »{command}« des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
+        de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
         help_en: "nothing was written; leave out --run-post-build",
         help_de: "nichts wurde geschrieben; --run-post-build weglassen",
     }

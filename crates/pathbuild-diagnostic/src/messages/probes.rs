@@ -3,8 +3,8 @@
 messages! {
     /// A line of a file of values that is none.
     NO_PROBE_LINE: InvalidProbeLine {
-        en: "this is no line of a probe",
-        de: "das ist keine Zeile einer Probe",
+        en: "this is not a valid probe line",
+        de: "das ist keine gültige Messzeile",
         help_en: "a line is ([X Y]/T=HEIGHT) #NUMBER=VALUE; only the value is entered by hand",
         help_de: "eine Zeile ist ([X Y]/T=HÖHE) #NUMMER=WERT; nur der Wert wird von Hand eingetragen",
     }
@@ -17,7 +17,7 @@ messages! {
     }
     /// What was entered is no number.
     NOT_A_VALUE: InvalidProbeLine {
-        en: "the value of #{probe} is no number: {found}",
+        en: "the value of #{probe} is not a number: {found}",
         de: "der Wert von #{probe} ist keine Zahl: {found}",
         help_en: "enter the measured height in mm, with a decimal point or comma",
         help_de: "die gemessene Höhe in mm eintragen, mit Punkt oder Komma",
@@ -32,20 +32,20 @@ messages! {
     /// A value in the file, and another one in the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
         en: "#{probe} has a value here, and {measured} in the log",
-        de: "#{probe} hat hier einen Wert, und im Log {measured}",
+        de: "#{probe} hat hier einen Wert und im Log {measured}",
         help_en: "remove the one that is wrong: the value here, or --log",
-        help_de: "das entfernen, was falsch ist: den Wert hier, oder --log",
+        help_de: "das entfernen, was falsch ist: den Wert hier oder --log",
     }
     /// The tool met nothing.
     PROBE_FAILED: InvalidProbeLine {
-        en: "this probe met nothing",
-        de: "diese Probe hat nichts berührt",
+        en: "this probe made no contact",
+        de: "Antastung ohne Kontakt",
         help_en: "probe again; remove lines from the log that are of other probes or of an earlier run",
         help_de: "noch einmal messen; aus dem Log Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
     }
     /// A line of a log that is broken.
     BROKEN_LOG_LINE: InvalidProbeLine {
-        en: "this is no result of a probe",
+        en: "this is not a result of a probe",
         de: "das ist kein Ergebnis einer Probe",
         help_en: "a result is [PRB:X,Y,Z:1]",
         help_de: "ein Ergebnis ist [PRB:X,Y,Z:1]",
@@ -62,14 +62,14 @@ messages! {
         en: "#{probe} is {value}, which is {off} away from the {expected} that were drawn; up to {limit} is allowed",
         de: "#{probe} ist {value}, das ist {off} entfernt von den gezeichneten {expected}; erlaubt ist bis {limit}",
         help_en: "measure again; if it is right, correct T in the drawing, or allow more with --max-correction",
-        help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen, oder mit --max-correction mehr erlauben",
+        help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
     }
     /// Every value is near enough, what comes of them is not.
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off}; up to {limit} is allowed",
         de: "diese Höhe würde um {off} verändert; erlaubt ist bis {limit}",
         help_en: "it lies far outside the probes: draw probes there, or allow more with --max-correction",
-        help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen, oder mit --max-correction mehr erlauben",
+        help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen oder mit --max-correction mehr erlauben",
     }
     /// A formula with a probe that the file of values does not have.
     UNKNOWN_PROBE: UnknownProbe {
@@ -97,7 +97,7 @@ messages! {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
         help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or emit again and measure with the new program",
-        help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben, oder noch einmal ausgeben und mit dem neuen Programm messen",
+        help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// Something else where a value is expected.
     VALUE_EXPECTED: InvalidFormula {
@@ -122,15 +122,15 @@ messages! {
     }
     /// Digits and points that are no number.
     NOT_A_NUMBER: InvalidFormula {
-        en: "{found} is no number",
+        en: "{found} is not a number",
         de: "{found} ist keine Zahl",
         help_en: "a number has at most one decimal point",
         help_de: "eine Zahl hat höchstens einen Dezimalpunkt",
     }
     /// More brackets than anybody writes.
     TOO_DEEP: InvalidFormula {
-        en: "more than {limit} brackets in each other",
-        de: "mehr als {limit} Klammern ineinander",
+        en: "more than {limit} nested brackets",
+        de: "mehr als {limit} verschachtelte Klammern",
         help_en: "no formula of pathbuild has more than one: emit again and use the new program",
         help_de: "keine Formel von pathbuild hat mehr als eine: noch einmal ausgeben und das neue Programm verwenden",
     }
@@ -149,7 +149,7 @@ messages! {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
         help_en: "adjust starts from _Clean.gcode as emit wrote it: emit again, or fetch the original file",
-        help_de: "adjust geht von der _Clean.gcode aus, wie emit sie geschrieben hat: noch einmal ausgeben, oder die ursprüngliche Datei holen",
+        help_de: "adjust geht von der _Clean.gcode aus, wie emit sie geschrieben hat: noch einmal ausgeben oder die ursprüngliche Datei holen",
     }
     /// Somebody has measured.
     VALUES_PRESENT: ProbeValuesPresent {

@@ -112,21 +112,21 @@ messages! {
         en: "{entity} is left out: only lines and arcs are milled",
         de: "{entity} wird ausgelassen: nur Linien und Bögen werden gefräst",
         help_en: "draw it with arcs, or set `approximate-curves` in pathbuild.toml to the largest deviation in mm that is allowed",
-        help_de: "mit Bögen zeichnen, oder `approximate-curves` in pathbuild.toml auf die größte erlaubte Abweichung in mm setzen",
+        help_de: "mit Bögen zeichnen oder `approximate-curves` in pathbuild.toml auf die größte erlaubte Abweichung in mm setzen",
     }
     /// Polylines, blocks and curves with `compatible`; once a drawing.
     NOT_COMPATIBLE: UnsupportedCurve {
         en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
         de: "Polylinien, Blöcke und Kurven auf Pfad-Layern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
         help_en: "explode it into lines and arcs, or work without `compatible`, where it is milled",
-        help_de: "in Linien und Bögen auflösen, oder ohne `compatible` arbeiten: dann wird gefräst",
+        help_de: "in Linien und Bögen auflösen oder ohne `compatible` arbeiten: dann wird gefräst",
     }
     /// 3D polylines, meshes, polyface meshes.
     POLYLINE_NOT_FLAT: UnsupportedCurve {
         en: "{entity} is left out: it is a 3D polyline or a mesh",
         de: "{entity} wird ausgelassen: es ist eine 3D-Polylinie oder ein Netz",
         help_en: "draw it as a 2D polyline, or with lines and arcs",
-        help_de: "als 2D-Polylinie zeichnen, oder mit Linien und Bögen",
+        help_de: "als 2D-Polylinie zeichnen oder mit Linien und Bögen",
     }
     /// A spline of fit points only, or with impossible knots.
     SPLINE_NOT_UNDERSTOOD: UnsupportedCurve {
@@ -140,14 +140,14 @@ messages! {
         en: "block {block} is left out: it is inserted with different scales in x and y",
         de: "Block {block} wird ausgelassen: er ist in x und y verschieden skaliert eingefügt",
         help_en: "explode it, or insert it with one scale",
-        help_de: "auflösen, oder mit einem einzigen Maßstab einfügen",
+        help_de: "auflösen oder mit einem einzigen Maßstab einfügen",
     }
     /// An INSERT of a block that the file does not have.
     BLOCK_MISSING: UnsupportedCurve {
         en: "block {block} is left out: the file does not hold it",
         de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
         help_en: "bind external references before saving, or delete the insertion",
-        help_de: "externe Referenzen vor dem Speichern binden, oder die Einfügung löschen",
+        help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
     }
     /// A block that contains itself, or nests too deep.
     BLOCK_NESTED: InvalidDxf {

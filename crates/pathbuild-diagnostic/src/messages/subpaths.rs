@@ -10,7 +10,7 @@ messages! {
     }
     /// `>` without a path name.
     INVALID_NAME: InvalidPathName {
-        en: "\"{value}\" is no path name",
+        en: "\"{value}\" is not a path name",
         de: "\"{value}\" ist kein Pfadname",
         help_en: "path names match {pattern}",
         help_de: "Pfadnamen entsprechen {pattern}",
@@ -53,6 +53,20 @@ messages! {
         help_en: "draw the segment from where the path starts to where it ends: copy the component's proxy line",
         help_de: "das Segment vom Anfang des Pfads bis zu seinem Ende zeichnen: die Stellvertreterlinie des Bauteils kopieren",
     }
+    /// A subpath segment and its path are for different cutters.
+    CUTTER_DIFFERS: SubpathParameterDiffers {
+        en: "{letter} is {segment} here, but {path} in path {name}",
+        de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
+        help_en: "one cutter mills both paths: give both the same O, or embed a component that is drawn for this cutter",
+        help_de: "ein Fräser fräst beide Pfade: beiden dasselbe O geben oder ein Bauteil einbetten, das für diesen Fräser gezeichnet ist",
+    }
+    /// A subpath segment and its path are for material of different thickness.
+    THICKNESS_DIFFERS: SubpathParameterDiffers {
+        en: "{letter} is {segment} here, but {path} in path {name}",
+        de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
+        help_en: "both paths are milled from the same sheet: give both the same T, or embed a component that is drawn for this thickness",
+        help_de: "beide Pfade werden aus derselben Platte gefräst: beiden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist",
+    }
     /// T, O or M differ.
     PARAMETER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
@@ -65,7 +79,7 @@ messages! {
         en: "path {name} may not be embedded here: it does not match {rule}",
         de: "Pfad {name} darf hier nicht eingebettet werden: er entspricht nicht {rule}",
         help_en: "the rule is the path's E, or --restrict (`restrict` in pathbuild.toml)",
-        help_de: "die Regel ist das E des Pfads, oder --restrict (`restrict` in pathbuild.toml)",
+        help_de: "die Regel ist das E des Pfads oder --restrict (`restrict` in pathbuild.toml)",
     }
     /// Too deep.
     TOO_DEEP: NestingTooDeep {

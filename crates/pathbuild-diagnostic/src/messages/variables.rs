@@ -20,7 +20,7 @@ messages! {
         en: "\"{definition}\" has an empty element",
         de: "\"{definition}\" hat ein leeres Element",
         help_en: "remove the comma, or write the value between",
-        help_de: "das Komma entfernen, oder den Wert dazwischenschreiben",
+        help_de: "das Komma entfernen oder den Wert dazwischenschreiben",
     }
     /// A path with variables by itself.
     MISSING_VALUE: MissingVariableValue {

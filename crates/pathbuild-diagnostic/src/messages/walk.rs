@@ -3,22 +3,22 @@
 messages! {
     /// A dead end without a turn marker.
     NOTHING_CONTINUES: NothingContinues {
-        en: "nothing continues here; segments left: {left}",
-        de: "hier geht nichts weiter; übrige Segmente: {left}",
+        en: "the path breaks off here; segments not reached: {left}",
+        de: "hier bricht der Pfad ab; nicht erreichte Segmente: {left}",
         help_en: "close the gap, draw the missing segment, or move it to the path's layer",
-        help_de: "die Lücke schließen, das fehlende Segment zeichnen, oder es auf den Layer des Pfads legen",
+        help_de: "die Lücke schließen, das fehlende Segment zeichnen oder es auf den Layer des Pfads legen",
     }
     /// The tip of a dead end: what is left begins on the way to it.
     DEAD_END: NothingContinues {
-        en: "the path breaks off here, at the tip of a dead end; segments left: {left}",
-        de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; übrige Segmente: {left}",
+        en: "the path breaks off here, at the tip of a dead end; segments not reached: {left}",
+        de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; nicht erreichte Segmente: {left}",
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
     /// A turn marker from where nothing is found.
     TURN_FOUND_NOTHING: NothingContinues {
-        en: "going back from this turn marker found nothing; segments left: {left}",
-        de: "auf dem Rückweg von dieser Wendemarke fand sich nichts; übrige Segmente: {left}",
+        en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
+        de: "auf dem Rückweg von dieser Wendemarke zweigt kein Segment ab; nicht erreichte Segmente: {left}",
         help_en: "the way back leads to the start; something must branch off on it",
         help_de: "der Rückweg führt bis zum Anfang; unterwegs muss etwas abzweigen",
     }
@@ -47,12 +47,12 @@ messages! {
         en: "the path ends here, but not all of its segments were reached; left: {left}, one of them {element} at {point}",
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
-        help_de: "mit dem Pfad verbinden, entfernen, oder auf einen anderen Layer legen",
+        help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
     }
     /// Something left lies along a segment, where that has no end.
     NO_END_THERE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
-        de: "nicht alle Segmente wurden erreicht; übrig: {left}; {element} bei {point} liegt auf {other}, wo dieses nicht endet",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
@@ -68,7 +68,7 @@ messages! {
         en: "the path stops at {point}, but its end marker is at {end}",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
         help_en: "move the end marker there, or draw what is missing between",
-        help_de: "die Endmarke dorthin verschieben, oder das Fehlende dazwischen zeichnen",
+        help_de: "die Endmarke dorthin verschieben oder das Fehlende dazwischen zeichnen",
     }
     /// No segments.
     EMPTY_PATH: EmptyPath {
@@ -82,21 +82,28 @@ messages! {
         en: "the helical circle's diameter {diameter} mm is greater than A, which is {limit}",
         de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A mit {limit}",
         help_en: "a core would break loose; mill the circle as a path with support bars, or give the path an A (default 4 * O)",
-        help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen, oder dem Pfad ein A geben (sonst gilt 4 * O)",
+        help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen oder dem Pfad ein A geben (sonst gilt 4 * O)",
     }
     /// The bars are too close.
     NO_ROOM_BETWEEN_BARS: NoRoomBetweenBars {
-        en: "between two of the {count} support bars there are {gap} mm, too little for the cutter, O{tool}",
-        de: "zwischen zwei der {count} Stützstege sind {gap} mm, zu wenig für den Fräser, O{tool}",
+        en: "between support bars there are {gap} mm, too little for the cutter, O{tool}; bars: {count}",
+        de: "zwischen den Stützstegen sind {gap} mm, zu wenig für den Fräser, O{tool}; Stege: {count}",
         help_en: "raise U, the least distance between bars, or shorten P",
-        help_de: "U, den Mindestabstand der Stege, erhöhen, oder P verkleinern",
+        help_de: "U, den Mindestabstand der Stege, erhöhen oder P verkleinern",
+    }
+    /// Support bars that leave nothing between them.
+    NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
+        en: "all of it is left standing up to D {top}: {length} mm are shorter than P + U, {pitch} mm",
+        de: "alles bleibt bis D {top} stehen: {length} mm sind kürzer als P + U, {pitch} mm",
+        help_en: "lower U, the least distance between bars, for a gap; what shall be milled to D only has line type DIVIDE, what shall be milled through CONTINUOUS",
+        help_de: "U, den Mindestabstand der Stege, für eine Lücke verkleinern; was nur bis D gefräst werden soll, hat Linientyp DIVIDE, was ganz gefräst werden soll, CONTINUOUS",
     }
     /// A program comes into a clamp; said at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, comes into the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "der Fräser, O{tool}, kommt in das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S to {height} or more (rapids at S go straight), draw cuts half of O and more away from the outline, or move the clamp",
-        help_de: "S auf {height} oder mehr legen (Eilgänge auf S gehen geradeaus), Schnitte um O/2 und mehr vom Umriss entfernt zeichnen, oder das Spannmittel versetzen",
+        help_de: "S auf {height} oder mehr legen (Eilgänge auf S gehen geradeaus), Schnitte um O/2 und mehr vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
     }
     /// The same of a G-code program, at its line.
     LINE_INTO_CLAMP: InsideKeepOut {

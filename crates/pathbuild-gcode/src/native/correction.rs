@@ -5,7 +5,7 @@ use pathbuild_toolpath::{Correction, Height, ProbePoint, Program, Surface};
 use super::number::{push_exact, push_f3};
 
 /// Numbers of the parameters: the first probe is #51.
-pub(crate) const FIRST_PARAMETER: usize = 51;
+pub const FIRST_PARAMETER: usize = 51;
 
 /// Writes formulas for the heights of a program with probes.
 pub(super) struct Formulas<'a> {

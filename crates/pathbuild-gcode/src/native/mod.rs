@@ -11,8 +11,9 @@ mod statistics;
 
 pub(crate) use arc_end::{is_doubtful, is_point};
 pub use comment::{Charset, transliterated};
+pub use correction::FIRST_PARAMETER;
 pub use number::f3;
-pub use probing::{probing_program, values_file};
+pub use probing::{probe_name, probing_program, values_file};
 pub use program::{
     Header, WriteOptions, drawing_of_title, is_title, is_title_of, path_of_title, plain_title, program,
     program_within, title, too_large,

@@ -40,17 +40,18 @@ pub fn values_file(program: &Program, options: &WriteOptions) -> String {
     let remarks = options.remarks(program);
     let mut text = String::new();
     for (index, probe) in program.probes.iter().enumerate() {
-        _ = writeln!(text, "{} #{}=", remarks.comment(&place(probe)), FIRST_PARAMETER + index);
+        _ = writeln!(text, "{} #{}=", remarks.comment(&probe_name(probe)), FIRST_PARAMETER + index);
     }
     text
 }
 
-fn place(probe: &ProbePoint) -> String {
+/// A probe as files name it: where it is drawn, its label, and the height that is expected.
+pub fn probe_name(probe: &ProbePoint) -> String {
     let label = probe.label.as_ref().map(|label| format!("/L:{label}")).unwrap_or_default();
     let (x, y) = (f3(probe.drawn_at.x), f3(probe.drawn_at.y));
     format!("[{x} {y}]{label}/T={}", f3(probe.height))
 }
 
 fn label(index: usize, probe: &ProbePoint) -> String {
-    format!("#{} {}", FIRST_PARAMETER + index, place(probe))
+    format!("#{} {}", FIRST_PARAMETER + index, probe_name(probe))
 }

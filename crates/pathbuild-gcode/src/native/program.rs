@@ -7,8 +7,9 @@ use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program
 use super::arc_end::{Printed, is_doubtful, is_point};
 use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
-use super::number::{f3, push_f3};
+use super::number::{f3, printed, push_f3};
 use super::statistics;
+use crate::WrittenArc;
 use crate::dialect::within_comment;
 
 /// How programs are written.
@@ -197,6 +198,8 @@ impl Writer<'_> {
                 if is_point(centre) {
                     return self.step(&Move::Line { feed, to, z }, length);
                 }
+                let to = self.arc_end(to, centre, clockwise, length);
+                let centre = self.arc_centre(to, centre);
                 self.text.push_str(if clockwise { "G02" } else { "G03" });
                 self.word('F', feed);
                 if is_spiral {
@@ -205,7 +208,7 @@ impl Writer<'_> {
                     self.word('I', centre.x);
                 }
                 self.word('J', centre.y);
-                self.xy(self.arc_end(to, centre, clockwise, length));
+                self.xy(to);
                 self.z(z);
             }
         }
@@ -219,6 +222,23 @@ impl Writer<'_> {
         } else {
             to
         }
+    }
+
+    /// The centre to print, relative to where the tool is. Compatible programs print the nearest one.
+    fn arc_centre(&self, to: Xy, centre: Xy) -> Xy {
+        if self.program.compatible {
+            return centre;
+        }
+        let written = WrittenArc {
+            from: [self.at.x, self.at.y],
+            to: [to.x, to.y],
+            centre: [centre.x, centre.y],
+            length: &printed,
+            is_absolute: false,
+            unit: 1.0,
+        };
+        let [x, y] = written.fit().unwrap_or_default();
+        Xy::new(centre.x + x, centre.y + y)
     }
 
     fn word(&mut self, letter: char, value: f64) {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::messages::gcode::MORE;
+use pathbuild_diagnostic::messages::gcode::{MORE, ONE_MORE};
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 
 use super::block::{Block, Span};
@@ -85,8 +85,9 @@ impl Problems {
     /// The diagnostics in the order of lines; the last of many says how many more there were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         for &(count, last) in self.counts.values().filter(|(count, _)| *count > SHOWN) {
+            let message = if count - SHOWN == 1 { &ONE_MORE } else { &MORE };
             self.found[last].notes.push(pathbuild_diagnostic::Note {
-                message: &MORE,
+                message,
                 arguments: vec![("count", Value::Count(count - SHOWN))],
             });
         }

@@ -3,6 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, walk};
 
+use super::cuts::no_gap;
 use super::segments::{Scope, pushed};
 use super::{At, Binder};
 use crate::approx::above;
@@ -51,7 +52,7 @@ impl Binder<'_> {
 
     fn hole(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<Hole> {
         Some(Hole {
-            bottom: self.value(scope, cut.depth())?,
+            bottom: self.bottom(scope, cut)?,
             feed: self.value(scope, Letter::F),
             peck: self.value(scope, Letter::C),
             comment: scope.values.text(Letter::Q).map(Into::into),
@@ -60,10 +61,14 @@ impl Binder<'_> {
 
     fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Option<Helix> {
         self.check_size(scope, radius, tool);
-        let (infeed, bottom) = (self.value(scope, Letter::I), self.value(scope, cut.depth()));
+        let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
         let bars = if cut == Cut::Support {
-            let inner = radius - tool / 2.0;
-            Some(self.bars(scope, 2.0 * std::f64::consts::PI * inner, Some(tool))?)
+            let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
+            let bars = self.bars(scope, length, Some(tool))?;
+            if let Some(problem) = no_gap(&bars, length) {
+                self.report(scope.at, problem);
+            }
+            Some(bars)
         } else {
             None
         };

@@ -37,8 +37,11 @@ impl Binder<'_> {
         curve: &Curve,
         tool: Option<f64>,
     ) -> Option<CutParameters> {
-        let bottom = self.value(scope, cut.depth());
+        let bottom = self.bottom(scope, cut);
         let bars = if cut == Cut::Support { Some(self.bars(scope, curve.length(), tool)?) } else { None };
+        if let Some(bars) = &bars {
+            self.note_gap(scope, bars, curve.length());
+        }
         Some(CutParameters {
             cut,
             feed: self.value(scope, Letter::F),
@@ -69,4 +72,25 @@ impl Binder<'_> {
         }
         Some(bars)
     }
+
+    fn note_gap(&mut self, scope: &Scope<'_>, bars: &Bars, length: f64) {
+        match no_gap(bars, length) {
+            None => self.has_gap = true,
+            Some(problem) if self.gapless.is_none() => {
+                let problem = problem.in_path(self.raw.name.as_str());
+                self.gapless = Some(self.origin(scope.at).at(problem));
+            }
+            Some(_) => {}
+        }
+    }
+}
+
+/// What is said of bars that leave no gap on this length.
+pub(super) fn no_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
+    (bars.count(length) == 0.0).then(|| {
+        Diagnostic::new(&walk::NO_GAP_BETWEEN_BARS)
+            .with("length", length)
+            .with("pitch", bars.length + bars.distance)
+            .with("top", bars.top)
+    })
 }

@@ -12,7 +12,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind};
 use regex::Regex;
 use smol_str::SmolStr;
 
-use crate::element::{Element, Marker, Origin};
+use crate::element::{Cut, Element, Marker, Origin};
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
@@ -47,6 +47,12 @@ struct Binder<'a> {
     holes: Vec<Hole>,
     helices: Vec<Helix>,
     problems: Vec<Diagnostic>,
+    /// The path's D was said to be doubtful for marks.
+    has_doubtful_marks: bool,
+    /// A segment with support bars has a gap between them.
+    has_gap: bool,
+    /// The doubt about the first that has none.
+    gapless: Option<Diagnostic>,
 }
 
 /// What something is reported at.
@@ -70,6 +76,9 @@ impl<'a> Binder<'a> {
             holes: Vec::new(),
             helices: Vec::new(),
             problems: Vec::new(),
+            has_doubtful_marks: false,
+            has_gap: false,
+            gapless: None,
         }
     }
 
@@ -78,6 +87,9 @@ impl<'a> Binder<'a> {
         let (tool, thickness) = (self.path_number(Letter::O), self.path_number(Letter::T));
         let sweep_height = self.path_number(Letter::S);
         self.bind_segments(tool);
+        // Rounded corners stand between sides that have gaps. Where nothing has one, U is doubtful.
+        let gapless = self.gapless.take().filter(|_| !self.has_gap);
+        self.problems.extend(gapless);
         let turns = self.raw.turns.iter();
         let mut path = Path {
             name: self.raw.name.clone(),
@@ -126,10 +138,36 @@ impl<'a> Binder<'a> {
         problems.extend(limits::check(&self.values, &self.values, ElementClass::PathStart));
         let doubts = &self.language.doubts;
         problems.extend(doubts::check(&self.values, &self.values, ElementClass::PathStart, doubts));
-        self.problems.extend(problems.into_iter().map(|problem| {
-            let problem = self.raw.at_parameters(problem);
-            if problem.path.is_none() { problem.in_path(self.raw.name.as_str()) } else { problem }
-        }));
+        for problem in problems {
+            self.report_at_start(problem);
+        }
+    }
+
+    /// What is about the path's own values.
+    fn report_at_start(&mut self, problem: Diagnostic) {
+        let problem = self.raw.at_parameters(problem);
+        self.problems.push(if problem.path.is_none() {
+            problem.in_path(self.raw.name.as_str())
+        } else {
+            problem
+        });
+    }
+
+    /// The bottom of a cut that is there, own or the path's; a mark that is doubtful is reported, of marks with the path's D the first.
+    fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
+        let bottom = self.value(scope, cut.depth())?;
+        let doubts = &self.language.doubts;
+        let doubt =
+            (cut == Cut::Mark).then(|| doubts::check_mark(bottom, scope.values, &self.values, doubts));
+        match doubt.flatten() {
+            Some((problem, false)) => self.report(scope.at, problem),
+            Some((problem, true)) if !self.has_doubtful_marks => {
+                self.has_doubtful_marks = true;
+                self.report_at_start(problem);
+            }
+            _ => {}
+        }
+        Some(bottom)
     }
 
     fn path_number(&self, letter: Letter) -> Option<f64> {
@@ -158,12 +196,16 @@ impl<'a> Binder<'a> {
         values
     }
 
+    fn origin(&self, at: At<'_>) -> Origin {
+        match at {
+            At::Element(element) => self.raw.drawn.origin(element).clone(),
+            At::Marker(marker) => marker.origin.clone(),
+        }
+    }
+
     /// Reports once what several parts of a polyline, which share a text, have in common.
     fn report(&mut self, at: At<'_>, problem: Diagnostic) {
-        let origin = match at {
-            At::Element(element) => &self.raw.drawn.origin(element),
-            At::Marker(marker) => &marker.origin,
-        };
+        let origin = self.origin(at);
         let problem = origin.at(problem.in_path(self.raw.name.as_str()));
         let is_same = |known: &Diagnostic| {
             known.message == problem.message
@@ -171,7 +213,7 @@ impl<'a> Binder<'a> {
                 && known.arguments == problem.arguments
                 && known.place.entity == problem.place.entity
         };
-        if problem.text.is_none() || !has_shared_text(origin) || !self.problems.iter().any(is_same) {
+        if problem.text.is_none() || !has_shared_text(&origin) || !self.problems.iter().any(is_same) {
             self.problems.push(problem);
         }
     }

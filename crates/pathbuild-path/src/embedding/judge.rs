@@ -1,7 +1,7 @@
 //! What is wrong with what a path embeds. The order of errors: book: reference/diagnostics.
 
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
-use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
 use regex::Regex;
 
 use super::near::near_names;
@@ -214,10 +214,15 @@ impl<'a> Judge<'a> {
         there: &Value,
         inner: &PathSignature,
     ) -> Diagnostic {
-        let problem = Diagnostic::new(&messages::PARAMETER_DIFFERS)
+        let message = match letter {
+            Letter::O => &messages::CUTTER_DIFFERS,
+            Letter::T => &messages::THICKNESS_DIFFERS,
+            _ => &messages::PARAMETER_DIFFERS,
+        };
+        let problem = Diagnostic::new(message)
             .with("letter", letter.as_char())
-            .with("segment", here.render(Lang::En))
-            .with("path", there.render(Lang::En))
+            .with("segment", here.clone())
+            .with("path", there.clone())
             .with("name", inner.name.as_str());
         self.at(call, problem, call.fault(letter))
     }

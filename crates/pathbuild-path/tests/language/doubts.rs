@@ -23,7 +23,7 @@ fn line(start: &str, text: &str) -> Vec<String> {
 }
 
 const MACHINE: Doubts =
-    Doubts { below_plate: 0.5, infeed: 1.0, maximum_feed: Some(1500.0), text_margin: 0.1 };
+    Doubts { below_plate: 0.5, infeed: 1.0, mark_depth: 0.5, maximum_feed: Some(1500.0), text_margin: 0.1 };
 
 #[test]
 fn the_bottom_is_not_far_below_the_plate() {
@@ -39,6 +39,38 @@ fn the_bottom_is_not_far_below_the_plate() {
 fn a_bottom_without_effect_is_no_doubt() {
     assert_eq!(said(&path("T5 O2 I1 D4", "mark 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), [""; 0]);
     assert_eq!(said(&path("T5 O2 I1 B0", "mill 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), ["PB211 B-3"]);
+}
+
+#[test]
+fn a_mark_is_not_deeper_than_half_the_material() {
+    let mark = |start: &str, text: &str| {
+        let texts = [
+            format!("mark 0,0 40,0{text}\nend 40,0"),
+            format!("sweep 0,0 40,0\ncircle DIVIDE 40,0 d 2{text}\nend 40,0"),
+            format!("sweep 0,0 40,0\ncircle DIVIDE 40,0 d 5{text}\nend 40,0"),
+        ];
+        let [line, hole, ring] = texts.map(|drawing| said(&path(start, &drawing), MACHINE));
+        assert_eq!((&line, &line), (&hole, &ring));
+        line
+    };
+    assert_eq!(mark("T5 O2 I1", " \"D2.5\""), [""; 0]);
+    assert_eq!(mark("T5 O2 I1", " \"D2.49\""), ["PB211 D2.49"]);
+    assert_eq!(mark("T5 O2 I1", " \"D-0.2\""), ["PB211 D-0.2"]);
+    // The path's D, which is that of support bars too.
+    assert_eq!(mark("T5 O2 I1 D2.5", ""), [""; 0]);
+    assert_eq!(mark("T5 O2 I1 D2.49", ""), ["PB211 D2.49"]);
+    assert_eq!(mark("T5 O2 I1 D2.49", " \"D4.8\""), [""; 0]);
+    let through = Doubts { mark_depth: 1.0, ..MACHINE };
+    assert_eq!(said(&path("T5 O2 I1 D0", "mark 0,0 40,0\nend 40,0"), through), [""; 0]);
+}
+
+#[test]
+fn the_path_s_depth_of_marks_is_said_once_and_not_of_bars() {
+    let marks = "mark 0,0 20,0\nmark 20,0 40,0\nend 40,0";
+    assert_eq!(said(&path("T5 O2 I1 D1", marks), MACHINE), ["PB211 D1"]);
+    let bars = "bars 0,0 40,0 \"B0 P2 U5\"\nend 40,0";
+    assert_eq!(said(&path("T5 O2 I1 D1", bars), MACHINE), [""; 0]);
+    assert_eq!(said(&path("T5 O2 I1", &bars.replace("B0", "B0 D1")), MACHINE), [""; 0]);
 }
 
 #[test]

@@ -168,11 +168,22 @@ fn there_is_room_for_the_cutter_between_bars() {
     let bars = |p: &str, u: &str| on("bars 0,0 10,0\nsweep 10,0 40,0", &format!("T5 O3 I1 B0 D2 P{p} U{u}"));
     assert_eq!(bars("2", "3"), [""; 0]);
     assert_eq!(bars("2.00001", "2.9"), ["PB406"]);
-    // No bar at all where there is no room for one.
-    assert_eq!(bars("5.1", "5"), [""; 0]);
+    // No gap at all where there is no room for a bar and its distance.
     assert_eq!(bars("5", "5"), [""; 0]);
+    assert_eq!(bars("5.001", "5"), ["PB408"]);
+    // A short edge stands between longer ones; where none has a gap, that is said once.
+    let edges = |length: u32| {
+        let elements = format!(
+            "bars 0,0 {length},0\nbars {length},0 {length},4\nbars {length},4 {length},8\nsweep {length},8 40,0"
+        );
+        on(&elements, "T5 O3 I1 B0 D2 P2 U3")
+    };
+    assert_eq!(edges(5), [""; 0]);
+    assert_eq!(edges(4), ["PB408"]);
     let circle = |u: &str| on("sweep 0,0 40,0\ncircle BORDER 40,0 d 11", &format!("T5 O3 I1 B0 D2 P1 U{u}"));
     // The cutter's centre runs on a circle of 8 mm: 25.13 mm.
     assert_eq!(circle("4"), [""; 0]);
     assert_eq!(circle("2.5"), ["PB406"]);
+    assert_eq!(circle("24.1"), [""; 0]);
+    assert_eq!(circle("24.2"), ["PB408"]);
 }

@@ -118,12 +118,12 @@ fn a_dead_end_wants_a_turn_marker() {
     );
     assert_one(
         &found("mill 0,0 20,0\nmill 20.2,0 50,0\nend 50,0"),
-        "PB401 nothing continues",
+        "PB401 the path breaks off here;",
         "the path's layer",
     );
     // A line drawn twice leads back to where it began.
     let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 40,0\nmill 40,0 60,0 \"N9999\"\nend 60,0";
-    assert_one(&found(twice), "PB401 nothing continues", "the path's layer");
+    assert_one(&found(twice), "PB401 the path breaks off here;", "the path's layer");
 }
 
 #[test]

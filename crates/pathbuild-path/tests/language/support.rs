@@ -28,8 +28,13 @@ impl Compiled {
 }
 
 /// Odd values are no matter of tests of other rules.
-const NO_DOUBTS: Doubts =
-    Doubts { below_plate: f64::INFINITY, infeed: f64::INFINITY, maximum_feed: None, text_margin: 0.0 };
+const NO_DOUBTS: Doubts = Doubts {
+    below_plate: f64::INFINITY,
+    infeed: f64::INFINITY,
+    mark_depth: f64::INFINITY,
+    maximum_feed: None,
+    text_margin: 0.0,
+};
 
 pub(crate) fn language() -> Language {
     Language {

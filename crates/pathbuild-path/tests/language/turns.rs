@@ -161,7 +161,7 @@ fn the_way_back_ends_at_the_start() {
     assert!(
         found
             .text(pathbuild_diagnostic::Lang::En)
-            .starts_with("going back from this turn marker found nothing")
+            .starts_with("no segment branches off on the way back from this turn marker")
     );
     assert_eq!(
         found.notes[0].text(pathbuild_diagnostic::Lang::En),

@@ -240,10 +240,10 @@ impl<'a> Builder<'a> {
             self.abilities.arc && plane == Plane::Xy && (arc.to[2] == arc.from[2] || self.abilities.arc_z);
         if is_writable {
             for arc in pieces(arc, plane, polar.pieces_of(self.abilities.arc_sweep)) {
-                if self.is_nothing(&arc)? {
+                let Some(arc) = self.as_written(&arc)? else {
                     self.line(arc.to, arc.feed)?;
                     continue;
-                }
+                };
                 let place = self.place(arc.feed);
                 self.call(What::Arc { arc, place });
                 self.at = arc.to;
@@ -257,19 +257,20 @@ impl<'a> Builder<'a> {
         pieces(arc, plane, count).iter().try_for_each(|piece| self.line(piece.to, piece.feed))
     }
 
-    /// Whether an arc, as it is written, would be a full circle because it ends where it begins; an error where it would be none at all.
-    fn is_nothing(&self, arc: &Arc) -> Result<bool, Box<Diagnostic>> {
+    /// The arc with a centre that still is one when it is rounded; `None` where it would be written as a full circle because it ends where
+    /// it begins.
+    fn as_written(&self, arc: &Arc) -> Result<Option<Arc>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
         let length = |length: f64| (length / unit * digits).round() / digits;
         let rounding = Rounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
         if rounding.closes(arc, Plane::Xy) {
-            return Ok(true);
+            return Ok(None);
         }
         if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
-            rounding.check(arc, Plane::Xy, self.units)?;
+            return rounding.fitted(arc, Plane::Xy, self.units).map(Some);
         }
-        Ok(false)
+        Ok(Some(*arc))
     }
 
     /// Ends the rapids that were put off: within the material they are elements, else they lead to a new contour, which may begin with

@@ -1,12 +1,14 @@
 //! Files that control texts insert. Only those below the post's own directory are read.
 
 use camino::{Utf8Component, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::NOT_BELOW_POST;
 
 use crate::PostFiles;
 
 /// The content of a file, without the end of its last line, or the reason why not.
-pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, String> {
-    let path = below(name).ok_or("it does not lie below the post's directory")?;
+pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
+    let path = below(name).ok_or(Value::Word(&NOT_BELOW_POST))?;
     let mut content = files.read(&path)?;
     for end in [b'\n', b'\r'] {
         if content.last() == Some(&end) {

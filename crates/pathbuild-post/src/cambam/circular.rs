@@ -39,9 +39,9 @@ impl Writer<'_> {
                 .iter()
                 .try_for_each(|piece| self.circle(piece, plane));
         }
-        self.rounded(|rounding| rounding.check(arc, plane, self.plan.job.units))
-            .map_err(|error| Box::new(error.in_file(self.plan.file)))?;
-        self.circle(arc, plane)
+        let fitted = self.rounded(|rounding| rounding.fitted(arc, plane, self.plan.job.units));
+        let fitted = fitted.map_err(|error| Box::new(error.in_file(self.plan.file)))?;
+        self.circle(&fitted, plane)
     }
 
     fn chords(&mut self, arc: &Arc, plane: Plane, polar: Polar) -> Written {

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::reasons::NO_FILE;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_post::{
     Arc, Coolant, Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, PostOptions, Spindle, Step, Units,
 };
@@ -395,8 +396,8 @@ fn doubtful_terms_are_warnings() {
 struct Files(BTreeMap<&'static str, &'static [u8]>);
 
 impl PostFiles for Files {
-    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, String> {
-        self.0.get(path.as_str()).map(|content| content.to_vec()).ok_or_else(|| "no such file".to_owned())
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
+        self.0.get(path.as_str()).map(|content| content.to_vec()).ok_or(Value::Word(&NO_FILE))
     }
 }
 

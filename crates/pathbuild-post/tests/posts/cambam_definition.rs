@@ -126,6 +126,9 @@ fn what_is_no_definition_is_refused() {
     let bytes = b"<PostProcessor>\xE4</PostProcessor>";
     let refused = pathbuild_post::Post::read(bytes, "x.cbpp".into()).unwrap_err();
     assert_eq!(refused[0].text(Lang::En), "the definition is not UTF-8 text");
+    // By its name it is one of CamBam, not a control text without texts.
+    assert_eq!(read("").unwrap_err()[0].code().to_string(), "PB750");
+    assert_eq!(read("[post]\n").unwrap_err()[0].code().to_string(), "PB750");
 }
 
 #[test]

@@ -211,6 +211,25 @@ fn the_tolerance_of_rounded_arcs_is_two_micrometres() {
 }
 
 #[test]
+fn moves_that_are_missing_at_the_end_are_named() {
+    let post = read(&bare("<FeedMove></FeedMove>")).unwrap();
+    let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
+    let steps = vec![feed(10.0, 0.0, 5.0), feed(10.0, 9.0, 5.0)];
+    let errors = texts(&post.write(&job(steps), &options).unwrap_err());
+    assert!(errors[0].starts_with("PB767 the output ends before all moves of the program"), "{errors:?}");
+}
+
+/// Rounded each on its own, start, end and centre of this arc make radii that differ by 0.00218 mm.
+#[test]
+fn an_arc_that_rounding_spoils_is_written_with_the_centre_beside() {
+    let [from, to] = [[17.795_258, -5.848_452, 5.0], [33.620_06, -27.932_546, 5.0]];
+    let spoiled = arc(from, [26.566_68, -16.274_95], to);
+    let three_decimals = "<NumberFormat>0.0##</NumberFormat>";
+    let written = moves(three_decimals, vec![feed(from[0], from[1], 5.0), Step::Arc(spoiled)]);
+    assert_eq!(written[1], "G3 X33.62 Y-27.933 I8.771 J-10.427");
+}
+
+#[test]
 fn arcs_of_other_planes_have_their_own_offsets() {
     let turn = Arc {
         clockwise: true,

@@ -36,7 +36,7 @@ impl<'m> Visit<'m> {
             return true;
         }
         let (path, problems) = self.model.bound(instance);
-        let mut is_wrong = self.report(instance, &problems);
+        let mut is_wrong = self.report(instance, &problems) | drawing.has_unclear_clamps;
         let Some(path) = path else { return true };
         is_wrong |= self.report(instance, &SweepLimits::of(&path).check(path.embedded_sweep_height()));
         if is_wrong {
@@ -92,18 +92,15 @@ impl<'m> Visit<'m> {
         if self.open.len() > DEEPEST {
             return self.stop(at("PB508", &[]));
         }
-        let holder = match *model.holders(outer.0, name) {
+        match *model.holders(outer.0, name) {
             [] => return self.stop(at("PB503", &[name.as_str()])),
-            [holder] => holder,
+            [_] => {}
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|it| &*model.drawings[it].path);
                 return self.stop(at("PB504", &[name.as_str(), first, second]));
             }
-        };
-        let paths = &model.drawings[holder].content.paths;
-        let number = paths.iter().take_while(|(raw, _)| *raw.name != **name).count();
-        let values = subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone())));
-        let child = (holder, number, Bindings::new(values));
+        }
+        let Some(child) = model.child(outer, name, subpath) else { return true };
         let raw = model.raw(&child);
         if raw.is_sound() {
             let before = self.found.len();
@@ -156,6 +153,17 @@ impl<'m> Visit<'m> {
         }
         let rule = self.model.rules.restrict.iter().find(|(parent, _)| is_in(parent, &path.name));
         rule.is_none_or(|(_, child)| is_in(child, name))
+    }
+}
+
+impl Model {
+    /// What a subpath embeds, where one drawing holds it.
+    pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
+        let holder = *self.holders(outer.0, name).first()?;
+        let paths = &self.drawings[holder].content.paths;
+        let number = paths.iter().take_while(|(raw, _)| *raw.name != *name).count();
+        let values = subpath.values.iter().filter_map(|given| Some((given.variable?, given.value.clone())));
+        Some((holder, number, Bindings::new(values)))
     }
 }
 

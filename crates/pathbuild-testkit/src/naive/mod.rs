@@ -1,8 +1,10 @@
 //! What a check of a library finds, told the plain way: every file is read, every name is looked at, and each path is gone through as
 //! often as it is embedded. No database, no index, nothing kept. Only reading, binding and walking are the program's own; how files are
-//! found and how embeddings are judged is written here once more from the specification, so that the program is not held against itself.
-//! (book: language/layers-and-names, book: language/variables, book: language/chains-and-passes, book: reference/diagnostics)
+//! found, how embeddings are judged and what comes into clamps is written here once more from the specification, so that the program is not held against itself.
+//! (book: language/layers-and-names, book: language/variables, book: language/chains-and-passes, book: language/keep-outs,
+//! book: reference/diagnostics)
 
+mod clamps;
 mod embedding;
 mod file_names;
 mod finding;
@@ -15,8 +17,8 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Language, LineTypeAliases, Path, PathName, PathPattern, ProxyLine, RawFile, RawPath,
-    proxy_lines, raw_file,
+    Bindings, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName, PathPattern,
+    ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file,
 };
 
 pub use finding::{Finding, differences};
@@ -44,6 +46,10 @@ struct Drawing {
     path: String,
     bytes: Vec<u8>,
     content: RawFile,
+    clamps: Vec<KeepOut>,
+    clamp_problems: Vec<Diagnostic>,
+    /// None of its paths becomes a program.
+    has_unclear_clamps: bool,
 }
 
 /// A path with values: the drawing's number, the path's among its paths, the values.
@@ -53,7 +59,7 @@ type Instance = (usize, usize, Bindings);
 pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
-        keep_out: None,
+        keep_out: KeepOutPattern::new("clamps").ok(),
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
@@ -112,7 +118,10 @@ impl Model {
         let (raw, _) = &self.drawings[drawing].content.paths[path];
         let values = Bindings::check_values(&raw.definitions);
         let mut visit = embedding::Visit::new(self);
-        visit.path(&(drawing, path, values));
+        let instance = (drawing, path, values);
+        if !visit.path(&instance) {
+            visit.found.extend(self.entered_clamps(&instance));
+        }
         visit.found
     }
 
@@ -134,7 +143,17 @@ impl Model {
 impl Drawing {
     fn read(path: &str, bytes: &[u8], language: &Language) -> Self {
         let content = raw_file(&drawn(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
-        Self { path: path.to_owned(), bytes: bytes.to_vec(), content }
+        let KeepOuts { all: clamps, problems: clamp_problems } =
+            keep_outs(&drawn(bytes, &|layer| language.is_keep_out(layer)), language);
+        let has_unclear_clamps = clamp_problems.iter().any(Diagnostic::is_error);
+        Self {
+            path: path.to_owned(),
+            bytes: bytes.to_vec(),
+            content,
+            clamps,
+            clamp_problems,
+            has_unclear_clamps,
+        }
     }
 
     /// Its lines to be copied into projects.
@@ -144,7 +163,8 @@ impl Drawing {
 
     /// What is wrong with the drawing and is about none of its paths.
     fn faults(&self) -> Vec<Finding> {
-        let own = self.content.diagnostics.iter().map(|found| Finding::shared(found, &self.path));
+        let own = self.content.diagnostics.iter().chain(&self.clamp_problems);
+        let own = own.map(|found| Finding::shared(found, &self.path));
         own.chain(self.name_faults()).collect()
     }
 

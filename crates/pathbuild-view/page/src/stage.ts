@@ -24,44 +24,67 @@ interface Strokes {
 /** Of more pieces thick lines are too slow without a graphics card: they become thin. */
 const MOST_THICK = 20_000;
 
+/** Whether moves are drawn by thick lines. */
+export function isThick(model: Model): boolean {
+  return model.cuts.step.length + model.rapids.step.length <= MOST_THICK;
+}
+
+/** From where a picture is looked at. */
+export interface View {
+  position: THREE.Vector3;
+  up: THREE.Vector3;
+  target: THREE.Vector3;
+  zoom: number;
+}
+
 /** Clicks and hovers reach so many px. */
 const REACH = 9;
 
 export class Stage {
   private renderer: THREE.WebGLRenderer;
   private scene = new THREE.Scene();
+  private model!: Model;
   private camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
   private controls: OrbitControls;
   private materials: LineMaterial[] = [];
-  private cuts: Strokes;
-  private rapids: Strokes;
-  private arrows: Strokes;
-  private rapidArrows: Strokes;
-  private other: THREE.LineSegments;
-  private tool: THREE.Mesh;
-  private mark: LineSegments2;
+  private cuts!: Strokes;
+  private rapids!: Strokes;
+  private arrows!: Strokes;
+  private rapidArrows!: Strokes;
+  private other!: THREE.LineSegments;
+  private tool!: THREE.Mesh;
+  private mark!: LineSegments2;
   private spots: Spot[] = [];
   private isDue = false;
   private layer = 0;
-  private unit: number;
+  private unit = 1;
+  private watcher: ResizeObserver;
 
   constructor(
     private host: HTMLElement,
     private labels: HTMLElement,
-    private model: Model,
-    scene: Scene,
-    dark: boolean,
+    readonly isThick: boolean,
   ) {
     const canvas = document.createElement("canvas");
-    const isLight = model.cuts.step.length + model.rapids.step.length <= MOST_THICK;
-    const context = canvas.getContext("webgl2", { antialias: isLight });
+    const context = canvas.getContext("webgl2", { antialias: isThick });
     if (!context) throw new Error("no WebGL2");
-    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: isLight });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: isThick });
     host.append(canvas);
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.paper(dark);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => this.draw());
+    this.controls.zoomToCursor = true;
+    this.watcher = new ResizeObserver(() => this.resize());
+    this.watcher.observe(host);
+  }
+
+  /** Draws this instead of what was drawn before. */
+  load(model: Model, scene: Scene, dark: boolean): void {
+    this.empty();
+    this.model = model;
+    this.renderer.setClearColor(dark ? 0x11181f : 0xffffff);
     const { low, high } = model;
     this.unit = Math.max(high[0] - low[0], high[1] - low[1], 1);
     this.other = this.thin(otherShapes(scene), dark ? 0x4a5560 : 0xb8bfc6);
@@ -81,16 +104,55 @@ export class Stage {
     this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
     this.scene.add(this.other, this.mark, this.tool);
     for (const strokes of [this.cuts, this.rapids, this.arrows, this.rapidArrows]) this.scene.add(strokes.object);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.draw());
-    this.controls.zoomToCursor = true;
-    new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
-    this.fit(false);
   }
 
-  paper(dark: boolean): void {
-    this.renderer.setClearColor(dark ? 0x11181f : 0xffffff);
+  /** Gives back what the graphics card keeps. */
+  dispose(): void {
+    this.empty();
+    this.watcher.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.renderer.domElement.remove();
+  }
+
+  private empty(): void {
+    this.scene.traverse((object) => {
+      if (!(object instanceof THREE.Mesh || object instanceof THREE.LineSegments)) return;
+      object.geometry.dispose();
+      object.material.dispose();
+    });
+    this.scene.clear();
+    this.materials = [];
+    this.layer = 0;
+  }
+
+  /** From where it is looked at. */
+  view(): View {
+    const { position, up, zoom } = this.camera;
+    return { position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
+  }
+
+  /** Looks from there. */
+  restore({ position, up, target, zoom }: View): void {
+    this.camera.position.copy(position);
+    this.camera.up.copy(up);
+    this.controls.target.copy(target);
+    this.camera.zoom = zoom;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Puts a place of the drawing into the middle, and comes near. */
+  look([x, y]: Point): void {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    this.controls.target.set(x, y, 0);
+    this.camera.position.copy(this.controls.target).add(away);
+    this.camera.zoom = Math.max(this.camera.zoom, 2.5 * this.whole());
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
     this.draw();
   }
 
@@ -102,16 +164,22 @@ export class Stage {
     const away = space ? new THREE.Vector3(-0.5, -1, 0.9) : new THREE.Vector3(0, 0, 1);
     this.camera.up.set(0, space ? 0 : 1, space ? 1 : 0);
     this.camera.position.copy(middle).addScaledVector(away.normalize(), this.unit * 2);
-    const { clientWidth: width, clientHeight: height } = this.host;
-    const least = this.unit / 20;
-    const [wide, tall] = [Math.max(high[0] - low[0], least), Math.max(high[1] - low[1], least)];
-    this.camera.zoom = 0.86 * Math.min(width / wide, height / tall) * (space ? 0.8 : 1);
+    this.camera.zoom = this.whole() * (space ? 0.8 : 1);
     this.camera.updateProjectionMatrix();
     this.controls.enableRotate = space;
     this.controls.mouseButtons.LEFT = space ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
     this.controls.touches.ONE = space ? THREE.TOUCH.ROTATE : THREE.TOUCH.PAN;
     this.controls.update();
     this.draw();
+  }
+
+  /** The zoom at which all of the drawing is seen from above. */
+  private whole(): number {
+    const { low, high } = this.model;
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const least = this.unit / 20;
+    const [wide, tall] = [Math.max(high[0] - low[0], least), Math.max(high[1] - low[1], least)];
+    return 0.86 * Math.min(width / wide, height / tall);
   }
 
   /** Draws the first so many moves, with the tool where they lead. */
@@ -208,7 +276,7 @@ export class Stage {
   }
 
   draw(): void {
-    if (this.isDue) return;
+    if (this.isDue || !this.model) return;
     this.isDue = true;
     requestAnimationFrame(() => {
       this.isDue = false;
@@ -222,6 +290,7 @@ export class Stage {
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
     this.camera.updateProjectionMatrix();

@@ -15,7 +15,7 @@ use crate::scene::Point;
 
 pub use compare::compare;
 pub use groups::{Group, groups};
-pub use words::phrase;
+pub use words::{moves, phrase};
 
 /// Moves in a row that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]

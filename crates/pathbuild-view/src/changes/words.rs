@@ -12,6 +12,17 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
     }
 }
 
+/// How many moves a group has: `1 move`, `12 moves`.
+pub fn moves(group: &Group, lang: Lang) -> String {
+    let word = match (group.moves, lang) {
+        (1, Lang::En) => "move",
+        (_, Lang::En) => "moves",
+        (1, Lang::De) => "Bewegung",
+        (_, Lang::De) => "Bewegungen",
+    };
+    format!("{} {word}", group.moves)
+}
+
 fn english(kind: Option<ChangeKind>) -> String {
     match kind {
         None => "other rapid moves".into(),
@@ -46,7 +57,7 @@ fn german(kind: Option<ChangeKind>) -> String {
         Some(ChangeKind::Altered { raised, feed, passes }) => {
             let height = (raised != 0.0).then(|| {
                 let way = if raised < 0.0 { "tiefer" } else { "höher" };
-                format!("{} mm {way}", Number(raised.abs()))
+                format!("{} mm {way}", Number(raised.abs()).prose(Lang::De))
             });
             let feed = feed.map(|[was, is]| {
                 let way = if is > was { "schneller" } else { "langsamer" };

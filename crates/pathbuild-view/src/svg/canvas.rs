@@ -34,6 +34,19 @@ impl Canvas {
         canvas
     }
 
+    /// A sheet of paper in mm, in units of its own.
+    pub(super) fn paper([width, height]: Point, [across, down]: Point) -> Self {
+        let mut text = String::with_capacity(1 << 14);
+        let [width, height, across, down] = [width, height, across, down].map(n);
+        _ = writeln!(
+            text,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {across} {down}\" font-family=\"{FONT}\">"
+        );
+        let mut canvas = Self { text };
+        canvas.raw(&format!("<rect width=\"{across}\" height=\"{down}\" fill=\"#fff\"/>"));
+        canvas
+    }
+
     pub(super) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text

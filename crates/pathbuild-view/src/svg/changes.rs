@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform, widen};
 use super::moves::data;
 use super::palette::{BAR, INK, OTHER, RAPID};
-use crate::changes::{Change, ChangeKind, Group, groups, phrase};
+use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
 use crate::scene::{Move, MoveKind, Point};
 
 /// Blue: what is new. Vermilion and broken: what is gone. The colour-blind tell them apart by the line.
@@ -132,11 +132,7 @@ fn entry(canvas: &mut Canvas, group: &Group, top: f64, lang: Lang) {
     let middle = top + LINE / 2.0;
     let style = format!("stroke=\"{}\" stroke-width=\"2\"{}", color(group.kind), dashes(group.kind));
     canvas.line([40.0, middle], [76.0, middle], &style);
-    let moves = match lang {
-        Lang::En => "moves",
-        Lang::De => "Bewegungen",
-    };
-    let text = format!("{}: {} {moves}, {} mm", phrase(group, lang), group.moves, n(group.length));
+    let text = format!("{}: {}, {} mm", phrase(group, lang), moves(group, lang), n(group.length));
     canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
 }
 

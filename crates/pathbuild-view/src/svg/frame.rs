@@ -17,6 +17,8 @@ pub(super) struct Frame {
     low: Point,
     high: Point,
     scale: f64,
+    /// Where the upper left corner of the drawing comes to lie.
+    corner: Point,
 }
 
 /// From a path's coordinates to the page's.
@@ -62,7 +64,13 @@ impl Frame {
             high[axis] += missing;
         }
         let scale = (ROOM[0] / (high[0] - low[0])).min(ROOM[1] / (high[1] - low[1]));
-        Self { low, high, scale }
+        let spare = (ROOM[0] - (high[0] - low[0]) * scale) / 2.0;
+        Self { low, high, scale, corner: [MARGIN + spare, MARGIN] }
+    }
+
+    /// The frame of these corners at a scale, with its upper left corner somewhere.
+    pub(super) fn at_scale([low, high]: [Point; 2], scale: f64, corner: Point) -> Self {
+        Self { low, high, scale, corner }
     }
 
     /// Px for a mm.
@@ -101,9 +109,8 @@ impl PageTransform {
 
     /// A point on the page.
     pub(super) fn at(&self, [x, y]: Point) -> Point {
-        let Frame { low, high, scale } = self.frame;
-        let spare = (ROOM[0] - (high[0] - low[0]) * scale) / 2.0;
-        [MARGIN + spare + (x + self.zero[0] - low[0]) * scale, MARGIN + (high[1] - y - self.zero[1]) * scale]
+        let Frame { low, high, scale, corner } = self.frame;
+        [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
     }
 }
 

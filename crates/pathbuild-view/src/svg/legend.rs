@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, n};
 use super::frame::Frame;
 use super::palette::{BAR, Depths, ERROR, INK, PROBE, TEXT, WARNING, color};
 use super::things::SWEEP;
-use crate::scene::{Finding, MoveKind, Scene};
+use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
 
 /// From one line to the next, in px.
@@ -48,9 +48,9 @@ impl<'a> Legend<'a> {
             &format!("fill=\"{TEXT}\""),
             &self.facts(),
         );
-        self.kinds(canvas, self.top + 3.0 * LINE);
+        kinds(canvas, self.scene, self.shown, [40.0, self.top + 3.0 * LINE], Frame::WIDTH);
         self.scale_bar(canvas, self.top + 3.0 * LINE);
-        self.depths(canvas, self.top + 4.0 * LINE);
+        depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
         for (row, (finding, line)) in self.findings.iter().enumerate() {
             let y = self.top + (5.0 + row as f64) * LINE;
             let style = match finding {
@@ -88,56 +88,15 @@ impl<'a> Legend<'a> {
         if let Some(totals) = path.totals.filter(|_| !path.moves.is_empty()) {
             let length = |value: f64| format!("{value:.0} mm");
             facts.push(format!("{} {}", self.shown.either("milling", "Fräsen"), length(totals.milling)));
-            facts.push(format!("{} {}", self.shown.either("drilling", "Bohren"), length(totals.drilling)));
+            facts.push(format!(
+                "{} {}",
+                self.shown.either("plunging", "Eintauchen"),
+                length(totals.drilling)
+            ));
             facts.push(format!("{} {}", self.shown.either("rapid", "Eilgang"), length(totals.sweeps)));
             facts.extend(totals.minutes.map(|minutes| format!("{minutes:.0} min")));
         }
         facts.join(" · ")
-    }
-
-    /// The kinds of lines that there are.
-    fn kinds(&self, canvas: &mut Canvas, y: f64) {
-        let moves = || self.scene.paths.iter().flat_map(|path| &path.moves);
-        let has = |kind| moves().any(|it| it.kind == kind);
-        let cut = color(0.6);
-        let all = [
-            (
-                has(MoveKind::Mill),
-                self.shown.either("milling", "Fräsen"),
-                format!("stroke=\"{cut}\" stroke-width=\"2\""),
-            ),
-            (
-                has(MoveKind::Mark),
-                self.shown.either("marking", "Markieren"),
-                format!("stroke=\"{cut}\" stroke-width=\"2\" stroke-dasharray=\"2 3\""),
-            ),
-            (
-                has(MoveKind::Sweep) && self.shown.rapids,
-                self.shown.either("rapid", "Eilgang"),
-                format!("stroke=\"{SWEEP}\" stroke-dasharray=\"6 4\""),
-            ),
-            (
-                self.scene.paths.iter().any(|path| !path.bars.is_empty()),
-                self.shown.either("support bar", "Stützsteg"),
-                format!("stroke=\"{BAR}\" stroke-width=\"4\""),
-            ),
-            (
-                self.scene.paths.iter().any(|path| !path.probes.is_empty()),
-                self.shown.either("Z-probe", "Z-Probe"),
-                format!("stroke=\"{PROBE}\" stroke-width=\"2\""),
-            ),
-            (
-                !self.scene.keep_outs.is_empty(),
-                self.shown.either("clamp", "Spannmittel"),
-                format!("stroke=\"{ERROR}\" stroke-dasharray=\"8 2 2 2\""),
-            ),
-        ];
-        let mut x = 40.0;
-        for (_, name, style) in all.into_iter().filter(|(is_there, ..)| *is_there) {
-            canvas.line([x, y - 4.0], [x + 28.0, y - 4.0], &style);
-            canvas.text([x + 34.0, y], 10.5, Anchor::Start, "", name);
-            x += 56.0 + 7.0 * name.chars().count() as f64;
-        }
     }
 
     /// A line of a round length.
@@ -155,29 +114,78 @@ impl<'a> Legend<'a> {
         );
         canvas.text([right + 6.0, y], 10.5, Anchor::Start, "", &format!("{} mm", mm(length)));
     }
+}
 
-    /// The colours of depths.
-    fn depths(&self, canvas: &mut Canvas, y: f64) {
-        let Some((high, low)) = self.depths.range else { return };
-        let label = |z: f64| format!("Z {}", mm(z));
-        if high <= low {
-            canvas.circle([50.0, y - 4.0], 6.0, &format!("fill=\"{}\"", self.depths.color(Some(low))));
-            return canvas.text([62.0, y], 10.5, Anchor::Start, "", &label(low));
+/// The kinds of lines that there are, from a place to the right as far as that; then on further lines.
+pub(super) fn kinds(canvas: &mut Canvas, scene: &Scene, shown: Shown, [left, mut y]: Point, right: f64) {
+    let moves = || scene.paths.iter().flat_map(|path| &path.moves);
+    let has = |kind| moves().any(|it| it.kind == kind);
+    let cut = color(0.6);
+    let all = [
+        (
+            has(MoveKind::Mill),
+            shown.either("milling", "Fräsen"),
+            format!("stroke=\"{cut}\" stroke-width=\"2\""),
+        ),
+        (
+            has(MoveKind::Mark),
+            shown.either("marking", "Markieren"),
+            format!("stroke=\"{cut}\" stroke-width=\"2\" stroke-dasharray=\"2 3\""),
+        ),
+        (
+            has(MoveKind::Sweep) && shown.rapids,
+            shown.either("rapid", "Eilgang"),
+            format!("stroke=\"{SWEEP}\" stroke-dasharray=\"6 4\""),
+        ),
+        (
+            scene.paths.iter().any(|path| !path.bars.is_empty()),
+            shown.either("support bar", "Stützsteg"),
+            format!("stroke=\"{BAR}\" stroke-width=\"4\""),
+        ),
+        (
+            scene.paths.iter().any(|path| !path.probes.is_empty()),
+            shown.either("Z-probe", "Z-Probe"),
+            format!("stroke=\"{PROBE}\" stroke-width=\"2\""),
+        ),
+        (
+            !scene.keep_outs.is_empty(),
+            shown.either("clamp", "Spannmittel"),
+            format!("stroke=\"{ERROR}\" stroke-dasharray=\"8 2 2 2\""),
+        ),
+    ];
+    let mut x = left;
+    for (_, name, style) in all.into_iter().filter(|(is_there, ..)| *is_there) {
+        let width = 56.0 + 7.0 * name.chars().count() as f64;
+        if x + width > right {
+            (x, y) = (left, y + LINE);
         }
-        let high_label = label(high);
-        canvas.text([40.0, y], 10.5, Anchor::Start, "", &high_label);
-        let mut x = 48.0 + 7.0 * high_label.chars().count() as f64;
-        for step in 0..STEPS {
-            let color = color(f64::from(step) / f64::from(STEPS - 1));
-            canvas.raw(&format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"8.5\" height=\"10\" fill=\"{color}\"/>",
-                n(x),
-                n(y - 9.0)
-            ));
-            x += 8.0;
-        }
-        canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
+        canvas.line([x, y - 4.0], [x + 28.0, y - 4.0], &style);
+        canvas.text([x + 34.0, y], 10.5, Anchor::Start, "", name);
+        x += width;
     }
+}
+
+/// The colours of depths.
+pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
+    let Some((high, low)) = depths.range else { return };
+    let label = |z: f64| format!("Z {}", mm(z));
+    if high <= low {
+        canvas.circle([left + 10.0, y - 4.0], 6.0, &format!("fill=\"{}\"", depths.color(Some(low))));
+        return canvas.text([left + 22.0, y], 10.5, Anchor::Start, "", &label(low));
+    }
+    let high_label = label(high);
+    canvas.text([left, y], 10.5, Anchor::Start, "", &high_label);
+    let mut x = left + 8.0 + 7.0 * high_label.chars().count() as f64;
+    for step in 0..STEPS {
+        let color = color(f64::from(step) / f64::from(STEPS - 1));
+        canvas.raw(&format!(
+            "<rect x=\"{}\" y=\"{}\" width=\"8.5\" height=\"10\" fill=\"{color}\"/>",
+            n(x),
+            n(y - 9.0)
+        ));
+        x += 8.0;
+    }
+    canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
 }
 
 /// A length with three decimals at most.

@@ -2,11 +2,14 @@
 
 mod canvas;
 mod changes;
+mod cutout;
 mod frame;
 mod legend;
 mod marks;
 mod moves;
 mod palette;
+mod room;
+mod sheet;
 mod things;
 
 use pathbuild_diagnostic::Lang;
@@ -15,8 +18,15 @@ use crate::scene::Scene;
 use canvas::Canvas;
 pub use canvas::escaped;
 pub use changes::{Picture, changes_svg};
+pub use cutout::{Spot, cutout_svg};
 use frame::Frame;
 use palette::Depths;
+use room::Room;
+#[cfg(not(feature = "pictures"))]
+pub use sheet::sheet_pdf;
+#[cfg(feature = "pictures")]
+pub(crate) use sheet::xmp;
+pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg};
 
 /// What is shown of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,12 +68,13 @@ pub fn svg(scene: &Scene, shown: Shown) -> String {
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
     things::under(&mut canvas, scene, &frame);
+    let mut room = Room::default();
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(&mut canvas, path, &place, &depths, shown);
-        things::over(&mut canvas, path, &place, shown);
+        things::over(&mut canvas, path, &place, shown, &mut room);
     }
-    marks::findings(&mut canvas, scene, &frame);
+    marks::findings(&mut canvas, scene, &frame, &mut room);
     canvas.close();
     legend.draw(&mut canvas);
     canvas.finish()

@@ -17,7 +17,13 @@ const ROOM_FOR_ARROW: f64 = 26.0;
 /// Pieces into which an arc of another plane is flattened.
 const PIECES: u32 = 24;
 
-/// Draws the moves of a path. Of several moves along the same line only the deepest is seen.
+/// What is seen of all moves along one line, whichever way they go: the first one's direction, the depth of the deepest.
+struct Cut<'a> {
+    way: &'a Move,
+    depth: Option<f64>,
+}
+
+/// Draws the moves of a path. Moves along the same line are one [`Cut`].
 pub(super) fn draw(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -25,12 +31,12 @@ pub(super) fn draw(
     depths: &Depths,
     shown: Shown,
 ) {
-    let cuts = deepest(path);
+    let cuts = cuts(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
         let width = n((tool * place.scale()).max(0.5));
-        for it in cuts.iter().filter(|it| it.kind != MoveKind::Plunge) {
-            canvas.path(&data(it, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
+        for it in cuts.iter().filter(|it| it.way.kind != MoveKind::Plunge) {
+            canvas.path(&data(it.way, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
         }
     }
     canvas.close();
@@ -46,17 +52,17 @@ pub(super) fn draw(
         canvas.open("id=\"arrows\"");
         let bottoms = bottoms(path);
         let is_bottom =
-            |it: &&&Move| it.element.is_none_or(|element| it.depth() <= bottoms[element as usize]);
+            |it: &&Cut<'_>| it.way.element.is_none_or(|element| it.depth <= bottoms[element as usize]);
         for it in cuts.iter().filter(is_bottom) {
-            let color = depths.color(it.depth());
-            arrow(canvas, it, place, &color);
+            arrow(canvas, it.way, place, &depths.color(it.depth));
         }
         canvas.close();
     }
 }
 
-fn cut(canvas: &mut Canvas, it: &Move, path: &ScenePath, place: &PageTransform, depths: &Depths) {
-    let color = depths.color(it.depth());
+fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransform, depths: &Depths) {
+    let color = depths.color(cut.depth);
+    let it = cut.way;
     if it.kind == MoveKind::Plunge {
         let radius = match path.tool {
             Some(tool) if is_hole(it, path) => (tool / 2.0 * place.scale()).max(2.0),
@@ -81,31 +87,29 @@ fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     for it in path.moves.iter().filter(|it| it.kind.cuts() && it.kind != MoveKind::Plunge) {
         let (Some(element), Some(z)) = (it.element, it.depth()) else { continue };
         let bottom = &mut bottoms[element as usize];
-        *bottom = Some(bottom.map_or(z, |known| known.min(z)));
+        *bottom = deeper(*bottom, Some(z));
     }
     bottoms
 }
 
-/// The cutting moves from shallow to deep, of several along the same line the deepest. It keeps the first one's direction.
-fn deepest(path: &ScenePath) -> Vec<&Move> {
+/// What is cut, from shallow to deep.
+fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
-    let mut cuts: Vec<&Move> = Vec::new();
-    for it in path.moves.iter().filter(|it| it.kind.cuts() && it.is_placed()) {
-        match places.entry(line_of(it)) {
-            std::collections::btree_map::Entry::Vacant(entry) => {
-                entry.insert(cuts.len());
-                cuts.push(it);
-            }
-            std::collections::btree_map::Entry::Occupied(entry) => {
-                let known = &mut cuts[*entry.get()];
-                if it.depth() < known.depth() && (it.from() == known.from() || it.kind == MoveKind::Plunge) {
-                    *known = it;
-                }
-            }
+    let mut cuts: Vec<Cut<'_>> = Vec::new();
+    for way in path.moves.iter().filter(|it| it.kind.cuts() && it.is_placed()) {
+        let index = *places.entry(line_of(way)).or_insert(cuts.len());
+        match cuts.get_mut(index) {
+            Some(cut) => cut.depth = deeper(cut.depth, way.depth()),
+            None => cuts.push(Cut { way, depth: way.depth() }),
         }
     }
-    cuts.sort_by(|a, b| b.depth().unwrap_or_default().total_cmp(&a.depth().unwrap_or_default()));
+    cuts.sort_by(|a, b| b.depth.unwrap_or_default().total_cmp(&a.depth.unwrap_or_default()));
     cuts
+}
+
+/// The lower of two heights, of which either may be unknown.
+fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).reduce(f64::min)
 }
 
 /// What moves along the same line have in common: ends in either order, and the centre.
@@ -116,7 +120,8 @@ fn line_of(it: &Move) -> Vec<i64> {
     if let Path::Arc(arc) = it.way.path {
         line.extend(arc.centre.map(micrometres));
         let goes_up = it.from().map(micrometres) == ends[0];
-        line.push(i64::from(arc.clockwise == goes_up));
+        // Of a full circle both ways are the same line.
+        line.push(i64::from(ends[0] == ends[1] || arc.clockwise == goes_up));
     }
     line
 }

@@ -5,6 +5,7 @@ use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform};
 use super::marks;
 use super::palette::{BAR, ERROR, INK, OTHER, PROBE, RAPID, TEXT};
+use super::room::Room;
 use crate::scene::{Arc, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
 
 /// The path's own texts have so many px at least.
@@ -79,7 +80,13 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
 }
 
 /// Elements, texts, bars, probes, markers.
-pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: Shown) {
+pub(super) fn over(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    place: &PageTransform,
+    shown: Shown,
+    room: &mut Room,
+) {
     elements(canvas, path, place);
     canvas.open(&format!(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
@@ -89,14 +96,14 @@ pub(super) fn over(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform,
     }
     canvas.close();
     if shown.texts {
-        texts(canvas, path, place);
+        texts(canvas, path, place, room);
     }
-    embedded(canvas, path, place);
-    probes(canvas, path, place);
     if shown.order {
-        marks::order(canvas, path, place);
+        marks::order(canvas, path, place, room);
     }
-    marks::ends(canvas, path, place, shown);
+    marks::ends(canvas, path, place, shown, room);
+    probes(canvas, path, place, room);
+    embedded(canvas, path, place, room);
 }
 
 /// What is drawn and is no move: with a program what embeds and what is skipped, without one everything.
@@ -129,7 +136,7 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
+fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
     for label in &path.texts {
         let lines: Vec<&str> = label.text.lines().collect();
@@ -146,6 +153,9 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
         let mut at = place.at(label.at);
         let half = 0.31 * size * longest as f64 + 4.0;
         at[0] = at[0].min(Frame::WIDTH - half).max(half);
+        let ways = [0.0, 1.0, -1.0, 2.0, -2.0].map(|way| [at[0], at[1] + way * rows * size]);
+        let (across, down) = (half - 4.0, rows * size / 2.0);
+        at = ways[room.choose(&ways.map(|[x, y]| [[x - across, y - down], [x + across, y + down]]))];
         for element in &label.elements {
             let to = place.at(nearest(&path.elements[*element as usize].shape, label.at));
             canvas.line(at, to, &format!("stroke=\"{TEXT}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""));
@@ -180,16 +190,16 @@ fn nearest(shape: &Shape, at: Point) -> Point {
 }
 
 /// The names of embedded paths where they start.
-fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
+fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
-        let [x, y] = place.at(inner.ends[0]);
-        canvas.text([x + 6.0, y - 6.0], 9.0, Anchor::Start, "", &inner.name);
+        let at = room.beside(place.at(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name);
+        canvas.text(at, 9.0, Anchor::Start, "", &inner.name);
     }
     canvas.close();
 }
 
-fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
+fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
     for probe in &path.probes {
         let at = place.at(probe.at);
@@ -198,14 +208,10 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
         canvas.line([at[0] - size, at[1]], [at[0] + size, at[1]], "stroke-width=\"0.8\"");
         canvas.line([at[0], at[1] - size], [at[0], at[1] + size], "stroke-width=\"0.8\"");
         let label = probe.label.as_deref().map(|label| format!(" {label}")).unwrap_or_default();
-        let style = format!("stroke=\"none\" fill=\"{PROBE}\"");
-        canvas.text(
-            [at[0] + size + 2.0, at[1] - 3.0],
-            9.0,
-            Anchor::Start,
-            &style,
-            &format!("#{}{label}", probe.number),
-        );
+        let (style, label) =
+            (format!("stroke=\"none\" fill=\"{PROBE}\""), format!("#{}{label}", probe.number));
+        let at = room.beside(at, [size + 2.0, -3.0], 9.0, &label);
+        canvas.text(at, 9.0, Anchor::Start, &style, &label);
     }
     canvas.close();
 }

@@ -9,7 +9,7 @@ use pathbuild_path::PathName;
 const BATCH: usize = 1024;
 
 /// What is found in drawings, each with what it was found from.
-pub(crate) fn check_drawings(
+pub fn check_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
     with_all_values: bool,

@@ -21,7 +21,7 @@ use crate::session::{
 use crate::workspace::Workspace;
 
 use changed::Changed;
-pub(crate) use drawings::check_drawings;
+pub use drawings::check_drawings;
 use drawings::check_paths;
 use results::{Concerned, Results, of};
 

@@ -1,4 +1,5 @@
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::join;
 use pathbuild_diagnostic::Lang;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, Word};
@@ -58,12 +59,12 @@ pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Opti
         rules.iter().filter_map(|rule| reader.restriction(rule)).collect()
     });
     general.search = given(&arguments.search, "search", |directories| {
-        directories.iter().map(|directory| working_directory.join(directory)).collect()
+        directories.iter().map(|directory| join(working_directory, directory)).collect()
     });
     general.out_dir = arguments
         .out_dir
         .as_ref()
-        .map(|directory| Sourced::option("out-dir", Some(working_directory.join(directory))));
+        .map(|directory| Sourced::option("out-dir", Some(join(working_directory, directory))));
     general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
     // The other program has one option for messages and comments; ours leaves programs as they are.
     let comments = arguments.lang.filter(|_| arguments.compatible);

@@ -1,41 +1,78 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, OsSystem, clean};
+use pathbuild_db::system::{FileKind, clean, join};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 
-use crate::files;
 use crate::inputs::{Input, Inputs};
 
 /// The name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
-/// The configuration of a directory: in it, or in the nearest directory above.
-pub(super) fn above(directory: &Utf8Path) -> Option<Utf8PathBuf> {
-    directory.ancestors().map(|directory| directory.join(FILE_NAME)).find(|file| files::is_there(file))
+/// In which files, and for which arguments, a configuration is looked for.
+pub(super) struct Discovery<'a> {
+    pub(super) system: &'a dyn System,
+    pub(super) inputs: &'a Inputs,
+    pub(super) working_directory: &'a Utf8Path,
+}
+
+impl Discovery<'_> {
+    /// The configuration of a run: that above the first argument. A program with none above it has none of its own: then that of the next
+    /// argument holds, at last that of the working directory.
+    pub(super) fn of_run(&self) -> Option<Utf8PathBuf> {
+        for input in self.inputs.iter() {
+            let found = self.above(&self.beginning_of(input));
+            if found.is_some() || !input.is_program(|place| self.is_directory(place)) {
+                return found;
+            }
+        }
+        self.of_working_directory()
+    }
+
+    /// That of the working directory.
+    pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
+        self.above(&clean(self.working_directory))
+    }
+
+    /// The tree of a run without configuration: that of the first argument.
+    pub(super) fn beginning(&self) -> Utf8PathBuf {
+        let first = self.inputs.iter().next();
+        first.map_or_else(|| clean(self.working_directory), |first| self.beginning_of(first))
+    }
+
+    fn beginning_of(&self, input: Input<'_>) -> Utf8PathBuf {
+        clean(&self.working_directory.join(input.beginning(|place| self.is_directory(place))))
+    }
+
+    /// The configuration of a directory: in it, or in the nearest directory above.
+    pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
+        let mut files = directory.ancestors().map(|directory| join(directory, FILE_NAME));
+        files.find(|file| self.system.kind(file) == FileKind::File)
+    }
+
+    /// Arguments that lie under another configuration than the one of the run.
+    pub(super) fn strangers(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
+        let place = |input: Input<'_>| match input {
+            Input::Place(place) => Some(place.to_owned()),
+            Input::Name(name) => self.is_directory(name.into()).then(|| name.into()),
+        };
+        let stranger = |place: Utf8PathBuf| {
+            let other = self.above(&clean(&self.working_directory.join(&place)))?;
+            (Some(&*other) != used).then(|| complaint(&place, &other, used))
+        };
+        self.inputs.iter().filter_map(place).filter_map(stranger).collect()
+    }
+
+    /// Also a name without separators may be a directory's.
+    fn is_directory(&self, place: &Utf8Path) -> bool {
+        self.system.kind(&self.working_directory.join(place)) == FileKind::Directory
+    }
 }
 
 /// The repository of a directory: the nearest directory above that Git takes for one, else the directory itself.
-pub fn repository(directory: &Utf8Path) -> &Utf8Path {
-    let is_repository = |directory: &&Utf8Path| OsSystem.kind(&directory.join(".git")) != FileKind::Missing;
+pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
+    let is_repository = |directory: &&Utf8Path| system.kind(&directory.join(".git")) != FileKind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
-}
-
-/// Arguments that lie under another configuration than the one of the run.
-pub(super) fn strangers(
-    inputs: &Inputs,
-    working_directory: &Utf8Path,
-    used: Option<&Utf8Path>,
-) -> Vec<Diagnostic> {
-    let place = |input: Input<'_>| match input {
-        Input::Place(place) => Some(place.to_owned()),
-        Input::Name(_) => None,
-    };
-    let stranger = |place: Utf8PathBuf| {
-        let other = above(&clean(&working_directory.join(&place)))?;
-        (Some(&*other) != used).then(|| complaint(&place, &other, used))
-    };
-    inputs.iter().filter_map(place).filter_map(stranger).collect()
 }
 
 fn complaint(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {

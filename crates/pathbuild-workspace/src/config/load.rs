@@ -2,48 +2,57 @@ use std::sync::Arc;
 
 use camino::Utf8Path;
 use pathbuild_db::System;
-use pathbuild_db::system::{Confined, OsSystem};
+use pathbuild_db::system::Confined;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 use toml::de::DeTable;
 
 use super::arguments::Overrides;
+use super::discover::{Discovery, repository};
 use super::options::Options;
 use super::reader::TomlReader;
 use super::settings::Settings;
 use super::source::Source;
-use super::{arguments, clean, discover};
+use super::{arguments, clean};
 use crate::files;
 use crate::inputs::Inputs;
 
-/// What holds for a run: finds and reads the configuration, and puts the command line over it.
+/// What holds for a run over these files: finds and reads the configuration, and puts the command line over it.
 ///
 /// Everything that is wrong comes with it; when anything is, nothing can be done, but the language can be told.
-pub fn load(given: &Overrides, inputs: &Inputs, working_directory: &Utf8Path) -> (Settings, Vec<Diagnostic>) {
+pub fn load(
+    system: &Arc<dyn System>,
+    given: &Overrides,
+    inputs: &Inputs,
+    working_directory: &Utf8Path,
+) -> (Settings, Vec<Diagnostic>) {
+    let discovery = Discovery { system: &**system, inputs, working_directory };
     let (options, mut diagnostics) = arguments::read(given, working_directory);
     let file = match &given.config {
         Some(file) => Some(clean(&working_directory.join(file))),
-        None => discover::above(&clean(&working_directory.join(inputs.first_directory()))),
+        None => discovery.of_run(),
     };
-    let confined = confinement(given, file.as_deref(), inputs, working_directory);
+    let confined = confinement(system, given, file.as_deref(), &discovery);
     if given.config.is_none() {
-        diagnostics.extend(discover::strangers(inputs, working_directory, file.as_deref()));
+        diagnostics.extend(discovery.strangers(file.as_deref()));
     }
-    let read = |file: &Utf8Path| read(file, confined.as_ref(), &mut diagnostics);
+    let read = |file: &Utf8Path| read(&**system, file, confined.as_ref(), &mut diagnostics);
     let configured = file.as_deref().map(read).unwrap_or_default();
-    (Settings { file, confined, ..options.over(configured).resolve() }, diagnostics)
+    let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
+    (Settings { file, not_used, confined, ..options.over(configured).resolve() }, diagnostics)
 }
 
 /// The repository that a run may not leave, where it is a stranger's.
 fn confinement(
+    system: &Arc<dyn System>,
     given: &Overrides,
     file: Option<&Utf8Path>,
-    inputs: &Inputs,
-    working_directory: &Utf8Path,
+    discovery: &Discovery<'_>,
 ) -> Option<Confined> {
-    let first = || clean(&working_directory.join(inputs.first_directory()));
+    let first = || discovery.beginning();
     let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
-    let confined = Confined::new(Arc::new(OsSystem), discover::repository(&directory), working_directory);
+    let root = repository(&**system, &directory);
+    let confined = Confined::new(Arc::clone(system), root, discovery.working_directory);
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
     (given.untrusted || !is_trusted).then_some(confined)
 }
@@ -56,8 +65,13 @@ pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
     parse(file, text, None).1
 }
 
-fn read(file: &Utf8Path, confined: Option<&Confined>, diagnostics: &mut Vec<Diagnostic>) -> Options {
-    let system: &dyn System = confined.map_or(&OsSystem, |confined| confined);
+fn read(
+    system: &dyn System,
+    file: &Utf8Path,
+    confined: Option<&Confined>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Options {
+    let system = confined.map_or(system, |confined| confined);
     match files::read(system, file, LARGEST) {
         Ok(text) => {
             let (options, faults) = parse(file, &text, confined);
@@ -66,7 +80,7 @@ fn read(file: &Utf8Path, confined: Option<&Confined>, diagnostics: &mut Vec<Diag
         }
         Err(reason) => {
             diagnostics.push(
-                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file).with("reason", &*reason),
+                Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file).with("reason", reason),
             );
             Options::default()
         }

@@ -52,6 +52,7 @@ impl Options {
     pub fn resolve(self) -> Settings {
         Settings {
             file: None,
+            not_used: None,
             confined: None,
             general: self.general.resolve(),
             emit: self.emit.resolve(),

@@ -2,7 +2,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Confined;
+use pathbuild_db::system::{Confined, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use toml::Spanned;
@@ -46,7 +46,7 @@ impl<'a> TomlReader<'a> {
 
     /// A file or directory that a value names, relative to the configuration's directory.
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
-        let path: Utf8PathBuf = self.directory.join(name).components().collect();
+        let path: Utf8PathBuf = spelt(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.holds(&path)) {
             None => Some(path),
             Some(confined) => {

@@ -13,6 +13,8 @@ use super::types::{Severities, ZModel};
 pub struct Settings {
     /// The configuration that was read; `None`: options and defaults hold, and nothing is cached.
     pub file: Option<Utf8PathBuf>,
+    /// That of the working directory, where the arguments lie outside of its tree, and in no other's.
+    pub not_used: Option<Utf8PathBuf>,
     /// The repository that nothing leads out of, where it is a stranger's.
     pub confined: Option<Confined>,
     pub general: general::Settings,

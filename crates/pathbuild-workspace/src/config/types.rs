@@ -67,6 +67,20 @@ choice! {
 }
 
 choice! {
+    /// What the sheet for who stands at the machine is written as. (book: program/sheet)
+    SheetFormat {
+        /// It is not.
+        No = "none",
+        /// Pages to print.
+        Pdf = "pdf",
+        /// The same in a browser.
+        Html = "html",
+        /// The same as one picture.
+        Svg = "svg",
+    }
+}
+
+choice! {
     /// What becomes of a diagnostic.
     Level {
         /// It stops what it is in.

@@ -1,7 +1,8 @@
 //! A person's own configuration, `config.toml`: what no repository may decide. (book: reference/configuration)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::OsSystem;
+use pathbuild_db::System;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use toml::de::DeTable;
@@ -25,15 +26,15 @@ pub struct User {
 
 impl User {
     /// Reads the file, if there is one, with everything that is wrong in it.
-    pub fn load(file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
-        if !files::is_there(file) {
+    pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
+        if system.kind(file) != FileKind::File {
             return (Self::default(), Vec::new());
         }
-        match files::read(&OsSystem, file, LARGEST) {
+        match files::read(system, file, LARGEST) {
             Ok(text) => read_table(file, &text, None, Self::read),
             Err(reason) => {
                 let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
-                (Self::default(), vec![fault.with("reason", &*reason)])
+                (Self::default(), vec![fault.with("reason", reason)])
             }
         }
     }

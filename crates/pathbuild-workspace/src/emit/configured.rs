@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::outputs as messages;
 use crate::config::{Origin, Settings};
 
 /// What paths are held against, one after the other.
-pub(crate) struct Configured<'a> {
+pub struct Configured<'a> {
     settings: &'a Settings,
     /// For each pattern whether a path matched it.
     is_met: Vec<bool>,
@@ -14,12 +14,12 @@ pub(crate) struct Configured<'a> {
 
 impl<'a> Configured<'a> {
     /// No path was seen yet.
-    pub(crate) fn new(settings: &'a Settings) -> Self {
+    pub fn new(settings: &'a Settings) -> Self {
         Self { settings, is_met: vec![false; settings.emit.targets.value.len()] }
     }
 
     /// Whether the path of this name is meant.
-    pub(crate) fn means(&mut self, name: &str) -> bool {
+    pub fn means(&mut self, name: &str) -> bool {
         let mut is_target = false;
         for (pattern, is_met) in self.settings.emit.targets.value.iter().zip(&mut self.is_met) {
             let matches = pattern.matches(name);
@@ -30,7 +30,7 @@ impl<'a> Configured<'a> {
     }
 
     /// A pattern that nothing matched is a mistake in the configuration.
-    pub(crate) fn unmet(&self) -> impl Iterator<Item = Diagnostic> {
+    pub fn unmet(&self) -> impl Iterator<Item = Diagnostic> {
         let targets = &self.settings.emit.targets;
         let unmet = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);
         unmet.map(|(pattern, _)| {

@@ -1,7 +1,7 @@
 //! Whether a program on disk moves as its drawing says now. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::FileKind;
+use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{Db, MissingOption, Role, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{drawing_of_title, is_title, path_of_title};
@@ -69,7 +69,7 @@ fn defining(
     let file = named.filter(is_there).map(|drawing| session.file(drawing)).or_else(|| {
         let listing = db.system().list(beside).ok()?;
         let file = listing.files.iter().find(|file| is_meant(file))?;
-        Some(session.file(&beside.join(file)))
+        Some(session.file(&join(beside, file)))
     });
     let file = file.or_else(|| {
         let files = session.definitions(&name, &session.name_directories());

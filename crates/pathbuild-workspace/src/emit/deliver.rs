@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_diagnostic::{Diagnostic, Note, Point};
+use pathbuild_diagnostic::{Diagnostic, Note, Point, Value};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
@@ -14,9 +14,12 @@ use pathbuild_toolpath::{Outside, Program, Statistics, Total, memory};
 
 use super::job::Job;
 use super::provenance::Provenances;
-use super::{compare, options};
+use super::sheet::SheetSettings;
+use super::{compare, options, sheet};
+use crate::config::Settings;
+use crate::config::types::SheetFormat;
 use crate::machine::machine;
-use crate::posting::PostProcessor;
+use crate::posting::{PostProcessor, tool_table};
 use crate::session::{OutputKind, Writing, hash_output, without_values};
 use crate::workspace::Workspace;
 
@@ -40,6 +43,8 @@ pub enum Task {
 /// What became of a path's files.
 #[derive(Debug, Default)]
 pub struct Delivered {
+    /// The path, or the name of those that are joined.
+    pub path: Box<str>,
     /// Each file.
     pub files: Vec<(Utf8PathBuf, State)>,
     /// What should lie there, as [`hash_output`] tells it.
@@ -95,9 +100,14 @@ pub enum State {
 }
 
 impl Task {
-    /// Whether files of a kind are a part of it: measured values are no moves.
+    /// Whether files of a kind are a part of it: measured values and sheets are no moves.
     pub(super) fn compares(self, kind: OutputKind) -> bool {
-        self != Self::Compare { moves_only: true } || kind != OutputKind::Values
+        self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
+    }
+
+    /// The sheets that belong to it: who prints a program prints nothing else.
+    pub(super) fn sheets(self, settings: &Settings) -> SheetFormat {
+        if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
     }
 
     /// Whether times are part of the result.
@@ -111,6 +121,7 @@ pub(super) struct OutputSettings<'a> {
     pub(super) writing: Writing,
     pub(super) poster: Option<&'a PostProcessor>,
     pub(super) provenances: Provenances,
+    pub(super) sheets: SheetSettings,
     machine: Option<Machine>,
 }
 
@@ -118,7 +129,14 @@ impl<'a> OutputSettings<'a> {
     /// As the configuration says.
     pub(super) fn new(workspace: &Workspace, poster: Option<&'a PostProcessor>) -> Self {
         let provenances = Provenances::new(&workspace.settings, poster);
-        Self { writing: options::writing(workspace), poster, provenances, machine: machine(workspace) }
+        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), poster);
+        Self {
+            writing: options::writing(workspace),
+            poster,
+            provenances,
+            sheets,
+            machine: machine(workspace),
+        }
     }
 }
 
@@ -135,12 +153,7 @@ pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobF
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return JobFiles::default() };
     let mut delivered = Delivered::default();
-    let mut time = Total::default();
-    for program in &programs {
-        let sum = Statistics::of(program, means.writing.options.rapid).sum();
-        time.length += sum.length;
-        time.time += sum.time;
-    }
+    let time = total(&programs, means.writing.options.rapid);
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
     let provenance = means.provenances.of(&programs);
     let line = provenance.to_string();
@@ -148,12 +161,38 @@ pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobF
     let machine = means.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
     let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
+    let made = made.and_then(|mut outputs| {
+        outputs.extend(sheets(db, job, means).map_err(|problem| vec![*problem])?);
+        Ok(outputs)
+    });
     let outputs = made.unwrap_or_else(|problems| {
         delivered.is_refused = true;
         delivered.problems.extend(problems);
         Vec::new()
     });
     JobFiles { delivered, outputs }
+}
+
+/// Length and time of programs together, where rapid moves have this feed in mm/min.
+pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
+    let sums = programs.iter().map(|program| Statistics::of(program, rapid).sum());
+    sums.fold(Total::default(), |all, sum| Total {
+        length: all.length + sum.length,
+        time: all.time + sum.time,
+    })
+}
+
+/// The sheets among a job's files.
+fn sheets(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
+    let mut outputs = Vec::new();
+    for (kind, path) in &job.files {
+        if let Some(format) = kind.sheet()
+            && let Some(text) = sheet::bytes(db, job, format, means)?
+        {
+            outputs.push(Output { kind: *kind, path: path.clone(), text });
+        }
+    }
+    Ok(outputs)
 }
 
 /// Rapid moves of a program into material, and what the machine cannot do: it is not written then.
@@ -293,10 +332,11 @@ fn native(
     delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text = kind.text(program, provenance, &means.writing).map_err(|it| Box::new(at(*it)))?;
+        let Some(text) = text else { return Ok(None) };
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
-        Ok(Output { kind: *kind, path: path.clone(), text: text.into_bytes() })
+        Ok(Some(Output { kind: *kind, path: path.clone(), text: text.into_bytes() }))
     };
-    job.files.iter().map(output).collect()
+    job.files.iter().map(output).filter_map(Result::transpose).collect()
 }
 
 /// What the post makes of programs; it reads that back itself.
@@ -308,7 +348,8 @@ fn posted(
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
 ) -> Result<Output, Vec<Diagnostic>> {
-    let [(kind, path)] = job.files.as_slice() else { return Err(Vec::new()) };
+    let program = job.files.iter().find(|(kind, _)| kind.is_program());
+    let Some((kind, path)) = program else { return Err(Vec::new()) };
     let (mut program, warnings) =
         PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
@@ -344,7 +385,7 @@ fn write(
     for output in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
         let written = if is_kept { Ok(Written::Unchanged) } else { system.write(&output.path, &output.text) };
-        let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), &reason)))?;
+        let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
         delivered.hashes.push(hash_output(&output.path, &output.text));
         delivered.files.push((output.path.clone(), state));
@@ -371,6 +412,6 @@ fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
 }
 
 /// PB004.
-pub(super) fn cannot_write(name: &str, reason: &str) -> Diagnostic {
+pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason)
 }

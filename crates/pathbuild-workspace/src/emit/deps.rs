@@ -39,7 +39,7 @@ pub(super) fn write(
     }
     let file = session.normal(file);
     let written = db.system().write(&file, text.as_bytes());
-    written.err().map(|reason| cannot_write(file.as_str(), &reason))
+    written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
 /// A name in which nothing is taken for more than itself. There is no way to write a line feed; escaped it names a file that is not there.

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Database, SourceFile, Target, path_names};
+use pathbuild_db::system::join;
+use pathbuild_db::{Database, SourceFile, Target, path_names, trace};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
 use pathbuild_gcode::native;
@@ -11,6 +12,7 @@ use pathbuild_gcode::native;
 use super::Owners;
 use super::deliver::{Delivered, cannot_write};
 use super::store::{KnownJob, KnownProgram};
+use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 
@@ -21,7 +23,7 @@ pub(super) struct Job {
     pub(super) known: Known,
     /// The paths, in the order in which they are milled. There is one at least.
     pub(super) targets: Vec<Target>,
-    /// The drawings that they are made from, the first path's own first.
+    /// The drawings that were read for them, the first path's own first: those that they are made from, and those that were searched in vain.
     pub(super) sources: Vec<SourceFile>,
     /// The path's name, as the drawing spells it; of joined paths the name that they were given.
     pub(super) path: Box<str>,
@@ -101,6 +103,8 @@ pub(super) struct Maker<'a> {
     pub(super) poster: Option<&'a PostProcessor>,
     /// The name of the one program that all paths become.
     pub(super) join: Option<&'a str>,
+    /// What the sheet is written as.
+    pub(super) sheet: SheetFormat,
 }
 
 impl Maker<'_> {
@@ -129,13 +133,10 @@ impl Maker<'_> {
         let Some(first) = checked.first().filter(|_| right().count() == checked.len()) else {
             return Ok(None);
         };
-        let mut seen = HashSet::new();
-        let sources = checked.iter().flat_map(|checked| &checked.files).copied();
-        let sources = sources.filter(|file| seen.insert(*file)).collect();
         let directory = output_directory(self.session, first.target.file(self.session.db()));
         let stem = self.named(name, &directory).map_err(|problem| vec![*problem])?;
         let title = joined_title(name, checked);
-        Ok(Some(Job { title, ..self.with_files(stem, name, sources, checked, &[OutputKind::Milling]) }))
+        Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
     fn alone(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
@@ -148,7 +149,7 @@ impl Maker<'_> {
         let stem = self.named(&format!("{name}{}", emitted.suffix), &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
-        Ok(self.with_files(stem, &emitted.path, checked.files.clone(), std::slice::from_ref(checked), kinds))
+        Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
     }
 
     /// A post's text has no formulas: probes would be measured for nothing.
@@ -169,21 +170,21 @@ impl Maker<'_> {
             );
             return Err(Box::new(cannot_write(name, reason)));
         }
-        Ok(directory.join(name))
+        Ok(join(directory, name))
     }
 
     fn with_files(
         &self,
         stem: Utf8PathBuf,
         path: &str,
-        sources: Vec<SourceFile>,
         checked: &[CheckedTarget],
         kinds: &[OutputKind],
     ) -> Job {
         let name = |kind: &OutputKind| match self.poster {
-            Some(poster) => program_name(stem.as_str(), poster).into(),
-            None => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
+            Some(poster) if kind.is_program() => program_name(stem.as_str(), poster).into(),
+            _ => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
         };
+        let kinds = kinds.iter().copied().chain(OutputKind::of_sheet(self.sheet));
         let db = self.session.db();
         let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
@@ -191,11 +192,18 @@ impl Maker<'_> {
             title: native::title(drawing, path),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
-            files: kinds.iter().map(|kind| (*kind, name(kind))).collect(),
+            files: kinds.map(|kind| (kind, name(&kind))).collect(),
             stem,
-            sources,
+            sources: sources(db, checked),
         }
     }
+}
+
+/// The drawings that were read for paths, each once.
+fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
+    let mut seen = HashSet::new();
+    let read = checked.iter().flat_map(|checked| &trace(db, checked.target).files).copied();
+    read.filter(|file| seen.insert(*file)).collect()
 }
 
 /// Without a comma and a drawing, so that nothing takes it for a program that a drawing alone becomes, and for stale when it does not.

@@ -63,9 +63,15 @@ impl Making<'_> {
     pub(super) fn make(&self, session: &mut Session<'_>) -> Result<RunResult, String> {
         let Request { task, poster, join, .. } = *self.request;
         let mut diagnostics = self.found.problems.clone();
-        let asked = Selection::new(session, self, &mut diagnostics).ok_or(NOTHING_TO_EMIT)?;
+        let asked =
+            Selection::new(session, self, &mut diagnostics).ok_or_else(|| nothing_to_emit(session))?;
         if task == Task::Print && join.is_none() && asked.targets.len() > 1 {
-            return Err("`-o -` takes one path: it would be several programs".into());
+            let workspace = session.workspace();
+            let reason = workspace.choose(
+                "`-o -` writes one program: name one path",
+                "`-o -` schreibt ein Programm: einen Pfad nennen",
+            );
+            return Err(reason.to_owned());
         }
         let mut planning = Planning { making: self, session, answers: Vec::new(), diagnostics };
         let mut jobs = planning.jobs(&self.programs(&asked.targets))?;
@@ -77,7 +83,12 @@ impl Making<'_> {
         in_order(&mut jobs, &asked.targets);
         let Planning { answers, diagnostics, .. } = planning;
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
-            return Err("`-o -` takes one program: this path has Z-probes and becomes several files".into());
+            let workspace = session.workspace();
+            let reason = workspace.choose(
+                "`-o -` writes one file: this path has Z-probes and becomes several files",
+                "`-o -` schreibt eine Datei: dieser Pfad hat Z-Proben und ergibt mehrere",
+            );
+            return Err(reason.to_owned());
         }
         let means = OutputSettings::new(session.workspace(), poster);
         let delivered = deliver(session, &jobs, task, &means);
@@ -129,7 +140,12 @@ impl Planning<'_> {
         if let Some(refusal) = options::missing(self.session.workspace(), task, &checked) {
             return Err(refusal);
         }
-        let maker = Maker { session: self.session, poster, join };
+        let maker = Maker {
+            session: self.session,
+            poster,
+            join,
+            sheet: task.sheets(&self.session.workspace().settings),
+        };
         let mut jobs = Vec::new();
         let mut checked = checked.drain(..);
         for targets in programs {
@@ -170,4 +186,10 @@ pub(super) fn deliver(
     delivered.collect()
 }
 
-const NOTHING_TO_EMIT: &str = "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml";
+fn nothing_to_emit(session: &Session<'_>) -> String {
+    let reason = session.workspace().choose(
+        "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
+        "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
+    );
+    reason.to_owned()
+}

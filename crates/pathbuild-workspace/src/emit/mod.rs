@@ -11,6 +11,7 @@ mod making;
 mod older;
 mod options;
 mod provenance;
+mod sheet;
 mod stale;
 mod store;
 mod targets;
@@ -25,18 +26,21 @@ use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
+use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{Found, Scope, Session};
 use crate::workspace::Workspace;
 
-pub(crate) use configured::Configured;
+pub use configured::Configured;
 pub use current::{Current, current};
 use deliver::OutputSettings;
 pub use deliver::{Delivered, State, Task};
 use job::{Maker, take_clashes};
 use making::{Answer, Making, RunResult, deliver};
+pub use options::missing_values;
 pub(crate) use options::writing;
 pub use provenance::Provenances;
+pub use sheet::{SheetMade, sheet_bytes, sheet_of};
 use stale::Dealt;
 use store::{Run, Store};
 use targets::Selection;
@@ -102,6 +106,9 @@ impl Request<'_> {
         let made = session.settled(|session| making.make(session))?;
         let RunResult { asked, answers, jobs, refused, mut delivered, mut diagnostics } = made;
         tell_known(session.workspace(), &asked, &answers);
+        for (job, delivered) in jobs.iter().zip(&mut delivered) {
+            delivered.path.clone_from(&job.path);
+        }
         compatible::name(session.workspace(), self, &mut delivered);
         let older = older::programs(session, self, &asked.targets, &jobs, &delivered);
         let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
@@ -162,7 +169,7 @@ pub(crate) fn on_disk(
     targets: &[Target],
 ) -> HashMap<Target, bool> {
     let checked = session.check(targets);
-    let maker = Maker { session, poster, join: None };
+    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
     let made = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
     let mut jobs: Vec<_> = made.collect();
     let system = Arc::clone(&session.workspace().system);
@@ -177,14 +184,14 @@ pub(crate) fn on_disk(
 }
 
 /// Which path each file was written for, by its name without regard to case.
-pub(crate) type Owners = HashMap<String, Target>;
+pub type Owners = HashMap<String, Target>;
 
-/// Writes the programs of some targets, for who keeps watching; what is wrong with them as programs. Checks have said what is wrong with their
+/// Writes the programs of some targets, for who keeps its session; what is wrong with them as programs. Checks have said what is wrong with their
 /// drawings.
 ///
 /// # Errors
 /// Options that programs need and nobody gives.
-pub(crate) fn write(
+pub fn write(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,
     targets: &[Target],
@@ -198,7 +205,7 @@ pub(crate) fn write(
             return Err(refusal);
         }
         let mut diagnostics = Vec::new();
-        let maker = Maker { session, poster, join: None };
+        let maker = Maker { session, poster, join: None, sheet: task.sheets(&context.settings) };
         let mut jobs = Vec::new();
         for checked in checked.chunks(1) {
             match maker.job(checked) {

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use camino::Utf8PathBuf;
+use pathbuild_db::system::join;
 use pathbuild_db::{Db, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -53,7 +54,7 @@ fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
         .in_file(&program);
     let is_compared = matches!(task, Task::Compare { .. });
     let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
-    Delivered { files, problems: vec![problem], ..Delivered::default() }
+    Delivered { path: path.into(), files, problems: vec![problem], ..Delivered::default() }
 }
 
 /// Their names begin with the drawing's or the path's, whatever R was; of which path they are, they say themselves.
@@ -72,7 +73,7 @@ fn of_target(session: &Session<'_>, target: Target, poster: Option<&PostProcesso
         let lower = name.to_lowercase();
         is_gcode(name, poster) && stems.iter().any(|stem| lower.starts_with(&**stem))
     };
-    let programs = listing.files.iter().filter(may_be).map(|name| directory.join(name));
+    let programs = listing.files.iter().filter(may_be).map(|name| join(&directory, name));
     let mut programs: Vec<Utf8PathBuf> = programs.filter(is_of_target).collect();
     programs.sort_unstable();
     programs
@@ -86,7 +87,7 @@ fn of_joined(
     poster: &PostProcessor,
 ) -> Option<Utf8PathBuf> {
     let directory = output_directory(session, first.file(session.db()));
-    let program = directory.join(program_name(name, poster));
+    let program = join(&directory, program_name(name, poster));
     let head = session.db().system().head(&program, HEAD).unwrap_or_default();
     Provenance::of_head(&head).map(|_| program)
 }

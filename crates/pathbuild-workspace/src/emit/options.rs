@@ -13,18 +13,58 @@ use crate::workspace::Workspace;
 /// A value that a program needs and nobody gives is wrong usage; what has errors is not asked for it.
 pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
-    let is_missing = |option| sound().any(|checked| checked.missing_options.contains(&option));
+    let is_missing = |option: &MissingOption| sound().any(|checked| checked.missing_options.contains(option));
     let has_no_rapid = context.settings.general.rapid.value.is_none() && sound().next().is_some();
-    let missing = [
-        (is_missing(MissingOption::Feed), "feed", "the milling feed in mm/min of paths without F"),
-        (is_missing(MissingOption::SweepHeight), "sweep-height", "the sweep height in mm of paths without S"),
-        (has_no_rapid && task.writes_times(), "rapid", "the rapid feed in mm/min, for times"),
-    ];
-    let lines = missing.iter().filter(|(is_missing, ..)| *is_missing);
-    let lines: Vec<String> = lines
-        .map(|(_, name, what)| format!("missing {what}: give --{name}, or set `{name}` in pathbuild.toml"))
-        .collect();
-    (!lines.is_empty()).then(|| lines.join("\n"))
+    let options = [MissingOption::Feed, MissingOption::SweepHeight].into_iter().filter(is_missing);
+    let rapid = (has_no_rapid && task.writes_times()).then_some("rapid");
+    let names: Vec<&str> = options.map(MissingOption::name).chain(rapid).collect();
+    (!names.is_empty()).then(|| missing_values(context, names))
+}
+
+/// What is missing, by its names in the configuration, and where to give it: a line for each, and one where no configuration holds.
+pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'static str>) -> String {
+    let template = context.choose(
+        "missing: {what}; give --{name}, or set `{name}` in pathbuild.toml",
+        "es fehlt: {what}; --{name} angeben oder `{name}` in pathbuild.toml setzen",
+    );
+    let line = |name: &str| template.replace("{what}", meaning(context, name)).replace("{name}", name);
+    let lines = names.into_iter().map(line).chain(no_configuration(context));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A configuration that does not hold here is named rather than let keys be set in it.
+fn no_configuration(context: &Workspace) -> Option<String> {
+    if context.settings.file.is_some() {
+        return None;
+    }
+    Some(match context.configuration_not_used() {
+        Some(file) => context.phrase(
+            "no configuration holds for this drawing: it lies outside of the tree of {}; give --config {}, or move the drawing into the tree",
+            "für diese Zeichnung gilt keine Konfiguration: sie liegt außerhalb des Baums von {}; --config {} angeben oder die Zeichnung in den Baum legen",
+            file.as_str(),
+        ),
+        None => context
+            .choose(
+                "no pathbuild.toml lies beside or above the drawing: `pathbuild init` writes one into the working directory",
+                "bei oder über der Zeichnung liegt keine pathbuild.toml: `pathbuild init` schreibt eine in das Arbeitsverzeichnis",
+            )
+            .to_owned(),
+    })
+}
+
+fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
+    match name {
+        "feed" => context.choose(
+            "the milling feed in mm/min for paths without F",
+            "der Fräsvorschub in mm/min für Pfade ohne F",
+        ),
+        "sweep-height" => context
+            .choose("the sweep height in mm for paths without S", "die Leerfahrthöhe in mm für Pfade ohne S"),
+        _ => context.choose(
+            "the speed of rapid moves in mm/min, for times",
+            "die Eilganggeschwindigkeit in mm/min, für Zeiten",
+        ),
+    }
 }
 
 /// How files are written.

@@ -9,6 +9,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
+use pathbuild_db::system::join;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::native::{self, plain_title};
@@ -24,18 +25,38 @@ use crate::session::{OutputKind, Session};
 #[derive(Debug)]
 pub(super) struct Stale {
     path: Utf8PathBuf,
-    /// The program that it was adjusted from once, which is another one now.
-    clean: Option<Utf8PathBuf>,
+    reason: Reason,
+}
+
+/// Why nobody should.
+#[derive(Debug)]
+enum Reason {
+    /// Nothing would write it now.
+    Left,
+    /// The program that it was adjusted from is another one now.
+    Adjusted { clean: Utf8PathBuf },
+    /// Another post wrote it when the path had other moves than the program that is written now.
+    OtherMoves { program: Utf8PathBuf },
 }
 
 impl Stale {
     fn diagnostic(&self) -> Diagnostic {
-        let name = self.path.file_name().unwrap_or_default();
-        let problem = match self.clean.as_ref().and_then(|clean| clean.file_name()) {
-            Some(clean) => Diagnostic::new(&messages::STALE_ADJUSTED).with("clean", clean),
-            None => Diagnostic::new(&messages::STALE),
+        let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
+        let problem = match &self.reason {
+            Reason::Left => Diagnostic::new(&messages::STALE),
+            Reason::Adjusted { clean } => {
+                Diagnostic::new(&messages::STALE_ADJUSTED).with("clean", name(clean))
+            }
+            Reason::OtherMoves { program } => {
+                Diagnostic::new(&messages::STALE_OTHER_MOVES).with("program", name(program))
+            }
         };
-        problem.with("name", name).in_file(&self.path)
+        problem.with("name", name(&self.path)).in_file(&self.path)
+    }
+
+    /// Whether it is taken for the program of a path that has other moves now: a comparison calls it not current.
+    fn is_outdated(&self) -> bool {
+        !matches!(self.reason, Reason::Left)
     }
 }
 
@@ -43,7 +64,7 @@ impl Stale {
 #[derive(Debug, Default)]
 pub(super) struct Dealt {
     pub(super) removed: Vec<Utf8PathBuf>,
-    /// Adjusted programs that are still there.
+    /// Programs of paths that have other moves now.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
@@ -58,7 +79,7 @@ pub(super) fn deal_with(
     for stale in stale {
         if !is_removed {
             diagnostics.push(stale.diagnostic());
-            dealt.outdated.extend(stale.clean.is_some().then_some(stale.path));
+            dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
             continue;
         }
         match session.db().system().remove(&stale.path) {
@@ -66,7 +87,7 @@ pub(super) fn deal_with(
             Err(reason) => {
                 let name = stale.path.file_name().unwrap_or_default();
                 let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", name);
-                diagnostics.push(problem.with("reason", &*reason).in_file(&stale.path));
+                diagnostics.push(problem.with("reason", reason).in_file(&stale.path));
             }
         }
     }
@@ -91,17 +112,17 @@ pub(super) fn stale(
     };
     let finding = Finding {
         session,
+        poster,
         jobs,
         outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
         delivered,
-        by_stem: LazyCell::new(Box::new(move || {
-            let native = jobs.iter().enumerate().filter(|_| poster.is_none());
-            native.map(|(number, job)| (&*job.stem, number)).collect()
+        by_stem: LazyCell::new(Box::new(|| {
+            jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
         })),
         writers: LazyCell::new(Box::new(|| Writers::new(session, asked, jobs))),
     };
     let mut stale: Vec<Stale> =
-        directories.iter().flat_map(|directory| finding.in_directory(directory, poster)).collect();
+        directories.iter().flat_map(|directory| finding.in_directory(directory)).collect();
     stale.extend(finding.elsewhere(directories));
     stale
 }
@@ -120,30 +141,31 @@ type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
 struct Finding<'a> {
     session: &'a Session<'a>,
+    poster: Option<&'a PostProcessor>,
     jobs: &'a [Job],
     outputs: HashSet<&'a Utf8Path>,
     delivered: &'a [Delivered],
-    /// The number of each native job by the name of its files without what tells them apart.
+    /// The number of each job by the name of its files without what tells them apart.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
     writers: Lazy<'a, Writers>,
 }
 
 impl<'a> Finding<'a> {
-    fn in_directory(&self, directory: &Utf8Path, poster: Option<&PostProcessor>) -> Vec<Stale> {
+    fn in_directory(&self, directory: &Utf8Path) -> Vec<Stale> {
         let listing = self.session.db().system().list(directory).unwrap_or_default();
-        let programs = listing.files.iter().filter(|name| is_gcode(name, poster));
-        let programs = programs.map(|name| directory.join(name));
+        let programs = listing.files.iter().filter(|name| is_gcode(name, self.poster) || is_sheet(name));
+        let programs = programs.map(|name| join(directory, name));
         let mut programs: Vec<Utf8PathBuf> =
             programs.filter(|path| !self.outputs.contains(&**path)).collect();
         programs.sort_unstable();
         let stale = |path: Utf8PathBuf| {
             let (found, title) = self.provenance(&path)?;
             match self.own(&path) {
-                Some(own) if own.is_meant(self.session, &title) => own.stale(path, &found),
-                _ => self
-                    .writers
-                    .have_left(directory, &title, listing.files.iter())
-                    .then_some(Stale { path, clean: None }),
+                Some(own) if is_of(own.job, self.session, &title) => own.stale(path, &found),
+                _ => self.of_other_post(&path, &found, &title).or_else(|| {
+                    let is_left = self.writers.have_left(directory, &title, listing.files.iter());
+                    is_left.then_some(Stale { path, reason: Reason::Left })
+                }),
             }
         };
         programs.into_iter().filter_map(stale).collect()
@@ -155,18 +177,39 @@ impl<'a> Finding<'a> {
         let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
         let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
         let paths = stems.flat_map(|stem| {
-            OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())))
+            let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
+            let of_posts = EXTENSIONS[1..].iter().map(move |it| format!("{stem}_Milling.{it}").into());
+            native.into_iter().chain(of_posts)
         });
         let stale = |path: Utf8PathBuf| {
-            let own = self.own(&path).filter(|_| !self.outputs.contains(&*path))?;
+            if self.outputs.contains(&*path) {
+                return None;
+            }
             let (found, title) = self.provenance(&path)?;
-            own.is_meant(self.session, &title).then(|| own.stale(path, &found)).flatten()
+            match self.own(&path) {
+                Some(own) if is_of(own.job, self.session, &title) => own.stale(path, &found),
+                _ => self.of_other_post(&path, &found, &title),
+            }
         };
         paths.filter_map(stale).collect()
     }
 
-    /// The job whose path may have become a file.
+    /// What another post, or none, made of a path of the run, where the path has other moves now.
+    fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<Stale> {
+        let name = path.with_extension("");
+        let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
+        let number = *self.by_stem.get(Utf8Path::new(stem))?;
+        let (job, now) = (&self.jobs[number], self.delivered[number].provenance.as_ref()?);
+        let is_meant = is_of(job, self.session, title) && now.moves != found.moves;
+        let program = job.files.first()?.1.clone();
+        is_meant.then(|| Stale { path: path.to_owned(), reason: Reason::OtherMoves { program } })
+    }
+
+    /// The native job whose path may have become a file.
     fn own(&self, path: &Utf8Path) -> Option<Own<'a>> {
+        if self.poster.is_some() {
+            return None;
+        }
         let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
         let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
@@ -182,29 +225,42 @@ impl<'a> Finding<'a> {
 }
 
 impl Own<'_> {
-    /// Whether a title is that of the job's path.
-    fn is_meant(&self, session: &Session<'_>, found: &str) -> bool {
-        let db = session.db();
-        let drawing = self.job.drawing(db).path(db).file_name().unwrap_or_default();
-        native::is_title(found, drawing, &self.job.path)
-    }
-
     /// A file of the path that was made from something: stale, unless it was adjusted from the program as it is now.
     fn stale(&self, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
         if self.kind != OutputKind::Milling {
-            return Some(Stale { path, clean: None });
+            return Some(Stale { path, reason: Reason::Left });
         }
         let clean = self.job.files.iter().find(|(kind, _)| *kind == OutputKind::Clean);
-        let clean = clean.map(|(_, clean)| clean.clone());
-        (!self.provenance.is_same(found)).then_some(Stale { path, clean })
+        let reason = clean.map_or(Reason::Left, |(_, clean)| Reason::Adjusted { clean: clean.clone() });
+        (!self.provenance.is_same(found)).then_some(Stale { path, reason })
     }
 }
+
+/// Whether a title is that of the job's path.
+fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
+    let db = session.db();
+    let drawing = job.drawing(db).path(db).file_name().unwrap_or_default();
+    native::is_title(title, drawing, &job.path)
+}
+
+/// The extensions of programs: the native one, then those of built-in posts. A definition may have any other; then it is known only while
+/// it is the run's.
+const EXTENSIONS: [&str; 4] = ["gcode", "nc", "ngc", "tap"];
+
+/// How names of programs end, without extension.
+const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 pub(super) fn is_gcode(name: &str, poster: Option<&PostProcessor>) -> bool {
     let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
     Utf8Path::new(name).extension().is_some_and(|extension| {
-        is_like(extension, "gcode") || poster.is_some_and(|poster| is_like(extension, poster.extension()))
+        EXTENSIONS.iter().any(|known| is_like(extension, known))
+            || poster.is_some_and(|poster| is_like(extension, poster.extension()))
     })
+}
+
+/// Whether a name is one that emit gives to a sheet.
+fn is_sheet(name: &str) -> bool {
+    OutputKind::ALL.iter().any(|kind| kind.sheet().is_some() && name.ends_with(kind.suffix()))
 }
 
 /// What writes files.

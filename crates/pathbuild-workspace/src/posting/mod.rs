@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
+use pathbuild_db::system::join;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts as messages;
 use pathbuild_gcode::dialect::Dialect;
@@ -102,7 +103,7 @@ impl PostProcessor {
     ) -> Result<Self, Vec<Diagnostic>> {
         let general = &context.settings.general;
         let (post, definition, file) = if is_file_name(name) {
-            let file = relative(&base.join(name), context);
+            let file = relative(&join(base, name), context);
             let limit = context.settings.limits.file_size.value;
             let bytes =
                 context.system.read(&file, limit).map_err(|error| vec![unreadable(&file, &error, limit)])?;
@@ -153,7 +154,7 @@ impl PostProcessor {
         let Some(file) = &self.file else { return Vec::new() };
         let directory = file.parent().unwrap_or(Utf8Path::new(""));
         let text = String::from_utf8_lossy(&self.definition);
-        let inserted = inserted_names(&text).map(|name| directory.join(name));
+        let inserted = inserted_names(&text).map(|name| join(directory, name));
         std::iter::once(file.clone()).chain(inserted).collect()
     }
 
@@ -170,6 +171,11 @@ impl PostProcessor {
     /// Whether the command that the post names is run.
     pub fn runs_post_build(&self) -> bool {
         self.wishes.run_post_build
+    }
+
+    /// Whether programs start the spindle.
+    pub fn starts_spindle(&self) -> bool {
+        !self.manner.manual_spindle
     }
 
     /// The tools of the configuration.

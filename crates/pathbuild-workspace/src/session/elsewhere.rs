@@ -4,6 +4,7 @@ use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::spelt;
 use pathbuild_diagnostic::messages::subpaths as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
@@ -55,7 +56,7 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
 }
 
 /// The way to a directory from another, both absolute; the directory itself where there is no way, as between drives.
-fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
+pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     let (there, here): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
     let common = there.iter().zip(&here).take_while(|(a, b)| a == b).count();
     if common == 0 {
@@ -63,5 +64,5 @@ fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     }
     let up = here[common..].iter().map(|_| Utf8Component::ParentDir);
     let way: Utf8PathBuf = up.chain(there[common..].iter().copied()).collect();
-    if way.as_str().is_empty() { Utf8PathBuf::from(".") } else { way }
+    if way.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(way) }
 }

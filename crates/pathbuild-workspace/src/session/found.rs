@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
-use pathbuild_db::system::FileKind;
+use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{Db, SourceFile, drawing_names, may_hold};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -143,7 +143,7 @@ impl Session<'_> {
         directories.iter().find_map(|directory| {
             let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);
             let names = drawing_names(&self.db, self.db.directory(directory));
-            Some(self.file(&directory.join(names.iter().filter(is_meant).min()?)))
+            Some(self.file(&join(directory, names.iter().filter(is_meant).min()?)))
         })
     }
 

@@ -7,7 +7,7 @@ use camino::Utf8Path;
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, ReadError};
+use pathbuild_db::system::{FileKind, ReadError, join};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 
@@ -75,7 +75,7 @@ fn patterns(
     name: &str,
     limit: u64,
 ) -> Result<Gitignore, Box<Diagnostic>> {
-    let file = directory.join(name);
+    let file = join(directory, name);
     let bytes = match system.read(&file, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::System;
-use pathbuild_db::system::{Entry, EntryKind, FileKind};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
+use pathbuild_db::{System, catch_bugs};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
@@ -70,7 +70,8 @@ impl Walk<'_> {
         let mut count = 1;
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
             let list = |(directory, above): &(Utf8PathBuf, Option<Arc<Rules>>)| {
-                Directory::list(directory, above.clone(), self)
+                let list = || Directory::list(directory, above.clone(), self);
+                catch_bugs(list).unwrap_or_else(|bug| Ok(Some(Directory::failed(directory, *bug))))
             };
             let is_parallel = self.is_parallel && open.len() > FEW;
             let listed: Vec<_> = if is_parallel {
@@ -131,6 +132,12 @@ struct Directory {
 }
 
 impl Directory {
+    /// One of which nothing is known, since listing it showed a bug.
+    fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
+        let problem = Some(Box::new(bug.in_file(readable(directory))));
+        Self { problem, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
+    }
+
     /// Nothing where there is none.
     fn list(
         directory: &Utf8Path,
@@ -170,7 +177,7 @@ impl Directory {
         found.listing.is_doubtful |= listed.is_err();
         found.listing.names.sort_by(by_name);
         let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
-        found.drawings = drawings.map(|name| joined(directory, name)).collect();
+        found.drawings = drawings.map(|name| join(directory, name)).collect();
         if !found.inexact.names.is_empty() {
             found.listing.is_doubtful |= found.inexact.is_doubtful;
             found.listing.names.extend(found.inexact.names.iter());
@@ -188,7 +195,7 @@ impl Directory {
         if is_exact && self.counts(directory, name, is_directory) {
             self.count += 1;
             if is_directory {
-                self.directories.push(joined(directory, name));
+                self.directories.push(join(directory, name));
             }
         }
     }
@@ -196,7 +203,7 @@ impl Directory {
     /// Whether a name is part of the library.
     fn counts(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
         match &self.rules {
-            Some(rules) => !rules.exclude(&joined(directory, name), is_directory),
+            Some(rules) => !rules.exclude(&join(directory, name), is_directory),
             None => !is_hidden(name),
         }
     }
@@ -204,14 +211,6 @@ impl Directory {
 
 fn is_hidden(name: &str) -> bool {
     name.starts_with('.')
-}
-
-/// A name in a directory, made at once in the memory that it needs.
-fn joined(directory: &Utf8Path, name: &str) -> Utf8PathBuf {
-    let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.len());
-    path.push(directory);
-    path.push(name);
-    path
 }
 
 /// The order of names. It is `Ord`'s, told by their first bytes where it can be.

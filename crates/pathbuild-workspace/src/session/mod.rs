@@ -25,7 +25,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Overlay, System};
+use pathbuild_db::system::{Overlay, System, spelt};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
@@ -35,6 +35,7 @@ use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
 pub(crate) use drawings::{Drawing, Drawings};
+pub(crate) use elsewhere::relative;
 pub use found::{Argument, Found};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use library::{by_name, by_place};
@@ -46,6 +47,7 @@ pub use result_store::{
     ResultStore, Scope, hash_output, is_passing,
 };
 pub use scene::Seen;
+pub(crate) use scene::program_scene;
 pub use work::{Asking, CheckedTarget, Emitted};
 
 /// A database with the run's settings.
@@ -173,7 +175,7 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
             other => normal.push(other),
         }
     }
-    normal
+    spelt(normal)
 }
 
 /// Whether a path has nothing to be taken away, as nearly all have: it is relative, or lies somewhere else than below the working directory.

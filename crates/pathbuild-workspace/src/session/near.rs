@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
-use pathbuild_db::system::{EntryKind, FileKind};
+use pathbuild_db::system::{EntryKind, FileKind, join};
 use pathbuild_diagnostic::messages::{files, outputs};
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Value};
+use pathbuild_path::PathName;
 
 use super::{Session, library};
 use crate::config::nearest::nearest;
@@ -22,8 +23,7 @@ impl Session<'_> {
                     self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))
                 }
                 (message, _) if *message == outputs::NO_SUCH_PATH || *message == outputs::NO_PATH_LIKE => {
-                    let near = nearest(named(&diagnostic), names.iter().map(String::as_str));
-                    near.map(|near| (&outputs::NEAR_PATH, near.to_owned()))
+                    self.near_path(named(&diagnostic), &names)
                 }
                 _ => None,
             };
@@ -33,6 +33,17 @@ impl Session<'_> {
             }
         };
         self.with_elsewhere(diagnostics).into_iter().map(with_near).collect()
+    }
+
+    /// The drawing that defines a path which is looked for elsewhere; else the name that is nearest.
+    fn near_path(&self, name: &str, names: &[String]) -> Option<(&'static Message, String)> {
+        let path = PathName::new(name);
+        let defined = self.definitions(&path, &self.library_directories());
+        if let Some(file) = defined.first() {
+            return Some((&outputs::DEFINED_IN, file.path(self.db()).to_string()));
+        }
+        let others = names.iter().map(String::as_str).filter(|other| *other != name);
+        nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
     }
 
     /// What a name without a separator may mean: paths, and directories of the working directory.
@@ -50,8 +61,8 @@ impl Session<'_> {
         let mut missing = file.strip_prefix(directory).ok()?.components();
         let name = missing.next()?;
         let entries = self.entries(directory);
-        let near = directory.join(nearest(name.as_str(), entries.iter().map(String::as_str))?);
-        let whole = near.join(missing.as_path());
+        let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
+        let whole = join(&near, missing.as_path());
         // What follows the mistyped part may be right.
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }

@@ -4,6 +4,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_toolpath::Program;
 
+use crate::config::types::SheetFormat;
+
 /// The kinds of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputKind {
@@ -15,6 +17,12 @@ pub enum OutputKind {
     Probing,
     /// Where a person writes measured values, which must not be lost.
     Values,
+    /// The sheet for who stands at the machine.
+    SheetPdf,
+    #[expect(missing_docs, reason = "see above")]
+    SheetHtml,
+    #[expect(missing_docs, reason = "see above")]
+    SheetSvg,
 }
 
 /// How files are written, whatever is in them.
@@ -32,7 +40,40 @@ pub struct Writing {
 
 impl OutputKind {
     /// Each, at the place of its number.
-    pub const ALL: [Self; 4] = [Self::Milling, Self::Clean, Self::Probing, Self::Values];
+    pub const ALL: [Self; 7] = [
+        Self::Milling,
+        Self::Clean,
+        Self::Probing,
+        Self::Values,
+        Self::SheetPdf,
+        Self::SheetHtml,
+        Self::SheetSvg,
+    ];
+
+    /// The sheet of a format.
+    pub fn of_sheet(format: SheetFormat) -> Option<Self> {
+        match format {
+            SheetFormat::No => None,
+            SheetFormat::Pdf => Some(Self::SheetPdf),
+            SheetFormat::Html => Some(Self::SheetHtml),
+            SheetFormat::Svg => Some(Self::SheetSvg),
+        }
+    }
+
+    /// The format of a sheet; of other files none.
+    pub fn sheet(self) -> Option<SheetFormat> {
+        match self {
+            Self::Milling | Self::Clean | Self::Probing | Self::Values => None,
+            Self::SheetPdf => Some(SheetFormat::Pdf),
+            Self::SheetHtml => Some(SheetFormat::Html),
+            Self::SheetSvg => Some(SheetFormat::Svg),
+        }
+    }
+
+    /// Whether it mills.
+    pub fn is_program(self) -> bool {
+        matches!(self, Self::Milling | Self::Clean)
+    }
 
     /// The files of a program.
     pub fn of(has_probes: bool) -> &'static [Self] {
@@ -46,6 +87,9 @@ impl OutputKind {
             Self::Clean => "_Clean.gcode",
             Self::Probing => "_Probing.gcode",
             Self::Values => "_Z.txt",
+            Self::SheetPdf => "_Sheet.pdf",
+            Self::SheetHtml => "_Sheet.html",
+            Self::SheetSvg => "_Sheet.svg",
         }
     }
 
@@ -57,11 +101,11 @@ impl OutputKind {
         match self {
             Self::Milling | Self::Clean => native::read_back(text, program),
             Self::Probing => native::read_probing_back(text, &program.probes),
-            Self::Values => Ok(()),
+            Self::Values | Self::SheetPdf | Self::SheetHtml | Self::SheetSvg => Ok(()),
         }
     }
 
-    /// The whole text.
+    /// The whole text; `None` of a sheet, which is no text of the program.
     ///
     /// # Errors
     /// PB005: where it is too large.
@@ -70,12 +114,13 @@ impl OutputKind {
         program: &Program,
         provenance: &str,
         writing: &Writing,
-    ) -> Result<String, Box<Diagnostic>> {
+    ) -> Result<Option<String>, Box<Diagnostic>> {
         let header = Header { provenance: provenance.to_owned() };
         match self {
-            Self::Milling | Self::Clean => writing.text(program, &header),
-            Self::Probing => Ok(native::probing_program(program, &header, &writing.options)),
-            Self::Values => Ok(native::values_file(program, &writing.options)),
+            Self::Milling | Self::Clean => writing.text(program, &header).map(Some),
+            Self::Probing => Ok(Some(native::probing_program(program, &header, &writing.options))),
+            Self::Values => Ok(Some(native::values_file(program, &writing.options))),
+            Self::SheetPdf | Self::SheetHtml | Self::SheetSvg => Ok(None),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::slice;
 
+use camino::Utf8Path;
 use pathbuild_db::{
     Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index, in_force,
     keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
@@ -15,6 +16,8 @@ use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath}
 
 use super::{Session, Writing};
 use crate::emit::writing;
+use crate::findings::Findings;
+use crate::workspace::Workspace;
 
 /// A scene, and what is wrong with what it shows.
 #[derive(Debug)]
@@ -23,6 +26,15 @@ pub struct Seen {
     pub scene: Scene,
     /// What is wrong, located.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Seen {
+    /// The scene with its findings, by the configuration's severities. `file` is the drawing that is shown.
+    pub fn judged(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
+        let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
+        scene.findings = view::findings(&findings.diagnostics, file);
+        (scene, findings)
+    }
 }
 
 impl Session<'_> {
@@ -48,6 +60,14 @@ impl Session<'_> {
         }
         scene.other_layers = view::other_layers(other_layers(&self.db, file));
         Seen { scene, diagnostics }
+    }
+
+    /// What is drawn in some drawings, without programs: of each, unless it shows a bug.
+    pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
+        let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
+        let scenes =
+            self.guarded(&files, |db: &pathbuild_db::Database, file: &SourceFile| drawn_scene(db, *file));
+        scenes.into_iter().map(Result::ok).collect()
     }
 
     /// A path, what is wrong with it, and the clamps that it embeds, where they stand in its program.
@@ -98,11 +118,21 @@ impl Session<'_> {
     }
 }
 
+/// What is drawn in a drawing.
+fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
+    let mut scene = Scene::new(file.path(db).file_name().unwrap_or_default());
+    scene.keep_outs.extend(keep_outs(db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
+    let paths = path_names(db, file).iter().filter_map(|name| drawn_path(db, file, name));
+    scene.paths.extend(paths.map(|drawn| view::drawn_path(&drawn_source(db, file, drawn, &[]))));
+    scene.other_layers = view::other_layers(other_layers(db, file));
+    scene
+}
+
 /// A program with where it comes from; `None` where a drawing changed meanwhile.
 ///
 /// # Errors
 /// PB005: where its text is too large.
-fn program_scene(
+pub(crate) fn program_scene(
     db: &dyn Db,
     traced: &Traced,
     writing: &Writing,

@@ -63,6 +63,7 @@ fn doubts(settings: &crate::config::Settings) -> Doubts {
     Doubts {
         below_plate: warnings.below_plate.value,
         infeed: warnings.infeed.value,
+        mark_depth: warnings.mark_depth.value,
         maximum_feed: settings.machine.max_feed.value,
         text_margin: warnings.text_margin.value,
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -18,7 +18,8 @@ use crate::session::Session;
 
 /// Watches the directories of a library.
 pub(super) struct Watcher {
-    events: Receiver<notify::Result<Event>>,
+    signals: Receiver<Signal>,
+    bell: Bell,
     /// Kept, since nothing is watched once it is dropped.
     _source: Box<dyn notify::Watcher>,
     debounce: Duration,
@@ -28,8 +29,37 @@ pub(super) struct Watcher {
     system: Arc<dyn System>,
     /// What came while a batch was worked on.
     news: Changes,
+    /// When that has come to rest, if nothing more comes.
+    due: Instant,
+    /// Whether somebody rang and was not heard yet.
+    is_rung: bool,
+    /// Whether it is to end.
+    is_over: bool,
     /// Files without their end, and when they are taken as they are.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
+}
+
+/// What comes from other threads.
+enum Signal {
+    Changed(notify::Result<Event>),
+    Rung,
+    Over,
+}
+
+/// Wakes the thread that watches. Any thread may have one.
+#[derive(Clone, Debug)]
+pub struct Bell(Sender<Signal>);
+
+impl Bell {
+    /// Makes [`Listener::rung`](super::Listener::rung) be called as soon as the session has time. Without effect once watching has ended.
+    pub fn ring(&self) {
+        _ = self.0.send(Signal::Rung);
+    }
+
+    /// Ends watching as soon as the work in hand is done.
+    pub fn end(&self) {
+        _ = self.0.send(Signal::Over);
+    }
 }
 
 /// What came of waiting.
@@ -38,6 +68,8 @@ pub(super) enum Batch {
     Changes(Changes),
     /// The configuration did.
     ConfigurationChanged,
+    /// Somebody rang.
+    Rung,
     /// Nothing more will come.
     Over,
 }
@@ -68,12 +100,14 @@ impl Watcher {
     ) -> notify::Result<Self> {
         let workspace = session.workspace();
         let settings = &workspace.settings;
-        let (sender, events) = channel();
+        let (sender, signals) = channel();
+        let bell = Bell(sender.clone());
+        let tell = move |event| _ = sender.send(Signal::Changed(event));
         let is_polling = request.polls || settings.watch.poll.value;
         let mut watcher: Box<dyn notify::Watcher> = if is_polling {
-            Box::new(PollWatcher::new(sender, Config::default().with_poll_interval(POLL_INTERVAL))?)
+            Box::new(PollWatcher::new(tell, Config::default().with_poll_interval(POLL_INTERVAL))?)
         } else {
-            Box::new(RecommendedWatcher::new(sender, Config::default())?)
+            Box::new(RecommendedWatcher::new(tell, Config::default())?)
         };
         let post: Vec<Utf8PathBuf> = post.iter().map(|file| session.normal(file)).collect();
         for (directory, mode) in directories(session, request, &post) {
@@ -81,34 +115,49 @@ impl Watcher {
             watcher.watch(place.as_std_path(), mode)?;
         }
         Ok(Self {
-            events,
+            signals,
+            bell,
             _source: watcher,
             debounce: settings.watch.debounce.value,
             configuration: settings.file.iter().map(|file| session.normal(file)).chain(post).collect(),
             news: Changes::default(),
+            due: Instant::now(),
+            is_rung: false,
+            is_over: false,
             working_directory: workspace.working_directory.clone(),
             system: Arc::clone(&workspace.system),
             unfinished: BTreeMap::new(),
         })
     }
 
+    /// What wakes it.
+    pub(super) fn bell(&self) -> Bell {
+        self.bell.clone()
+    }
+
     /// Waits for changes.
     pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
-        let mut changes = std::mem::take(&mut self.news);
         loop {
-            let is_idle = changes.is_empty() && !library.is_behind();
+            if self.is_over {
+                return Batch::Over;
+            }
+            if self.has_been_rung() {
+                return Batch::Rung;
+            }
+            let is_idle = self.news.is_empty() && !library.is_behind();
             let patience = match (is_idle, self.unfinished.is_empty()) {
-                (false, _) => self.debounce,
+                (false, _) => self.due.saturating_duration_since(Instant::now()),
                 (true, false) => GLANCE,
                 (true, true) => Duration::MAX,
             };
             match self.wait(patience) {
-                Ok(event) => self.add(event, library.session(), &mut changes),
+                Ok(signal) => self.add(signal, library.session()),
                 Err(RecvTimeoutError::Disconnected) => return Batch::Over,
                 Err(RecvTimeoutError::Timeout) => {
-                    if !self.configuration.is_disjoint(&changes.paths) {
+                    if !self.configuration.is_disjoint(&self.news.paths) {
                         return Batch::ConfigurationChanged;
                     }
+                    let mut changes = std::mem::take(&mut self.news);
                     self.hold_back(&mut changes);
                     if !changes.is_empty() || library.is_behind() {
                         return Batch::Changes(changes);
@@ -118,28 +167,53 @@ impl Watcher {
         }
     }
 
-    /// Whether drawings changed since the last batch was given out.
+    /// Whether drawings changed since the last batch was given out, or it is to end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
-        let mut news = std::mem::take(&mut self.news);
-        while let Ok(event) = self.events.try_recv() {
-            self.add(event, session, &mut news);
+        self.look(session);
+        self.is_over || self.news.is_incomplete || self.news.paths.iter().any(|path| self.is_news(path))
+    }
+
+    /// Whether it is to end.
+    pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
+        self.look(session);
+        self.is_over
+    }
+
+    /// Whether somebody rang since this was asked last.
+    pub(super) fn has_been_rung(&mut self) -> bool {
+        std::mem::take(&mut self.is_rung)
+    }
+
+    /// Takes in what has come without waiting for more.
+    fn look(&mut self, session: &Session<'_>) {
+        while let Ok(signal) = self.signals.try_recv() {
+            self.add(signal, session);
         }
-        self.news = news;
-        self.news.is_incomplete || self.news.paths.iter().any(|path| self.is_news(path))
     }
 
     fn is_news(&self, path: &Utf8PathBuf) -> bool {
         Session::is_drawing(path) || self.configuration.contains(path)
     }
 
-    fn wait(&self, patience: Duration) -> Result<notify::Result<Event>, RecvTimeoutError> {
+    fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
         if patience == Duration::MAX {
-            return self.events.recv().map_err(|_| RecvTimeoutError::Disconnected);
+            return self.signals.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
-        self.events.recv_timeout(patience)
+        self.signals.recv_timeout(patience)
     }
 
-    fn add(&self, event: notify::Result<Event>, session: &Session<'_>, changes: &mut Changes) {
+    fn add(&mut self, signal: Signal, session: &Session<'_>) {
+        match signal {
+            Signal::Rung => self.is_rung = true,
+            Signal::Over => self.is_over = true,
+            Signal::Changed(event) => {
+                self.add_event(event, session);
+                self.due = Instant::now() + self.debounce;
+            }
+        }
+    }
+
+    fn add_event(&mut self, event: notify::Result<Event>, session: &Session<'_>) {
         // Whoever reads tells nothing.
         let tells = |kind: EventKind| match kind {
             EventKind::Access(AccessKind::Close(AccessMode::Write)) => true,
@@ -147,14 +221,15 @@ impl Watcher {
             _ => true,
         };
         match event {
-            Ok(event) if event.need_rescan() => changes.is_incomplete = true,
+            Ok(event) if event.need_rescan() => self.news.is_incomplete = true,
             Ok(event) if tells(event.kind) => {
                 let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
                 let paths = paths.map(|path| session.normal(&clean(&self.working_directory.join(path))));
-                changes.paths.extend(paths.filter(|path| matters(path) || self.configuration.contains(path)));
+                let configuration = &self.configuration;
+                self.news.paths.extend(paths.filter(|path| matters(path) || configuration.contains(path)));
             }
             Ok(_) => {}
-            Err(_) => changes.is_incomplete = true,
+            Err(_) => self.news.is_incomplete = true,
         }
     }
 
@@ -199,6 +274,11 @@ fn directories(
     };
     for input in request.inputs.iter() {
         match input {
+            Input::Name(name) if session.is_directory(name.into()) => {
+                add(session.normal(name.into()), RecursiveMode::Recursive);
+                // There may be a path of that name as well.
+                add(Utf8PathBuf::new(), RecursiveMode::NonRecursive);
+            }
             Input::Place(place) if session.is_directory(place) => {
                 add(session.normal(place), RecursiveMode::Recursive);
             }
@@ -208,7 +288,13 @@ fn directories(
                     RecursiveMode::NonRecursive,
                 );
             }
-            Input::Name(_) => add(Utf8PathBuf::new(), RecursiveMode::NonRecursive),
+            Input::Name(name) => {
+                // What is no name of a path may be that of a directory.
+                if session.is_directory(Utf8Path::new(name)) {
+                    add(session.normal(Utf8Path::new(name)), RecursiveMode::Recursive);
+                }
+                add(Utf8PathBuf::new(), RecursiveMode::NonRecursive);
+            }
         }
     }
     for directory in &general.library.value {

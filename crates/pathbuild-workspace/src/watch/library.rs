@@ -46,9 +46,6 @@ pub(super) struct Batch {
     pub(super) now: Vec<Diagnostic>,
 }
 
-/// So many drawings are asked before it is looked whether there is news.
-const PORTION: usize = 64;
-
 impl<'a> Library<'a> {
     /// Nothing is known yet.
     pub(super) fn new(session: Session<'a>, inputs: &'a Inputs) -> Self {
@@ -80,14 +77,15 @@ impl<'a> Library<'a> {
         (self.drawings.len(), self.drawings.values().map(|result| result.names.len()).sum())
     }
 
-    /// Checks everything.
-    pub(super) fn begin(&mut self) -> Batch {
+    /// Finds and reads the drawings, all of which are to be asked; what is wrong with arguments and directories.
+    pub(super) fn find(&mut self) -> Batch {
         let wanted = self.session.wanted(self.inputs);
         let mut drawings = wanted.whole(&self.session);
         drawings.extend(wanted.paths.iter().map(|path| path.file));
-        let mut update = Batch { now: wanted.problems, ..Batch::default() };
-        self.ask(drawings, &mut update);
-        update
+        self.session.read_ahead(&drawings);
+        let db = self.session.db();
+        self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
+        Batch { now: wanted.problems, ..Batch::default() }
     }
 
     /// Takes over changes; what they concern is to be asked, portion by portion.
@@ -127,10 +125,10 @@ impl<'a> Library<'a> {
         self.open.values().copied()
     }
 
-    /// Asks the next of the drawings that are to be asked; which they were.
-    pub(super) fn ask_portion(&mut self, update: &mut Batch) -> Vec<SourceFile> {
+    /// Asks the next of the drawings that are to be asked, so many at most; which they were.
+    pub(super) fn ask_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
-            std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(PORTION).collect();
+            std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
         self.ask(portion.clone(), update);
         portion
     }

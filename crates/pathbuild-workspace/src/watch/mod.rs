@@ -13,13 +13,16 @@ use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use camino::Utf8PathBuf;
+use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
 use crate::emit::Delivered;
+use crate::posting::PostProcessor;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
+pub use changes::Bell;
 use changes::{Batch, Watcher};
 use library::Library;
 use writing::Writer;
@@ -31,20 +34,30 @@ pub struct Request<'a> {
     pub inputs: &'a Inputs,
     /// Whether the programs of `[emit] targets` are written.
     pub emits: bool,
+    /// Whether the listener lists paths, for which it needs the post.
+    pub lists: bool,
     /// Whether it is looked for changes from time to time, because the system tells none.
     pub polls: bool,
 }
 
-/// Hears what watching finds.
+/// Hears what watching finds. The session is lent to who shows more than findings.
 pub trait Listener {
+    /// By what it can be woken from other threads.
+    fn bell(&self, _: Bell) {}
+    /// Drawings were found and read, and are to be checked; what is wrong with arguments and directories.
+    fn found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
+    /// Drawings were checked, and their programs written where that is wanted, through that post.
+    fn checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
+    /// Somebody rang.
+    fn rung(&self, _: &mut Session<'_>) {}
     /// Everything was checked for the first time.
-    fn begun(&self, beginning: Beginning);
+    fn begun(&self, _: &Beginning) {}
     /// A batch of changes was worked on.
-    fn updated(&self, update: Update);
+    fn updated(&self, _: &Update) {}
     /// Programs were written.
-    fn written(&self, delivered: &[Delivered]);
+    fn written(&self, _: &[Delivered]) {}
     /// Programs cannot be written because nobody gives options that they need.
-    fn refused(&self, reason: &str);
+    fn refused(&self, _: &str) {}
 }
 
 /// How things stand at the beginning.
@@ -84,7 +97,7 @@ pub struct Update {
 /// Why watching ended.
 #[derive(Debug)]
 pub enum Ended {
-    /// No more changes will come.
+    /// No more changes will come, or somebody ended it.
     Over,
     /// The configuration, or a file of the post that it names, changed: everything has to begin anew.
     ConfigurationChanged,
@@ -105,7 +118,7 @@ impl Request<'_> {
         if self.inputs.inputs.is_empty() && !session.has_library() {
             return Ended::NothingNamed;
         }
-        let writer = match Writer::new(workspace, listener, self.emits) {
+        let writer = match Writer::new(workspace, listener, self) {
             Ok(writer) => writer,
             Err(problems) => return Ended::BadPost(problems),
         };
@@ -132,13 +145,21 @@ struct Watching<'a> {
     revision: u64,
 }
 
+/// So many drawings are asked at the beginning before somebody who rang is heard.
+const FIRST_PORTION: usize = 512;
+
+/// So many drawings are asked before it is looked whether there is news.
+const PORTION: usize = 64;
+
 impl Watching<'_> {
     fn run(mut self) -> Ended {
+        self.listener.bell(self.watcher.bell());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
                 Batch::ConfigurationChanged => return Ended::ConfigurationChanged,
                 Batch::Over => return Ended::Over,
+                Batch::Rung => self.listener.rung(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
             }
         }
@@ -146,37 +167,47 @@ impl Watching<'_> {
 
     fn begin(&mut self) {
         let begun = Instant::now();
-        let found = self.library.begin();
+        let mut found = self.library.find();
+        let drawings: Vec<SourceFile> = self.library.open().collect();
+        self.listener.found(self.library.session_mut(), &drawings, &found.now);
+        while self.library.is_behind() && !self.watcher.is_over(self.library.session()) {
+            let portion = self.library.ask_portion(FIRST_PORTION, &mut found);
+            self.tell(&portion);
+        }
         let written = self.writer.begin(self.library.session_mut(), &found.asked);
+        let programs = self.writer.written(self.library.session(), &found.asked);
+        if !programs.is_empty() {
+            self.tell(&programs);
+        }
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints([found.now, written].concat());
-        self.listener.begun(Beginning { drawings, paths, diagnostics, time });
+        self.listener.begun(&Beginning { drawings, paths, diagnostics, time });
     }
 
     fn update(&mut self, changes: &changes::Changes) {
         let begun = Instant::now();
-        let library = &mut self.library;
-        let mut found = library.take_over(changes);
-        if !library.is_behind() && found.removed.is_empty() {
+        let mut found = self.library.take_over(changes);
+        if !self.library.is_behind() && found.removed.is_empty() {
             return;
         }
         self.revision += 1;
-        self.writer.release(library.session(), library.open(), &found.removed);
+        self.writer.release(self.library.session(), self.library.open(), &found.removed);
         let mut written = Vec::new();
-        while library.is_behind() {
-            let portion = library.ask_portion(&mut found);
-            written.extend(self.writer.write(library.session_mut(), &portion));
+        while self.library.is_behind() {
+            let portion = self.library.ask_portion(PORTION, &mut found);
+            written.extend(self.writer.write(self.library.session_mut(), &portion));
+            self.tell(&portion);
             // What is still open may be something else by now.
-            if self.watcher.has_news(library.session()) {
+            if self.watcher.has_news(self.library.session()) {
                 break;
             }
         }
-        library.leave(&mut found);
+        self.library.leave(&mut found);
         let time = begun.elapsed();
         let library::Batch { changed, asked, open, removed, before, now } = found;
-        let session = library.session();
-        self.listener.updated(Update {
+        let session = self.library.session();
+        self.listener.updated(&Update {
             revision: self.revision,
             changed,
             removed,
@@ -186,5 +217,15 @@ impl Watching<'_> {
             now: session.with_hints([now, written].concat()),
             time,
         });
+    }
+
+    /// Tells what was checked, and hears who rang meanwhile.
+    fn tell(&mut self, checked: &[SourceFile]) {
+        let session = self.library.session_mut();
+        self.listener.checked(session, checked, self.writer.poster());
+        _ = self.watcher.is_over(session);
+        if self.watcher.has_been_rung() {
+            self.listener.rung(session);
+        }
     }
 }

@@ -6,7 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::Listener;
+use super::{Listener, Request};
 use crate::emit::{self, Configured, Owners};
 use crate::posting::{PostArguments, PostProcessor};
 use crate::session::Session;
@@ -22,18 +22,33 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    /// A writer that writes if `is_on`.
+    /// A writer, which writes if that is wanted.
     ///
     /// # Errors
     /// What is wrong with the post that the configuration names.
     pub(super) fn new(
         workspace: &'a Workspace,
         listener: &'a dyn Listener,
-        is_on: bool,
+        request: &Request<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
+        let is_needed = request.emits || request.lists;
         let poster =
-            if is_on { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
-        Ok(Self { workspace, listener, is_on, poster, owners: Owners::default() })
+            if is_needed { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
+        Ok(Self { workspace, listener, is_on: request.emits, poster, owners: Owners::default() })
+    }
+
+    /// The post that programs are written through; `None`: natively, or nobody asks.
+    pub(super) fn poster(&self) -> Option<&PostProcessor> {
+        self.poster.as_ref()
+    }
+
+    /// The drawings with paths that are written.
+    pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
+        let mut configured = Configured::new(&self.workspace.settings);
+        let mut is_written = |file: &&SourceFile| {
+            path_names(session.db(), **file).iter().filter(|name| configured.means(name.as_str())).count() > 0
+        };
+        if self.is_on { files.iter().filter(|file| is_written(file)).copied().collect() } else { Vec::new() }
     }
 
     /// The files that the post is read from.

@@ -16,22 +16,22 @@ pub struct CheckArgs {
     /// Exit with 1 on warnings too
     #[arg(long)]
     pub error_on_warning: bool,
-    /// Report only what is not in this file
+    /// Report only findings that are not in this file
     #[arg(long, value_name = "FILE")]
     pub baseline: Option<Utf8PathBuf>,
-    /// Write everything that is found into the baseline file instead of reporting it
+    /// Write all findings into the baseline file instead of reporting them
     #[arg(long, requires = "baseline")]
     pub update_baseline: bool,
     /// Check only what depends on files changed since this Git revision
     #[arg(long, value_name = "REV")]
     pub changed_since: Option<String>,
-    /// Show where the time went
+    /// Show how long each stage took
     #[arg(long)]
     pub timings: bool,
-    /// Show no more than N errors; the last lines count all
+    /// Show at most N errors; the last lines count all of them
     #[arg(long, value_name = "N")]
     pub max_errors: Option<usize>,
-    /// Write a picture of each erroneous path into this directory
-    #[arg(long, value_name = "DIR", hide = true)]
+    /// Write a picture of each finding into this directory: a cut-out of the drawing, the place circled
+    #[arg(long, value_name = "DIR")]
     pub pictures: Option<Utf8PathBuf>,
 }

@@ -16,7 +16,7 @@ pub struct CommonArgs {
     /// Milling feed where a path gives none
     #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
     pub feed: Option<String>,
-    /// Rapid speed, for times
+    /// Speed of rapid moves, for the times shown
     #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
     pub rapid: Option<String>,
     /// Sweep height of an emitted path that gives none
@@ -25,55 +25,55 @@ pub struct CommonArgs {
     /// Probing feed where a path gives none
     #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
     pub probe_feed: Option<String>,
-    /// Programs exactly as `PathDxf2GCode` writes them
+    /// Write programs exactly as `PathDxf2GCode` does
     #[arg(long, global = true)]
     pub compatible: bool,
-    /// Look for embedded paths in this directory too (repeatable)
+    /// Look for embedded paths in this directory as well (repeatable)
     #[arg(long, global = true, value_name = "DIR")]
     pub search: Vec<Utf8PathBuf>,
-    /// What a path name is
+    /// Regular expression for path names
     #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
     pub path_pattern: Option<String>,
-    /// What path names in a file name are
+    /// Regular expression for path names in file names
     #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
     pub file_pattern: Option<String>,
-    /// Paths that PARENT matches embed only paths that CHILD matches (repeatable)
+    /// A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)
     #[arg(long, global = true, value_name = "PARENT:CHILD", allow_hyphen_values = true)]
     pub restrict: Vec<String>,
     /// Language of messages (also: `PATHBUILD_LANG`)
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "en|de")]
     pub lang: Option<LangArg>,
-    /// Write into this directory, not beside the drawing
+    /// Write into this directory instead of beside the drawing
     #[arg(long, global = true, value_name = "DIR")]
     pub out_dir: Option<Utf8PathBuf>,
-    /// Use this configuration, not the pathbuild.toml of the drawing
+    /// Use this configuration instead of the drawing's pathbuild.toml
     #[arg(long, global = true, value_name = "FILE")]
     pub config: Option<Utf8PathBuf>,
-    /// How diagnostics are shown
+    /// Format of the messages
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = FORMATS)]
     pub format: Option<Format>,
-    /// Write findings into a file too, `-` is standard output (repeatable)
+    /// Write a report of the findings into a file as well; `-` is standard output (repeatable)
     #[arg(long, global = true, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]
     pub report: Vec<ReportFile>,
-    /// When to colour
+    /// When to use colours
     #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "auto|always|never")]
     pub color: Option<ColorChoice>,
-    /// Say less: no status; twice: results only
+    /// Print less: no status lines; given twice: results only
     #[arg(short, long, global = true, action = clap::ArgAction::Count, conflicts_with = "verbose")]
     pub quiet: u8,
-    /// Say more
+    /// Print more
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Work with so many threads
+    /// Number of threads
     #[arg(short, long, global = true, value_name = "N", value_parser = jobs)]
     pub jobs: Option<u16>,
-    /// The tree is a stranger's: nothing leads out of it, and nothing of it is run
+    /// Do not trust the tree: read no file outside of it, run no command that it names
     #[arg(long, global = true)]
     pub untrusted: bool,
-    /// Neither read nor write the cache
+    /// Use no kept results and keep none
     #[arg(long, global = true)]
     pub no_cache: bool,
-    /// Keep results here, for copies of the tree too (also: `PATHBUILD_CACHE_DIR`)
+    /// Directory for kept results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)
     #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
     pub cache_dir: Option<Utf8PathBuf>,
 }

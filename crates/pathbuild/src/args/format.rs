@@ -21,6 +21,9 @@ pub enum Format {
     Gitlab,
     /// `JUnit` XML, a test case for each path
     Junit,
+    /// A page with pictures: for `--report` only
+    #[value(hide = true)]
+    Html,
     /// A graph for Graphviz
     #[value(hide = true)]
     Dot,
@@ -70,7 +73,8 @@ impl ReportFile {
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
         let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());
-        let format = format.ok_or("the format is full, concise, json, sarif, github, gitlab or junit")?;
+        let format =
+            format.ok_or("the format is full, concise, json, sarif, github, gitlab, junit or html")?;
         if file.is_empty() {
             return Err("the name of the file is missing".to_owned());
         }

@@ -2,22 +2,23 @@ use camino::Utf8PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_workspace::Inputs;
 
 use crate::completion;
 
 /// How programs are read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ReadingArgs {
-    /// native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas or marlin; else guessed
+    /// G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas or marlin; without it pathbuild guesses
     #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
     pub dialect: Option<Dialect>,
-    /// `XpertMILL`: what G70 and G71 mean, inches and millimetres (din) or the other way round (table)
+    /// `XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round
     #[arg(long, value_name = "din|table", value_enum, hide_possible_values = true)]
     pub unit_codes: Option<UnitCodesArg>,
-    /// `XpertMILL`: I and J are the centre itself, not its distance from the arc's beginning
+    /// `XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start
     #[arg(long)]
     pub absolute_arc_centres: bool,
-    /// `XpertMILL`: pass over F; the layers' feeds hold
+    /// `XpertMILL`: ignore F and use the feeds of the layers
     #[arg(long)]
     pub ignore_feed: bool,
 }
@@ -53,18 +54,27 @@ pub struct VerifyArgs {
     /// G-code programs
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
-    /// Compare with what this path's drawing says, which also tells cutter and material
+    /// Compare with the drawing of this path, which also says cutter and material
     #[arg(long, value_name = "PATH", add = completion::paths())]
     pub against: Option<String>,
-    /// Diameter of the cutter; else by T and `[tool.NAME]`
+    /// Diameter of the cutter; without it from T and `[tool.NAME]`
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub cutter: Option<String>,
-    /// Height of the material's upper face; of native programs it is known
+    /// Height of the material's upper face; pathbuild's own programs say it themselves
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadingArgs,
+}
+
+impl VerifyArgs {
+    /// The programs, then the path: its configuration holds for programs that lie elsewhere.
+    pub(super) fn inputs(&self) -> Inputs {
+        let mut inputs = Inputs::places(&self.files);
+        inputs.inputs.extend(self.against.clone());
+        inputs
+    }
 }
 
 /// `pathbuild post`
@@ -77,22 +87,22 @@ pub struct PostArgs {
     /// G-code program
     #[arg(value_name = "FILE", required = true)]
     pub file: Option<Utf8PathBuf>,
-    /// A built-in name or a file
+    /// Post-processor: a built-in name or a file
     #[arg(long, value_name = "POST", required = true, add = completion::posts())]
     pub post: Option<String>,
-    /// File to write; else standard output
+    /// File to write; without it standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
-    /// Height of the material's upper face, where the post asks for it; of pathbuild's own programs it is known
+    /// Height of the material's upper face, for posts that need it; pathbuild's own programs say it themselves
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// Dialect in which the post's output is checked and read back, where the post names none
+    /// G-code dialect for checking the post's output, where the post names none
     #[arg(long, value_name = "DIALECT", add = completion::dialects())]
     pub target: Option<String>,
-    /// Date that the post may write
+    /// Date for posts that write one
     #[arg(long, value_name = "DATE")]
     pub date: Option<String>,
-    /// Run the command that the post names
+    /// After writing, run the command that the post names
     #[arg(long, requires = "output")]
     pub run_post_build: bool,
     /// How the program is read.

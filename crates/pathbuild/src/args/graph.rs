@@ -19,7 +19,7 @@ pub struct ListArgs {
     /// Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library
     #[arg(value_name = "GLOB|DRAWING|DIRECTORY", add = completion::paths())]
     pub inputs: Vec<String>,
-    /// Compare with programs that are written for this post-processor: a built-in name or a file
+    /// Compare with programs written for this post-processor: a built-in name or a file
     #[arg(long, value_name = "POST", add = completion::posts())]
     pub post: Option<String>,
 }

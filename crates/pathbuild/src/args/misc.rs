@@ -22,7 +22,7 @@ pub struct ViewArgs {
     /// Name of a path, drawing (.dxf), or G-code program
     #[arg(value_name = "PATH|DRAWING|FILE", add = completion::paths())]
     pub what: String,
-    /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); else the browser shows it
+    /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// How a program is read.
@@ -30,16 +30,30 @@ pub struct ViewArgs {
     pub reading: ReadingArgs,
 }
 
+/// `pathbuild sheet`
+#[derive(Clone, Debug, Args)]
+pub struct SheetArgs {
+    /// Name of a path, or drawing (.dxf) with one path
+    #[arg(value_name = "PATH|DRAWING", add = completion::paths())]
+    pub what: String,
+    /// File to write: .pdf, .html or .svg; without it the browser shows the sheet
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// Write for this post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
+}
+
 /// `pathbuild diff`
 #[derive(Clone, Debug, Args)]
 pub struct DiffArgs {
-    /// What there was: a directory, a drawing, a Git revision, or a G-code program
+    /// Before the change: a directory, a drawing, a Git revision, or a G-code program
     #[arg(value_name = "OLD")]
     pub old: String,
-    /// What there is: the same, or for a program a path; else the working directory
+    /// After the change: the same, or for a program a path; without it the working directory
     #[arg(value_name = "NEW")]
     pub new: Option<String>,
-    /// File to write as well: .html (with pictures) or .md (for a pull request)
+    /// Also write a file: .html (with pictures) or .md (for a pull request)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// How programs are read.
@@ -53,10 +67,10 @@ pub struct QProjectArgs {
     /// Drawing that is to be embedded
     #[arg(value_name = "DRAWING")]
     pub drawing: Utf8PathBuf,
-    /// Name of the Q-project's path; else the drawing's first number with .0Q
+    /// Name of the Q-project's path; without it the drawing's first number with .0Q
     #[arg(long, value_name = "NAME")]
     pub path_name: Option<String>,
-    /// File to write; else `DRAWING_Q.dxf`
+    /// File to write; without it `DRAWING_Q.dxf`
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
 }
@@ -72,22 +86,22 @@ pub struct CacheArgs {
 /// What can be done with the cache.
 #[derive(Clone, Debug, Subcommand)]
 pub enum CacheCommand {
-    /// Print where it is
+    /// Print the directory of the kept results
     Dir,
-    /// Print how large it is
+    /// Print the size of the kept results
     Size,
-    /// Remove what no longer serves
+    /// Remove kept results that are no longer used
     Prune,
-    /// Remove all of it
+    /// Remove all kept results
     Clean,
-    /// Check that every result in it is whole
+    /// Check every kept result for damage
     Verify,
 }
 
 /// `pathbuild explain`
 #[derive(Clone, Debug, Default, Args)]
 pub struct ExplainArgs {
-    /// Code or name of a diagnostic: PB203, parameter-out-of-range
+    /// Code or name of a message: PB203, parameter-out-of-range
     #[arg(value_name = "CODE", add = completion::codes())]
     pub codes: Vec<String>,
 }
@@ -111,7 +125,7 @@ pub struct ConfigArgs {
 /// What can be shown of the configuration.
 #[derive(Clone, Debug, Subcommand)]
 pub enum ConfigCommand {
-    /// Print what holds
+    /// Print the values in force
     Show {
         /// Also say where each value comes from
         #[arg(long)]
@@ -127,7 +141,7 @@ pub enum ConfigCommand {
 /// `pathbuild completions`
 #[derive(Clone, Debug, Args)]
 pub struct CompletionsArgs {
-    /// For which shell
+    /// Shell to print the script for
     #[arg(value_name = "SHELL", value_parser = Shells::builtins().names().collect::<Vec<_>>())]
     pub shell: String,
 }
@@ -135,10 +149,10 @@ pub struct CompletionsArgs {
 /// `pathbuild compat`
 #[derive(Clone, Debug, Default, Args)]
 pub struct CompatArgs {
-    /// Print the command line that it comes to, and do nothing
+    /// Print the pathbuild command line instead of running it
     #[arg(long)]
     pub print: bool,
-    /// What `PathDxf2GCode` or `PathGCodeAdjustZ` would be given
+    /// Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them
     #[arg(value_name = "ARGUMENT", trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<String>,
 }

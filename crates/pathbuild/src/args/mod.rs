@@ -1,6 +1,7 @@
 //! Commands and options as they are written on the command line, and nothing more: no defaults that depend on the configuration,
 //! no checks that need a file. (book: reference/commands)
 
+mod address;
 mod check;
 mod common;
 mod deferred;
@@ -16,6 +17,7 @@ mod watch;
 use clap::{Parser, Subcommand};
 use pathbuild_workspace::Inputs;
 
+pub use address::{Address, Host};
 pub use check::CheckArgs;
 pub use common::CommonArgs;
 pub use deferred::Deferred;
@@ -26,13 +28,13 @@ pub use graph::{GraphArgs, ListArgs};
 pub use inputs::InputArgs;
 pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
-    InitArgs, QProjectArgs, TextsArgs, ViewArgs,
+    InitArgs, QProjectArgs, SheetArgs, TextsArgs, ViewArgs,
 };
-pub use watch::WatchArgs;
+pub use watch::{ServeArgs, WatchArgs};
 
 /// Compiles drawings of milling paths to G-code.
 #[derive(Debug, Parser)]
-#[command(name = "pathbuild", version, max_term_width = 110)]
+#[command(name = "pathbuild", bin_name = "pathbuild", version, max_term_width = 110)]
 #[command(
     after_help = "Exit status: 0 nothing wrong (warnings allowed), 1 errors found, 2 wrong usage or configuration."
 )]
@@ -45,38 +47,40 @@ pub struct Cli {
     pub common: CommonArgs,
 }
 
-/// The commands. What is hidden is not built yet and is refused.
+/// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Check every path of the given drawings, paths or directories; without arguments the library. Writes nothing
+    /// Check every path of the given drawings, paths or directories; without arguments the library. Writes no programs
     Check(Deferred<CheckArgs>),
     /// Write the files of one or more paths; without arguments those of `[emit] targets`
     Emit(Deferred<EmitArgs>),
     /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
     Adjust(Deferred<AdjustArgs>),
-    /// Keep checking as drawings change
+    /// Check again whenever a drawing changes
     Watch(Deferred<WatchArgs>),
     /// Show which element each parameter text belongs to
     Texts(Deferred<TextsArgs>),
     /// Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON
     View(Deferred<ViewArgs>),
-    /// Show what a change of drawings does to the moves: between directories, Git revisions, or a program and a path
+    /// Make a path's sheet for who stands at the machine: PDF, HTML or SVG, or in the browser
+    Sheet(Deferred<SheetArgs>),
+    /// Show how changed drawings change the moves: between directories, Git revisions, or a program and a path
     Diff(Deferred<DiffArgs>),
-    /// Read a G-code program and print what it is
+    /// Read a G-code program and print what it does: moves, depths, feeds, times
     Import(Deferred<ImportArgs>),
     /// Check a G-code program
     Verify(Deferred<VerifyArgs>),
     /// Write a G-code program for another machine
     Post(Deferred<PostArgs>),
-    /// Show what embeds what, with bindings
+    /// Show which path embeds which, with the values of variables
     Graph(Deferred<GraphArgs>),
-    /// Show what a path embeds
+    /// Show which paths a path embeds
     Deps(Deferred<GraphArgs>),
-    /// Show what embeds a path
+    /// Show which paths embed a path
     Rdeps(Deferred<GraphArgs>),
     /// List paths with drawing, M, T, O, size, length, minutes and state; without arguments those of the library
     List(Deferred<ListArgs>),
-    /// Show how many paths there are, of which material and cutter, in which state
+    /// Count the paths by material, cutter and state
     Stats(Deferred<ListArgs>),
     /// Show where a path is defined
     Where(Deferred<GraphArgs>),
@@ -84,9 +88,9 @@ pub enum Command {
     Why(Deferred<GraphArgs>),
     /// Write a Q-project: a drawing that embeds every path of another
     QProject(Deferred<QProjectArgs>),
-    /// Manage the results kept between runs
+    /// Manage the results that are kept between runs
     Cache(Deferred<CacheArgs>),
-    /// Print the page on a diagnostic code; without a code, list them
+    /// Explain the codes of messages; without a code list all of them
     Explain(Deferred<ExplainArgs>),
     /// Write a commented pathbuild.toml into the working directory
     Init(Deferred<InitArgs>),
@@ -96,7 +100,7 @@ pub enum Command {
     Completions(Deferred<CompletionsArgs>),
     /// Print the manual page
     Man,
-    /// Take the command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
+    /// Run a command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
     Compat(Deferred<CompatArgs>),
 }
 
@@ -109,6 +113,7 @@ impl Command {
             Self::Watch(args) => (*args.inputs).clone(),
             Self::Texts(args) => (*args.inputs).clone(),
             Self::View(args) => Inputs { inputs: vec![args.what.clone()] },
+            Self::Sheet(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Graph(args)
             | Self::Deps(args)
             | Self::Rdeps(args)
@@ -118,7 +123,7 @@ impl Command {
             Self::QProject(args) => Inputs::places([&args.drawing]),
             Self::Adjust(args) => Inputs::places(&args.files),
             Self::Import(args) => Inputs::places(&args.files),
-            Self::Verify(args) => Inputs::places(&args.files),
+            Self::Verify(args) => args.inputs(),
             Self::Post(args) => Inputs::places(&args.file),
             Self::Config(args) => match &args.command {
                 ConfigCommand::Show { inputs, .. } => (**inputs).clone(),
@@ -158,6 +163,7 @@ impl Command {
             Self::Watch(_) => "watch",
             Self::Texts(_) => "texts",
             Self::View(_) => "view",
+            Self::Sheet(_) => "sheet",
             Self::Diff(_) => "diff",
             Self::Import(_) => "import",
             Self::Verify(_) => "verify",

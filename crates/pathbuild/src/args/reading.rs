@@ -4,8 +4,11 @@ use std::ffi::OsString;
 
 use camino::Utf8Path;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, Command as Definition, Error, FromArgMatches, Parser, Subcommand};
+use clap::{
+    ArgMatches, Args, Command as Definition, CommandFactory, Error, FromArgMatches, Subcommand, ValueEnum,
+};
 
+use super::common::LangArg;
 use super::{Cli, Command, CommonArgs};
 
 impl Cli {
@@ -17,10 +20,28 @@ impl Cli {
         if let Some(read) = Self::read_command(arguments) {
             return Ok(read);
         }
-        Self::try_parse_from(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
-            Some(arguments) => Self::try_parse_from(arguments),
+        let matches = Self::matches(&Self::command(), arguments)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
+    }
+
+    /// The same by a definition in some language, as clap has it.
+    ///
+    /// # Errors
+    /// What is to be said instead, in that language.
+    pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
+        let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
+        read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
+            Some(arguments) => read(&arguments),
             None => Err(error),
         })
+    }
+
+    /// The language that a command line asks for, right or wrong as it may be otherwise.
+    pub fn lang(arguments: &[OsString]) -> Option<LangArg> {
+        let texts: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
+        let apart = texts.windows(2).filter(|pair| pair[0] == "--lang").map(|pair| pair[1]);
+        let joined = texts.iter().filter_map(|text| text.strip_prefix("--lang="));
+        apart.chain(joined).find_map(|name| LangArg::from_str(name, false).ok())
     }
 
     /// The same where the command comes first, as it nearly always does, and nothing else is to be said: without all other commands, each of which

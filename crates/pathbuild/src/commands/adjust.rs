@@ -1,9 +1,9 @@
 //! `pathbuild adjust`: measured heights put into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, Written};
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_db::system::{FileKind, Written, join};
 use pathbuild_diagnostic::messages::probes;
+use pathbuild_diagnostic::{Diagnostic, in_prose};
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
@@ -34,7 +34,10 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
         }
     }
     if args.log.is_some() && jobs.len() > 1 {
-        return context.usage("--log is of one probing run: name one program with it");
+        return context.usage(context.choose(
+            "--log is of one probing run: name one program with it",
+            "--log gehört zu einem Messlauf: dazu ein Programm nennen",
+        ));
     }
     for job in &jobs {
         if let Err(problems) = adjustment.run(job) {
@@ -73,18 +76,25 @@ impl Job {
     /// them than the drawing's (R, or the path of a drawing of several): then their headers tell.
     fn all(context: &Context, argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Vec<Self> {
         let job = Self::new(argument, out_dir);
-        let drawing = argument.file_name().filter(|name| without(name, ".dxf").is_some());
-        let Some(drawing) = drawing.filter(|_| context.system.kind(&job.clean) == FileKind::Missing) else {
+        let is_there = |job: &Self| context.system.kind(&job.clean) != FileKind::Missing;
+        let Some(drawing) = drawing_of(argument).filter(|_| !is_there(&job)) else {
             return vec![job];
         };
+        // A program that lies elsewhere than where this configuration writes.
+        let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN}")), out_dir);
+        if is_there(&beside) {
+            return vec![beside];
+        }
         let directory = job.clean.parent().unwrap_or(Utf8Path::new("")).to_owned();
         let Ok(listing) = context.system.list(&directory) else { return vec![job] };
         let programs = listing.files.iter().filter(|name| without(name, CLEAN).is_some());
         let mut named: Vec<&str> =
-            programs.filter(|name| is_of(context, &directory.join(name), drawing)).collect();
+            programs.filter(|name| is_of(context, &join(&directory, name), &drawing)).collect();
         named.sort_unstable();
-        let found =
-            |name: &&str| Self { drawing: job.drawing.clone(), ..Self::new(&directory.join(name), out_dir) };
+        let found = |name: &&str| Self {
+            drawing: job.drawing.clone(),
+            ..Self::new(&join(&directory, name), out_dir)
+        };
         let found: Vec<Self> = named.iter().map(found).collect();
         if found.is_empty() { vec![job] } else { found }
     }
@@ -100,11 +110,19 @@ impl Job {
         let is_drawing = without(name, ".dxf").is_some();
         Self {
             drawing: is_drawing.then(|| argument.to_owned()),
-            clean: from.join(format!("{stem}{CLEAN}")),
-            values: from.join(format!("{stem}{VALUES}")),
-            milling: written.join(format!("{stem}_Milling.gcode")),
+            clean: join(from, format!("{stem}{CLEAN}")),
+            values: join(from, format!("{stem}{VALUES}")),
+            milling: join(written, format!("{stem}_Milling.gcode")),
         }
     }
+}
+
+/// The drawing's name of an argument that is a drawing or its name; `None` where it is a file of a program.
+fn drawing_of(argument: &Utf8Path) -> Option<String> {
+    let name = argument.file_name()?;
+    let is_file = [CLEAN, VALUES].iter().any(|suffix| without(name, suffix).is_some());
+    let stem = without(name, ".dxf").unwrap_or(name);
+    (!is_file).then(|| format!("{stem}.dxf"))
 }
 
 /// Whether the header of a program names this drawing.
@@ -147,7 +165,7 @@ impl<'a> Adjustment<'a> {
             max_correction: self.max_correction,
         })?;
         let written = self.context.system.write(&job.milling, &adjusted.program);
-        let written = written.map_err(|reason| vec![cannot_write(&job.milling, &reason)])?;
+        let written = written.map_err(|reason| vec![cannot_write(&job.milling, reason)])?;
         self.say_written(&job.milling, written, &adjusted);
         self.warnings.extend(adjusted.warnings);
         Ok(())
@@ -222,11 +240,12 @@ impl<'a> Adjustment<'a> {
             _ => self.context.choose("heights corrected by", "Höhen korrigiert um"),
         };
         let to = self.context.choose("to", "bis");
-        let (lowest, highest) = adjusted.corrections;
+        let signed = |height: f64| in_prose(format!("{height:+.3}"), self.context.lang());
+        let [lowest, highest] = [adjusted.corrections.0, adjusted.corrections.1].map(signed);
         let count = adjusted.heights;
         self.context
             .printer
-            .status(format_args!("{file}: {state}, {count} {heights} {lowest:+.3} {to} {highest:+.3} mm"));
+            .status(format_args!("{file}: {state}, {count} {heights} {lowest} {to} {highest} mm"));
     }
 
     /// Errors stay what they are, whatever the configuration says: nothing is written of what has one.

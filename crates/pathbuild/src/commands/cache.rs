@@ -3,6 +3,7 @@
 use std::io;
 
 use pathbuild_cache::{Entry, Key, TreeStore, Unusable};
+use pathbuild_db::system::spelt;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 
@@ -16,17 +17,24 @@ use pathbuild_workspace::session::BUILD;
 /// Runs the command.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     if context.settings.directory().is_none() {
-        return context.usage("there is no pathbuild.toml here or above, and without one nothing is kept");
+        return context.usage(context.choose(
+            "there is no pathbuild.toml here or above, and without one nothing is kept",
+            "hier und darüber gibt es keine pathbuild.toml, und ohne sie wird nichts aufgehoben",
+        ));
     }
     let (Some(home), Some(place)) = (&context.cache, context.cache_place()) else {
-        return context.usage("nothing is kept: there is no cache directory, or --no-cache was given");
+        return context.usage(context.choose(
+            "nothing is kept: there is no cache directory, or --no-cache was given",
+            "es wird nichts aufgehoben: es gibt kein Verzeichnis dafür, oder --no-cache ist angegeben",
+        ));
     };
     let build = Key::new(BUILD, "");
+    let directory = spelt(place.directory().to_owned());
     match args.command {
         CacheCommand::Dir if context.format == Format::Json => {
-            context.row("cache", json!({ "directory": place.directory().to_string() }));
+            context.row("cache", json!({ "directory": directory.as_str() }));
         }
-        CacheCommand::Dir => context.printer.result_line(place.directory()),
+        CacheCommand::Dir => context.printer.result_line(directory),
         CacheCommand::Size => {
             let size: u64 = place.entries(&build).iter().map(|entry| entry.size).sum();
             if context.format == Format::Json {

@@ -9,16 +9,16 @@
 //! | `/m`, or a file `..._Clean.gcode` or `..._Z.txt` | `adjust --max-correction` |
 //! | `/h` `/?` | this table |
 //!
-//! Programs are those of the original tool: `--compatible`. A value may be glued to its option or follow it, and `-` stands for `/` as well. Options
-//! with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
+//! Programs are those of the original tool: `--compatible`. A value may be glued to its option, also with `=` or `:` between (but for regular
+//! expressions, which may begin so), or follow it. Case does not count, and `-` stands for `/` as well. Options with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
 
 use std::ffi::OsString;
 
 use camino::Utf8Path;
-use clap::CommandFactory;
+use pathbuild_diagnostic::Lang;
 
 use super::adjust;
-use crate::args::Cli;
+use crate::german;
 
 /// Options whose value is passed on.
 const VALUES: &[(char, &str)] = &[
@@ -43,7 +43,14 @@ pub(crate) enum Translated {
 }
 
 /// The help that is printed for `/h`.
-pub(crate) const HELP: &str = "\
+pub(crate) fn help(lang: Lang) -> &'static str {
+    match lang {
+        Lang::En => HELP,
+        Lang::De => HILFE,
+    }
+}
+
+const HELP: &str = "\
 pathbuild compat [/OPTION[VALUE]]... FILES
 
   /f /v /s /z        --feed, --rapid, --sweep-height, --probe-feed
@@ -53,14 +60,31 @@ pathbuild compat [/OPTION[VALUE]]... FILES
   /m                 adjust --max-correction
   --OPTION           an option of ours; `-` may stand for `/`
 
-`pathbuild compat --print ...` prints the command line that it comes to and does nothing.
+`pathbuild compat --print ...` prints the pathbuild command lines instead of running them.
+";
+
+const HILFE: &str = "\
+pathbuild compat [/OPTION[WERT]]... DATEIEN
+
+  /f /v /s /z        --feed, --rapid, --sweep-height, --probe-feed
+  /d /n /p /e /l     --search, --path-pattern, --file-pattern, --restrict, --lang
+  /c                 check statt emit
+  /x REGEX           texts --match REGEX, danach emit oder check; mit /m adjust --show REGEX
+  /m                 adjust --max-correction
+  --OPTION           eine Option von pathbuild; `-` darf statt `/` stehen
+
+`pathbuild compat --print ...` gibt die Befehlszeilen von pathbuild aus, statt sie auszuführen.
 ";
 
 /// Translates a command line.
 ///
 /// # Errors
 /// What is wrong with it.
-pub(crate) fn translate(arguments: &[String]) -> Result<Translated, String> {
+pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, String> {
+    let say = |en: &str, de: &str, argument: &str| {
+        let phrase = if lang == Lang::De { de } else { en };
+        phrase.replace("{}", argument)
+    };
     let mut read = Read::default();
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
@@ -74,17 +98,51 @@ pub(crate) fn translate(arguments: &[String]) -> Result<Translated, String> {
             Some(('h' | '?', _)) => return Ok(Translated::Help),
             Some(('c', "")) => read.check = true,
             Some((letter, glued)) => {
-                let value = if glued.is_empty() { rest.next().map(String::as_str) } else { Some(glued) };
-                let value = value.ok_or_else(|| format!("/{letter} needs a value"))?;
-                read.take(letter, value, argument)?;
+                let value = if glued.is_empty() {
+                    rest.next().map(String::as_str)
+                } else {
+                    Some(value(letter, glued))
+                };
+                let value = value
+                    .filter(|value| !value.is_empty())
+                    .ok_or_else(|| say("{} needs a value", "zu {} fehlt der Wert", argument))?;
+                if !read.take(letter, value) {
+                    return Err(say("unknown option {}", "unbekannte Option {}", argument));
+                }
             }
         }
     }
     // Without arguments ours would take the whole library.
     if read.files.is_empty() {
-        return Err("no file is named".to_owned());
+        return Err(say("no file is named", "es ist keine Datei genannt", ""));
+    }
+    if read.lacks_correction() {
+        return Err(say(
+            "{} is missing: the largest allowed difference between a measured and a drawn height in mm, as in /m0.5",
+            "{} fehlt: die größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe in mm, etwa /m0,5",
+            "/m",
+        ));
     }
     Ok(Translated::Commands(read.commands()))
+}
+
+/// The arguments of the shell where `compat` comes first: what follows with one hyphen is theirs, `-v` and `-h` too.
+pub(crate) fn guarded(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    let text = |at: usize| arguments.get(at).and_then(|argument| argument.to_str());
+    let Some(mut at) = (1..arguments.len()).find(|at| text(*at).is_none_or(|it| !it.starts_with('-'))) else {
+        return arguments;
+    };
+    if text(at) != Some("compat") {
+        return arguments;
+    }
+    at += 1;
+    while let Some(option) = text(at).filter(|it| it.starts_with("--") && it.len() > 2) {
+        at += if takes_value(option) { 2 } else { 1 };
+    }
+    if text(at).is_some_and(|it| it.starts_with('-') && !it.starts_with("--")) {
+        arguments.insert(at, "--".into());
+    }
+    arguments
 }
 
 /// The words as one line for a shell.
@@ -116,25 +174,40 @@ struct Read {
 }
 
 impl Read {
-    fn take(&mut self, letter: char, value: &str, argument: &str) -> Result<(), String> {
+    /// Whether there is such an option.
+    fn take(&mut self, letter: char, value: &str) -> bool {
         match letter {
             'x' => self.shown = Some(value.to_owned()),
             'm' => self.max_correction = Some(value.to_owned()),
             'd' => self.options.push(format!("--search={}", file_name(value))),
             _ => {
                 let known = VALUES.iter().find(|(known, _)| *known == letter);
-                let (_, name) = known.ok_or_else(|| format!("unknown option {argument}"))?;
-                self.options.push(format!("{name}={}", if letter == 'l' { language(value) } else { value }));
+                let Some((_, name)) = known else { return false };
+                self.options.push(format!(
+                    "{name}={}",
+                    if letter == 'l' { language(value) } else { value.to_owned() }
+                ));
             }
         }
-        Ok(())
+        true
     }
 
-    fn commands(&self) -> Vec<Vec<String>> {
+    /// Whether programs are adjusted: by an option, or by what the files are.
+    fn adjusts(&self) -> bool {
         let is_adjusted = |file: &String| {
             [adjust::CLEAN, adjust::VALUES].iter().any(|suffix| adjust::without(file, suffix).is_some())
         };
-        if self.max_correction.is_some() || self.files.iter().any(is_adjusted) {
+        self.max_correction.is_some() || self.files.iter().any(is_adjusted)
+    }
+
+    /// Whether nobody says how far heights may be off.
+    fn lacks_correction(&self) -> bool {
+        let is_ours = self.own.iter().any(|option| option.starts_with("--max-correction"));
+        self.adjusts() && self.max_correction.is_none() && !is_ours
+    }
+
+    fn commands(&self) -> Vec<Vec<String>> {
+        if self.adjusts() {
             let most = self.max_correction.iter().map(|value| format!("--max-correction={value}"));
             let shown = self.shown.iter().map(|value| format!("--show={value}"));
             return vec![self.command("adjust", most.chain(shown))];
@@ -159,13 +232,20 @@ fn takes_value(option: &str) -> bool {
         let named = command.get_arguments().find(|argument| argument.get_long() == Some(name));
         named.is_some_and(|argument| argument.get_action().takes_values())
     };
-    let command = Cli::command();
-    has(&command) || command.get_subcommands().any(|command| command.get_name() == "emit" && has(command))
+    let command = german::command(Lang::En);
+    let ours = ["emit", "check", "texts", "adjust"];
+    has(&command) || command.get_subcommands().any(|it| ours.contains(&it.get_name()) && has(it))
 }
 
 /// The language of a name such as `de-AT`.
-fn language(name: &str) -> &str {
-    name.split(['-', '_']).next().unwrap_or(name)
+fn language(name: &str) -> String {
+    name.split(['-', '_']).next().unwrap_or(name).to_ascii_lowercase()
+}
+
+/// The value that is glued to an option.
+fn value(letter: char, glued: &str) -> &str {
+    let is_pattern = matches!(letter, 'x' | 'n' | 'p' | 'e');
+    if is_pattern { glued } else { glued.strip_prefix(['=', ':']).unwrap_or(glued) }
 }
 
 /// The letter of an option and what is glued to it. A drawing whose name begins at the root, or with a hyphen, is none.

@@ -19,7 +19,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
         run_post_build: args.run_post_build,
     };
     match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
-        Ok(poster) => match refusal(args, poster.as_ref()) {
+        Ok(poster) => match refusal(context, args, poster.as_ref()) {
             Some(refusal) => context.usage(refusal),
             None => emit(context, args, poster.as_ref()),
         },
@@ -28,15 +28,17 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
 }
 
 /// Options that mean something only where programs are written through a post.
-fn refusal(args: &EmitArgs, poster: Option<&PostProcessor>) -> Option<&'static str> {
+fn refusal<'a>(context: &'a Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> Option<&'a str> {
     let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
     match poster {
-        None if args.join.is_some() => Some(
+        None if args.join.is_some() => Some(context.choose(
             "--join needs --post (or `post` in pathbuild.toml): the native program has one path and no tool changes",
-        ),
-        None if is_for_posts => Some(
+            "--join braucht --post (oder `post` in pathbuild.toml): das eigene Programm hat einen Pfad und keine Werkzeugwechsel",
+        )),
+        None if is_for_posts => Some(context.choose(
             "--date, --dialect and --run-post-build are for posts: give --post, or set `post` in pathbuild.toml",
-        ),
+            "--date, --dialect und --run-post-build sind für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
+        )),
         _ => None,
     }
 }
@@ -77,7 +79,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if matches!(task, Task::Compare { .. }) {
         is_current &= outdated.is_empty();
         for path in &outdated {
-            context.row_of_json(|| row(context, path, &State::Outdated, None));
+            context.row_of_json(|| row(context, path, &State::Outdated, None, false));
             show_state(context, path, &State::Outdated);
         }
     }
@@ -122,7 +124,7 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
         // The program comes first; what belongs to its probes has no length of its own.
-        context.row_of_json(|| row(context, path, state, (index == 0).then_some(delivered)));
+        context.row_of_json(|| row(context, path, state, Some(delivered), index == 0));
         match state {
             State::Written | State::Unchanged => {
                 let state = match state {
@@ -166,6 +168,7 @@ fn row(
     path: &Utf8Path,
     state: &State,
     delivered: Option<&Delivered>,
+    is_program: bool,
 ) -> (&'static str, Value) {
     let state = match state {
         State::Written => "written",
@@ -175,9 +178,10 @@ fn row(
         State::Missing => "missing",
         State::Printed(_) => "printed",
     };
-    let (length, minutes) = (delivered.map(|it| it.length), delivered.map(|it| it.minutes));
-    let file = context.file(path);
-    ("output", json!({ "file": file, "state": state, "length": length, "minutes": minutes }))
+    let program = delivered.filter(|_| is_program);
+    let (length, minutes) = (program.map(|it| it.length), program.map(|it| it.minutes));
+    let (file, path) = (context.file(path), delivered.map(|it| &*it.path));
+    ("output", json!({ "file": file, "path": path, "state": state, "length": length, "minutes": minutes }))
 }
 
 /// What a comparison says of a file: what is current needs no line.

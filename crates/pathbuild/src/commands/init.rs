@@ -1,6 +1,7 @@
 //! `pathbuild init`: a configuration with every key, commented; or a small library to learn on.
 
 use camino::Utf8PathBuf;
+use pathbuild_db::system::join;
 
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -31,7 +32,7 @@ pub fn run(context: &Context, example: bool) -> ExitStatus {
     let configuration = [(FILE_NAME, template.as_bytes())];
     let files = if example { EXAMPLE } else { &configuration };
     let placed: Vec<(Utf8PathBuf, &[u8])> =
-        files.iter().map(|(name, content)| (context.working_directory.join(name), *content)).collect();
+        files.iter().map(|(name, content)| (join(&context.working_directory, name), *content)).collect();
     match files::create(&placed) {
         Ok(()) => {
             for (name, _) in files {

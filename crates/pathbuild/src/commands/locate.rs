@@ -19,7 +19,7 @@ use pathbuild_workspace::session::{Session, Wanted};
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named("show");
+        return context.nothing_named();
     }
     let (found, problems) = session.settled(|session| {
         let wanted = session.wanted(&args.inputs);

@@ -2,21 +2,22 @@
 
 use std::io;
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
+use pathbuild_diagnostic::Lang;
 
-use crate::args::Cli;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::german;
 
 /// Prints the page: `pathbuild man | man -l -`.
 pub fn run(context: &Context) -> ExitStatus {
-    let mut command = Cli::command();
-    command.build();
     let mut page = Vec::new();
     // Writing into memory cannot fail.
-    _ = write(&command, &mut page);
-    context.printer.result_bytes(&page);
+    _ = write(&german::command(context.lang()), &mut page);
+    let page = String::from_utf8_lossy(&page).into_owned();
+    let page = if context.lang() == Lang::De { with_german_headings(page) } else { page };
+    context.printer.result_bytes(page.as_bytes());
     ExitStatus::Success
 }
 
@@ -29,6 +30,22 @@ fn write(command: &Command, page: &mut Vec<u8>) -> io::Result<()> {
     man.render_options_section(page)?;
     write_subcommands(command, "", page)?;
     man.render_extra_section(page)
+}
+
+/// The headings of a manual page.
+fn with_german_headings(page: String) -> String {
+    let headings = [
+        ("SYNOPSIS", "ÜBERSICHT"),
+        ("DESCRIPTION", "BESCHREIBUNG"),
+        ("OPTIONS", "OPTIONEN"),
+        ("ARGUMENTS", "ARGUMENTE"),
+        ("\"COMMON OPTIONS\"", "\"ALLGEMEINE OPTIONEN\""),
+        ("EXTRA", "AUSSERDEM"),
+    ];
+    headings.into_iter().fold(page, |page, (en, de)| {
+        page.replace(&format!(".SH {en}\n"), &format!(".SH {de}\n"))
+            .replace(&format!(".SS {en}\n"), &format!(".SS {de}\n"))
+    })
 }
 
 fn write_subcommands(command: &Command, prefix: &str, page: &mut Vec<u8>) -> io::Result<()> {

@@ -9,15 +9,18 @@ pub mod config;
 pub mod diff;
 pub mod emit;
 pub mod explain;
+mod git;
 pub mod graph;
 pub mod import;
 pub mod init;
 pub mod list;
 pub mod locate;
 pub mod man;
+mod picture_output;
 pub mod post;
 mod program;
 pub mod q_project;
+pub mod sheet;
 pub mod texts;
 pub mod verify;
 pub mod view;
@@ -44,14 +47,10 @@ fn output_row(context: &Context, file: &Utf8Path, written: Written) -> (&'static
 
 /// Runs a command.
 pub fn run(context: &Context, command: &Command) -> ExitStatus {
-    if let Some(refusal) = format_refusal(context.format, command) {
+    if let Some(refusal) = format_refusal(context, command) {
         return refuse(context, &refusal);
     }
     match command {
-        // A run that took no notice of it would give something else than was asked for.
-        Command::Check(args) if args.pictures.is_some() => {
-            refuse(context, "`check` --pictures is not built yet")
-        }
         Command::Check(args) => check::run(context, args),
         Command::Emit(args) => emit::run(context, args),
         Command::Adjust(args) => adjust::run(context, args),
@@ -70,6 +69,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),
         Command::View(args) => view::run(context, args),
+        Command::Sheet(args) => sheet::run(context, args),
         Command::Diff(args) => diff::run(context, args),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),
@@ -80,14 +80,25 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
 }
 
 /// Formats of graphs are for commands that print graphs.
-fn format_refusal(format: Format, command: &Command) -> Option<String> {
+fn format_refusal(context: &Context, command: &Command) -> Option<String> {
+    if context.format == Format::Html {
+        let refusal = context.choose(
+            "a page is a file: give --report html=FILE",
+            "eine Seite ist eine Datei: --report html=DATEI angeben",
+        );
+        return Some(refusal.to_owned());
+    }
     let prints_graph = matches!(command, Command::Graph(_) | Command::Deps(_) | Command::Rdeps(_));
-    let is_wrong = !format.shows_diagnostics() && !prints_graph;
+    let is_wrong = !context.format.shows_diagnostics() && !prints_graph;
     is_wrong.then(|| {
-        format!("`{}` has no such --format: dot and mermaid are for graph, deps and rdeps", command.name())
+        context.phrase(
+            "`{}` has no such --format: dot and mermaid are for graph, deps and rdeps",
+            "`{}` hat dieses --format nicht: dot und mermaid sind für graph, deps und rdeps",
+            command.name(),
+        )
     })
 }
 
 fn refuse(context: &Context, reason: &str) -> ExitStatus {
-    usage::wrong(reason, &context.printer)
+    usage::wrong(reason, context.lang(), &context.printer)
 }

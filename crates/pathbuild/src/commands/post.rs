@@ -27,7 +27,10 @@ pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
         (Some(PostCommand::List), _) => list(context),
         (Some(PostCommand::Show { name }), _) => show(context, name),
         (None, Some(file)) => rewrite(context, file, args),
-        (None, None) => context.usage("post needs a program, or `list` or `show NAME`"),
+        (None, None) => context.usage(context.choose(
+            "post needs a program, or `list` or `show NAME`",
+            "post braucht ein Programm, `list` oder `show NAME`",
+        )),
     }
 }
 
@@ -63,7 +66,12 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     };
     let poster = match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
         Ok(Some(poster)) => poster,
-        Ok(None) => return context.usage(NATIVE),
+        Ok(None) => {
+            return context.usage(context.choose(
+                "the native program is written from drawings only: `pathbuild emit`",
+                "das eigene Programm wird nur aus Zeichnungen geschrieben: `pathbuild emit`",
+            ));
+        }
         Err(problems) => return context.fail(problems),
     };
     let mut diagnostics = Vec::new();
@@ -76,8 +84,6 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
-
-const NATIVE: &str = "the native program is written from drawings only: `pathbuild emit`";
 
 /// Reads the program, writes it and says so. Warnings are added to `diagnostics`; with errors nothing is written.
 fn written(
@@ -108,7 +114,7 @@ fn written(
         context.printer.result_bytes(&output.text);
         return Ok(());
     };
-    let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, &reason)])?;
+    let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, reason)])?;
     let state = match written {
         Written::Changed => context.choose("written", "geschrieben"),
         Written::Unchanged => context.choose("unchanged", "unverändert"),

@@ -1,5 +1,7 @@
 //! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (book: program/reading)
 
+use std::fmt::Write;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
@@ -83,6 +85,20 @@ impl Program {
         for diagnostic in diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()) {
             self.place(std::slice::from_mut(diagnostic));
         }
+    }
+
+    /// The dialect, and why it was guessed.
+    pub(super) fn read_as(&self, context: &Context) -> String {
+        let mut text = self.dialect.to_string();
+        if let Some(evidence) = self.evidence {
+            let reason = context.choose(evidence.reason.en, evidence.reason.de);
+            _ = write!(text, " ({}: {reason}", context.choose("guessed", "vermutet"));
+            if let Some(line) = evidence.line {
+                _ = write!(text, ", {} {line}", context.choose("line", "Zeile"));
+            }
+            text.push(')');
+        }
+        text
     }
 
     /// How many lines it has.

@@ -1,10 +1,10 @@
 //! `pathbuild q-project`: writes a drawing that embeds every path of another. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Written;
+use pathbuild_db::system::{Written, spelt};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
-use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_path::{PathName, QProject};
 
 use super::output_row;
@@ -24,7 +24,10 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     };
     let output = session.normal(args.output.as_deref().unwrap_or(&beside(&args.drawing)));
     if output == *drawing.path(session.db()) {
-        return context.usage("the Q-project would be written over its own drawing");
+        return context.usage(context.choose(
+            "the Q-project would be written over its own drawing",
+            "das Q-Projekt würde seine eigene Zeichnung überschreiben",
+        ));
     }
     match session.settled(|session| drawn(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
@@ -38,7 +41,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
 
 /// `NAME_Q.dxf` beside `NAME.dxf`.
 fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
-    drawing.with_file_name(format!("{}_Q.dxf", drawing.file_stem().unwrap_or_default()))
+    spelt(drawing.with_file_name(format!("{}_Q.dxf", drawing.file_stem().unwrap_or_default())))
 }
 
 /// The name of the Q-project's path: the one that was given, or the drawing's first number with `.0Q`.
@@ -47,11 +50,22 @@ fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) ->
     let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
     if !pattern.matches(&name) {
         let pattern = pattern.as_str();
-        return Err(format!("{name:?} is no path name: give one that matches {pattern} with --path-name"));
+        return Err(match session.workspace().lang() {
+            Lang::En => {
+                format!("{name:?} is not a path name: give one that matches {pattern} with --path-name")
+            }
+            Lang::De => {
+                format!("{name:?} ist kein Pfadname: mit --path-name einen angeben, auf den {pattern} passt")
+            }
+        });
     }
     let name = PathName::new(&name);
     if path_names(session.db(), drawing).contains(&name) {
-        return Err(format!("{name} is a path of the drawing itself: give another name with --path-name"));
+        return Err(session.workspace().phrase(
+            "{} is a path of the drawing itself: give another name with --path-name",
+            "{} ist ein Pfad der Zeichnung selbst: mit --path-name einen anderen Namen angeben",
+            name.as_str(),
+        ));
     }
     Ok(name)
 }
@@ -136,7 +150,7 @@ fn write(
         Err(reason) => {
             let problem = Diagnostic::new(&files::CANNOT_WRITE)
                 .with("name", output.file_name().unwrap_or_default())
-                .with("reason", &*reason);
+                .with("reason", reason);
             return context.fail(vec![problem.in_file(output)]);
         }
     };

@@ -2,61 +2,128 @@
 
 use std::collections::HashSet;
 
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_db::SourceFile;
+use pathbuild_diagnostic::{Diagnostic, Lang, in_prose};
+use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::Delivered;
-use pathbuild_workspace::watch::{Beginning, Ended, Listener, Request, Update};
+use pathbuild_workspace::posting::PostProcessor;
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
 
 use super::emit::show_all;
 use crate::args::WatchArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::numbers::counted;
 use crate::report::Findings;
+use crate::serving::Server;
 
 /// Runs the command. No status: the configuration changed, and everything has to begin anew.
-pub fn run(context: &Context, args: &WatchArgs) -> Option<ExitStatus> {
-    let request = Request { inputs: &args.inputs, emits: args.emit, polls: args.poll };
-    match request.run(context, &Shown { context }) {
+pub(crate) fn run(context: &Context, args: &WatchArgs, server: Option<&Server>) -> Option<ExitStatus> {
+    let page = server.map(|server| server.page(context));
+    let halt = |problems: &[Diagnostic], reason: &str| {
+        if let Some(server) = server {
+            server.halt(problems, reason);
+        }
+    };
+    // What is shown without a library is what `list` lists.
+    let is_everything = page.is_some() && args.inputs.inputs.is_empty() && !context.has_library();
+    let here = Inputs { inputs: vec![".".to_owned()] };
+    let inputs = if is_everything { &here } else { &*args.inputs };
+    let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
+    match request.run(context, &Shown { context, page }) {
         Ended::ConfigurationChanged => None,
         Ended::Over => Some(ExitStatus::Success),
-        Ended::NothingNamed => Some(context.nothing_named("watch")),
-        Ended::NoTargets => Some(context.usage("nothing to emit: set `[emit] targets` in pathbuild.toml")),
-        Ended::BadPost(problems) => Some(context.fail(problems)),
+        Ended::NothingNamed => Some(context.nothing_named()),
+        Ended::NoTargets => {
+            let reason = context.choose(
+                "nothing to emit: set `[emit] targets` in pathbuild.toml",
+                "nichts zu schreiben: `[emit] targets` in pathbuild.toml setzen",
+            );
+            halt(&[], reason);
+            Some(context.usage(reason))
+        }
+        Ended::BadPost(problems) => {
+            halt(&problems, "");
+            Some(context.fail(problems))
+        }
         Ended::CannotWatch(reason) => {
             let advice = context.choose(
                 "--poll looks for changes from time to time",
                 "--poll sieht von Zeit zu Zeit nach Änderungen",
             );
-            Some(context.usage(&format!("cannot watch: {reason}; {advice}")))
+            halt(&[], &reason);
+            let cannot = context.choose("cannot watch", "kann nicht beobachten");
+            Some(context.usage(&format!("{cannot}: {reason}; {advice}")))
         }
     }
 }
 
-/// Prints at the beginning what a check prints, then a line for each file that changed.
+/// Prints at the beginning what a check prints, then a line for each file that changed. A page, where one is served, hears of all too.
 struct Shown<'a> {
     context: &'a Context,
+    page: Option<Box<dyn Listener + 'a>>,
+}
+
+impl Shown<'_> {
+    fn counted(&self, number: usize, en: [&str; 2], de: [&str; 2]) -> String {
+        let lang = self.context.lang();
+        counted(number, lang, if lang == Lang::De { de } else { en })
+    }
 }
 
 impl Listener for Shown<'_> {
-    fn begun(&self, Beginning { drawings, paths, diagnostics, time }: Beginning) {
+    fn bell(&self, bell: Bell) {
+        if let Some(page) = &self.page {
+            page.bell(bell.clone());
+        }
+    }
+
+    fn found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
+        if let Some(page) = &self.page {
+            page.found(session, drawings, problems);
+        }
+    }
+
+    fn checked(&self, session: &mut Session<'_>, drawings: &[SourceFile], poster: Option<&PostProcessor>) {
+        if let Some(page) = &self.page {
+            page.checked(session, drawings, poster);
+        }
+    }
+
+    fn rung(&self, session: &mut Session<'_>) {
+        if let Some(page) = &self.page {
+            page.rung(session);
+        }
+    }
+
+    fn begun(&self, beginning: &Beginning) {
+        if let Some(page) = &self.page {
+            page.begun(beginning);
+        }
+        let Beginning { drawings, paths, diagnostics, time } = beginning;
         let context = self.context;
-        let findings = context.findings(diagnostics);
+        let findings = context.findings(diagnostics.clone());
         context.show(&findings);
         let (errors, warnings) = (findings.errors(), findings.warnings());
         let milliseconds = time.as_secs_f64() * 1000.0;
-        context.printer.status(match context.lang() {
-            Lang::En => format!(
-                "watching {paths} paths in {drawings} drawings: {errors} errors, {warnings} warnings ({milliseconds:.0} ms)"
-            ),
-            Lang::De => format!(
-                "{paths} Pfade in {drawings} Zeichnungen werden beobachtet: {errors} Fehler, {warnings} Warnungen ({milliseconds:.0} ms)"
-            ),
-        });
+        let paths = self.counted(*paths, ["path", "paths"], ["Pfad", "Pfade"]);
+        let drawings = self.counted(*drawings, ["drawing", "drawings"], ["Zeichnung", "Zeichnungen"]);
+        let errors = self.counted(errors, ["error", "errors"], ["Fehler", "Fehler"]);
+        let warnings = self.counted(warnings, ["warning", "warnings"], ["Warnung", "Warnungen"]);
+        let begin = context.choose("watching", "beobachtet:");
+        context.printer.status(format_args!(
+            "{begin} {paths} in {drawings}: {errors}, {warnings} ({milliseconds:.0} ms)"
+        ));
     }
 
-    fn updated(&self, update: Update) {
+    fn updated(&self, update: &Update) {
+        if let Some(page) = &self.page {
+            page.updated(update);
+        }
         let context = self.context;
-        let judged = |found: Vec<Diagnostic>| context.findings(found).diagnostics;
-        let (before, now) = (judged(update.before), judged(update.now));
+        let judged = |found: &[Diagnostic]| context.findings(found.to_vec()).diagnostics;
+        let (before, now) = (judged(&update.before), judged(&update.now));
         let known: HashSet<&Diagnostic> = before.iter().collect();
         let still: HashSet<&Diagnostic> = now.iter().collect();
         let gone = before.iter().filter(|found| !still.contains(found)).count();
@@ -69,13 +136,15 @@ impl Listener for Shown<'_> {
             0 => String::new(),
             open => format!(", {open} {}", phrase("to follow", "folgen")),
         };
-        let tail = format!(
-            "{count} {}{open}, {} {}, {gone} {} ({milliseconds:.1} ms)",
-            phrase("drawings checked", "Zeichnungen geprüft"),
-            new.len(),
-            phrase("new findings", "neue Meldungen"),
-            phrase("gone", "erledigt"),
+        let checked = self.counted(
+            count,
+            ["drawing checked", "drawings checked"],
+            ["Zeichnung geprüft", "Zeichnungen geprüft"],
         );
+        let new =
+            self.counted(new.len(), ["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]);
+        let time = in_prose(format!("{milliseconds:.1}"), context.lang());
+        let tail = format!("{checked}{open}, {new}, {gone} {} ({time} ms)", phrase("fixed", "behoben"));
         for path in &update.changed {
             let what = if update.removed.contains(path) {
                 phrase("removed", "entfernt")

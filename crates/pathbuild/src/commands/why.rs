@@ -19,11 +19,13 @@ use pathbuild_workspace::session::Session;
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named("explain");
+        return context.nothing_named();
     }
     let Some(result_store) = kept_results(context) else {
-        return context
-            .usage("why needs kept results: there are none without a pathbuild.toml, or with --no-cache");
+        return context.usage(context.choose(
+            "why needs kept results: there are none without a pathbuild.toml, or with --no-cache",
+            "why braucht aufgehobene Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
+        ));
     };
     let wanted = session.settled(|session| session.wanted(&args.inputs));
     let named = wanted.named.iter().copied().chain(wanted.paths.iter().map(|path| path.file));
@@ -61,8 +63,8 @@ impl Answer<'_> {
             Some([]) => (
                 &[][..],
                 context.choose(
-                    "what was found still holds: nothing that it was made from has changed",
-                    "das Ergebnis gilt noch: nichts, woraus es gemacht wurde, hat sich geändert",
+                    "up to date",
+                    "aktuell",
                 ),
             ),
             Some(reasons) => (reasons, context.choose("would be compiled again", "würde neu übersetzt")),

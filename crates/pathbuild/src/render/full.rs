@@ -1,5 +1,6 @@
 //! For a person: what is wrong and where, the faulty text underlined as a compiler shows source, help and notes, and what embeds it.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
@@ -25,8 +26,10 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     let mut text = String::new();
     for diagnostic in &findings.diagnostics {
         let page = Page::new(diagnostic, view);
+        let mut report = String::new();
         // Writing into a String cannot fail, and a label is cut to its text when it is made.
-        _ = handler.render_report(&mut text, &page);
+        _ = handler.render_report(&mut report, &page);
+        text.extend(report.split_inclusive('\n').map(|line| labelled(line, view)));
         for line in &page.further {
             text.push_str("  ");
             text.push_str(line);
@@ -36,6 +39,15 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     }
     text
 }
+
+/// A line of a report; before help stands miette's own word.
+fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
+    let is_help = line.strip_prefix(HELP_COLOR).unwrap_or(line).starts_with(HELP);
+    if is_help { line.replacen(HELP, view.choose(HELP, "  Tipp: "), 1).into() } else { line.into() }
+}
+
+const HELP: &str = "  help: ";
+const HELP_COLOR: &str = "\u{1b}[36m";
 
 /// A diagnostic in miette's terms. The first line says the code and the place, because most faults have no text to underline.
 #[derive(Debug)]

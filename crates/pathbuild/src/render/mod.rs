@@ -4,6 +4,7 @@ mod concise;
 mod full;
 mod github;
 mod gitlab;
+mod html;
 pub(crate) mod json;
 mod junit;
 mod place;
@@ -15,6 +16,7 @@ use pathbuild_diagnostic::shown;
 use crate::args::Format;
 use crate::report::Findings;
 
+pub(crate) use html::page;
 pub use view::View;
 
 /// Findings as text that may be printed: only [`render`] makes it, and nothing in it acts on who shows it but colours of ours.
@@ -28,7 +30,7 @@ impl Rendered {
     }
 }
 
-/// The findings in a format. A format of graphs shows no diagnostics and falls back on [`Format::Full`].
+/// The findings in a format. A format of graphs shows no diagnostics, a page needs pictures (the module `page`): they fall back on [`Format::Full`].
 pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
     let text = match format {
         Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
@@ -38,10 +40,10 @@ pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
         Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
         Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
         Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),
-        Format::Full | Format::Dot | Format::Mermaid if view.color => {
+        Format::Full | Format::Html | Format::Dot | Format::Mermaid if view.color => {
             shown::colored_lines(&full::render(findings, view)).into_owned()
         }
-        Format::Full | Format::Dot | Format::Mermaid => {
+        Format::Full | Format::Html | Format::Dot | Format::Mermaid => {
             shown::lines(&full::render(findings, view)).into_owned()
         }
     };

@@ -65,7 +65,7 @@ fn description(page: &str) -> String {
 fn invocation(left_out: usize, view: &View) -> Json {
     let mut invocation = json!({ "executionSuccessful": true });
     if left_out > 0 {
-        let text = view.choose("{n} further results are left out", "{n} weitere Ergebnisse sind weggelassen");
+        let text = view.choose("further results left out: {n}", "weitere Ergebnisse, weggelassen: {n}");
         let text = text.replace("{n}", &left_out.to_string());
         invocation["toolExecutionNotifications"] =
             json!([{ "level": "warning", "message": { "text": text } }]);

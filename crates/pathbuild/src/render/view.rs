@@ -30,14 +30,13 @@ impl View {
 
     /// The same as it is, for formats that have an escape of their own for every character.
     pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
-        let name = match &self.root {
+        match &self.root {
             None => Cow::Borrowed(file.strip_prefix(&self.base).unwrap_or(file).as_str()),
             Some(root) => {
                 let whole = clean(&self.base.join(file));
                 Cow::Owned(whole.strip_prefix(root).unwrap_or(&whole).as_str().to_owned())
             }
-        };
-        if cfg!(windows) { name.replace('\\', "/").into() } else { name }
+        }
     }
 
     /// The name of a diagnostic's file, as it is shown.

@@ -36,7 +36,7 @@ impl Baseline {
     /// What is wrong with it.
     pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
-            vec![Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", &*reason)]
+            vec![Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason)]
         })?;
         Self::parse(file, &text)
     }

@@ -6,11 +6,11 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 
 use super::baseline::Compared;
-use super::{Baseline, Findings, summary};
+use super::{Baseline, Findings, summary, write_pictures};
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::numbers::count;
+use crate::numbers::{count, counted};
 use crate::render::View;
 use crate::table::table;
 use pathbuild_workspace::check::Checked;
@@ -41,6 +41,8 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Dur
 
 fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Duration) -> ExitStatus {
     let findings = &compared.new;
+    let pictures = args.pictures.as_ref();
+    let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
     show(context, args.max_errors, findings);
     if compared.gone > 0 {
         let (en, de) = (
@@ -57,6 +59,9 @@ fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Durat
     context.output.figure("drawings", findings.checked.len());
     context.output.figure("known", compared.known);
     context.printer.status(summary(findings, compared.known, time, context.lang()));
+    if !failed.is_empty() {
+        return context.fail(failed);
+    }
     let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
@@ -78,9 +83,12 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     let left = findings.diagnostics.len() - shown.len();
     context.show_some(findings, &Findings { diagnostics: shown, checked: Vec::new() });
     if left > 0 {
-        let phrase =
-            context.choose("findings not shown (--max-errors)", "Meldungen nicht gezeigt (--max-errors)");
-        context.printer.status(format_args!("{} {phrase}", count(left, context.lang())));
+        let findings = match context.lang() {
+            Lang::En => ["finding", "findings"],
+            Lang::De => ["Meldung", "Meldungen"],
+        };
+        let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
+        context.printer.status(format_args!("{} {phrase}", counted(left, context.lang(), findings)));
     }
 }
 
@@ -107,11 +115,12 @@ fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus
     let text = Baseline::text(findings, &plain_view(context, Lang::En));
     match files::replace(context, file, &text) {
         Ok(()) => {
-            let (name, count) = (file.file_name().unwrap_or_default(), findings.diagnostics.len());
-            context.printer.status(format_args!(
-                "{name}: {count} {}",
-                context.choose("known findings", "bekannte Meldungen")
-            ));
+            let findings = findings.diagnostics.len();
+            let known = match context.lang() {
+                Lang::En => counted(findings, Lang::En, ["known finding", "known findings"]),
+                Lang::De => counted(findings, Lang::De, ["bekannte Meldung", "bekannte Meldungen"]),
+            };
+            context.printer.status(format_args!("{}: {known}", file.file_name().unwrap_or_default()));
             ExitStatus::Success
         }
         Err(fault) => context.fail(vec![*fault]),

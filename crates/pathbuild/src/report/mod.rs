@@ -1,17 +1,16 @@
-//! What a run found, made ready to be shown: severities applied, each finding once, in an order that does not depend on threads.
+//! Findings at the end of a run: the baseline, what is shown of them, the summary.
 //! (book: reference/commands, book: reference/diagnostics)
 
 mod baseline;
 mod conclude;
-mod findings;
 mod fingerprint;
-mod judge;
+mod pictures;
 mod summary;
 
 pub use baseline::Baseline;
 pub use conclude::conclude;
-pub use findings::Findings;
 pub use fingerprint::Fingerprint;
-pub use judge::judge;
 pub use pathbuild_workspace::check::CheckedFile;
+pub use pathbuild_workspace::findings::{Findings, judge};
+pub(crate) use pictures::{pictures, write as write_pictures};
 pub use summary::summary;

@@ -1,12 +1,12 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, in_prose};
 
 use super::Findings;
 use crate::numbers;
 
-/// The line that a check ends with: `2,014 paths in 812 drawings: 3 errors in 2 of them, 14 warnings (0.4 s)`. The second number of
+/// The line that a check ends with: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. The second number of
 /// errors is that of drawings with errors; `known` is how many findings a baseline held back.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
     let words = match lang {
@@ -18,11 +18,9 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     let errors = match findings.errors() {
         0 => words.no_errors.to_owned(),
         errors => format!(
-            "{} {} {} {}",
+            "{} in {}",
             words.count(errors, words.errors),
-            words.within,
-            numbers::count(erroneous(findings), lang),
-            words.of_them
+            words.count(erroneous(findings), words.drawings)
         ),
     };
     let warnings = match findings.warnings() {
@@ -31,11 +29,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     };
     let known =
         if known == 0 { String::new() } else { format!(", {} {}", numbers::count(known, lang), words.known) };
-    let seconds = format!("{:.1}", time.as_secs_f64());
-    let seconds = match lang {
-        Lang::En => seconds,
-        Lang::De => seconds.replace('.', ","),
-    };
+    let seconds = in_prose(format!("{:.1}", time.as_secs_f64()), lang);
     let [paths, drawings] = [words.count(paths, words.paths), words.count(drawings, words.drawings)];
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
@@ -53,8 +47,6 @@ struct Words {
     warnings: [&'static str; 2],
     no_errors: &'static str,
     no_warnings: &'static str,
-    within: &'static str,
-    of_them: &'static str,
     known: &'static str,
     lang: Lang,
 }
@@ -66,8 +58,6 @@ const EN: Words = Words {
     warnings: ["warning", "warnings"],
     no_errors: "no errors",
     no_warnings: "no warnings",
-    within: "in",
-    of_them: "of them",
     known: "known",
     lang: Lang::En,
 };
@@ -79,14 +69,12 @@ const DE: Words = Words {
     warnings: ["Warnung", "Warnungen"],
     no_errors: "keine Fehler",
     no_warnings: "keine Warnungen",
-    within: "in",
-    of_them: "davon",
     known: "bekannt",
     lang: Lang::De,
 };
 
 impl Words {
-    fn count(&self, count: usize, [one, many]: [&str; 2]) -> String {
-        format!("{} {}", numbers::count(count, self.lang), if count == 1 { one } else { many })
+    fn count(&self, count: usize, noun: [&str; 2]) -> String {
+        numbers::counted(count, self.lang, noun)
     }
 }

@@ -3,6 +3,7 @@
 
 mod debris;
 mod directory;
+mod held;
 mod open;
 mod replace;
 mod whole;
@@ -10,16 +11,26 @@ mod whole;
 use std::fs;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::reason;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
 /// Paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OsSystem;
+
+impl OsSystem {
+    /// The same, to be handed on.
+    pub fn shared() -> Arc<dyn System> {
+        Arc::new(Self)
+    }
+}
 
 impl System for OsSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
@@ -107,11 +118,11 @@ impl System for OsSystem {
         path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned())
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Box<str>> {
-        replace::replace(path, bytes).map_err(|error| reason(&error))
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+        replace::replace(path, bytes)
     }
 
-    fn remove(&self, path: &Utf8Path) -> Result<(), Box<str>> {
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         match fs::remove_file(path) {
             Err(error) if error.kind() != ErrorKind::NotFound => Err(reason(&error)),
             _ => Ok(()),
@@ -132,11 +143,4 @@ impl From<io::Error> for ReadError {
             _ => Self::Other(reason(&error)),
         }
     }
-}
-
-/// The system's words without the number that follows them.
-fn reason(error: &io::Error) -> Box<str> {
-    let text = error.to_string();
-    let end = text.find(" (os error").unwrap_or(text.len());
-    text[..end].to_lowercase().into()
 }

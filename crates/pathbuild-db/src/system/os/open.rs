@@ -4,7 +4,11 @@ use std::fs::File;
 use std::io;
 
 use camino::Utf8Path;
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::NOT_REGULAR;
 
+#[cfg(not(unix))]
+use super::held;
 use crate::system::ReadError;
 
 /// Opens a file for reading. What is no regular file is opened at most for a moment, and never waited for.
@@ -13,9 +17,10 @@ use crate::system::ReadError;
 /// When there is none, or it cannot be opened.
 pub(super) fn open(path: &Utf8Path) -> Result<File, ReadError> {
     open_at_once(path).map_err(|error| {
-        // A socket cannot be opened at all: say what it is rather than what the system says.
+        // A socket, on Windows a directory too, cannot be opened at all: say what it is rather than what the system says.
         match path.as_std_path().metadata() {
-            Ok(data) if !data.is_file() && !data.is_dir() => not_regular(),
+            Ok(data) if data.is_dir() => ReadError::IsDirectory,
+            Ok(data) if !data.is_file() => not_regular(),
             _ => error.into(),
         }
     })
@@ -37,11 +42,8 @@ pub(super) fn regular_size(file: &File) -> Result<u64, ReadError> {
 }
 
 pub(super) fn not_regular() -> ReadError {
-    ReadError::Other(NOT_REGULAR.into())
+    ReadError::Other(Value::Word(&NOT_REGULAR))
 }
-
-/// What is said of pipes, sockets and devices.
-pub(super) const NOT_REGULAR: &str = "it is not a regular file";
 
 /// Without `NONBLOCK`, opening a pipe waits for whoever writes into it.
 #[cfg(unix)]
@@ -55,5 +57,5 @@ fn open_at_once(path: &Utf8Path) -> io::Result<File> {
 #[cfg(not(unix))]
 #[expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 fn open_at_once(path: &Utf8Path) -> io::Result<File> {
-    File::open(path)
+    held::waiting(|| File::open(path))
 }

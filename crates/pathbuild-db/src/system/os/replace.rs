@@ -9,32 +9,39 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Write};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
 
-use super::{debris, open, readable};
+use super::{debris, held, open, readable};
 use crate::system::Written;
 
 /// Gives a file these bytes, if it has others.
 ///
 /// # Errors
 /// When it cannot be written, or is a pipe, socket or device; nothing is left under the name that was not there before.
-pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
-    let parent = path.parent().unwrap_or(Utf8Path::new(""));
-    debris::remove(readable(parent));
+pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    debris::remove(readable(parent(path)));
     match path.as_std_path().metadata() {
-        Ok(data) if data.is_dir() => {
-            return Err(io::Error::new(ErrorKind::IsADirectory, "a directory has that name"));
-        }
-        Ok(data) if !data.is_file() => return Err(io::Error::other(open::NOT_REGULAR)),
-        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => return Ok(Written::Unchanged),
-        _ => {}
+        Ok(data) if data.is_dir() => Err(Value::Word(&DIRECTORY_OF_THAT_NAME)),
+        Ok(data) if !data.is_file() => Err(Value::Word(&NOT_REGULAR)),
+        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => Ok(Written::Unchanged),
+        _ => write_anew(path, bytes).map_err(|error| reason(&error)),
     }
+}
+
+fn parent(path: &Utf8Path) -> &Utf8Path {
+    path.parent().unwrap_or(Utf8Path::new(""))
+}
+
+fn write_anew(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
+    let parent = parent(path);
     if !parent.as_str().is_empty() {
         fs::create_dir_all(parent)?;
     }
     let (temporary, mut file) = temporary(path)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
     // The lock is held until the name is the file's own.
-    let renamed = written.and_then(|()| fs::rename(&temporary, path));
+    let renamed = written.and_then(|()| held::waiting(|| fs::rename(&temporary, path)));
     if renamed.is_err() {
         // Best effort: the error that is reported is the one that came first.
         _ = fs::remove_file(&temporary);

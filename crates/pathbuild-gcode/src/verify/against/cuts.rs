@@ -34,6 +34,8 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     clearance: f64,
     tolerance: Tolerance,
     difference: Option<Difference>,
+    /// How many of the expected moves the program has.
+    equal: usize,
     /// Lines may be cut into pieces: heights that probes correct are, piece by piece.
     may_split: bool,
 }
@@ -49,6 +51,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             clearance,
             tolerance: Tolerance { place: PLACE, feed: FEED, chord, ends: Ends::All },
             difference: None,
+            equal: 0,
             may_split: dialect == Dialect::Native,
         }
     }
@@ -65,8 +68,8 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// What differs first.
-    pub(super) fn finish(mut self) -> Option<Diagnostic> {
+    /// What differs first, and how many of the expected moves the program has before that.
+    pub(super) fn finish(mut self) -> (Option<Diagnostic>, usize) {
         if self.difference.is_none() {
             self.difference = self.rapids(None).err().map(|difference| *difference);
         }
@@ -78,7 +81,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 expected: Some(expected),
             })
         });
-        difference.map(|difference| difference.against_drawing())
+        (difference.map(|difference| difference.against_drawing()), self.equal)
     }
 
     /// Compares the rapid moves before this cut, or at the end, with those that are expected there.
@@ -110,7 +113,10 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         };
         match chain.check(&way) {
             Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
-            Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => Ok(()),
+            Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => {
+                self.equal += expected.len();
+                Ok(())
+            }
             Ok(()) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
         }
     }
@@ -170,6 +176,12 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 self.pass(&expected);
                 continue;
             }
+            // Pieces of one move are of its kind; only chords stand for a helix. An arc that goes on into a line is another one.
+            let is_helix = theirs.is_arc() && expected.from.z() != expected.to.z();
+            let is_chord = is_helix && self.tolerance.chord > 0.0 && !ours.is_arc();
+            if ours.is_arc() != theirs.is_arc() && !is_chord {
+                return Err(differs(DifferenceKind::Place));
+            }
             check_pace(it, &expected, &self.tolerance).map_err(differs)?;
             check_centres(it, &expected).map_err(differs)?;
             let are_lines = !ours.is_arc() && !theirs.is_arc();
@@ -188,6 +200,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
 
     fn pass(&mut self, expected: &Move) {
         self.expected.next();
+        self.equal += 1;
         self.at = expected.to;
         self.done = 0.0;
     }

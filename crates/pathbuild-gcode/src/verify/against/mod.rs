@@ -42,6 +42,15 @@ pub struct ToolUse {
     pub speed: Option<f64>,
 }
 
+/// How far a program does what a drawing says.
+#[derive(Clone, Debug)]
+pub struct Agreement {
+    /// Every difference that was found, by line; of the moves the first one.
+    pub differences: Vec<Diagnostic>,
+    /// How many of the drawing's moves the program has, before the first that differs.
+    pub equal: usize,
+}
+
 /// Compares a program's steps with what the drawing says; give it every step, then [`finish`](Self::finish) it.
 #[derive(Debug)]
 pub struct Against<M: Iterator<Item = (u32, Move)>> {
@@ -68,12 +77,13 @@ impl<M: Iterator<Item = (u32, Move)>> Against<M> {
         }
     }
 
-    /// Every difference that was found, by line.
-    pub fn finish(mut self) -> Vec<Diagnostic> {
+    /// What came of it.
+    pub fn finish(mut self) -> Agreement {
         self.setup.finish(&mut self.problems);
-        let mut found = self.problems.into_diagnostics();
-        found.extend(self.cuts.finish());
-        found.sort_by_key(|diagnostic| diagnostic.place.line);
-        found
+        let mut differences = self.problems.into_diagnostics();
+        let (first, equal) = self.cuts.finish();
+        differences.extend(first);
+        differences.sort_by_key(|diagnostic| diagnostic.place.line);
+        Agreement { differences, equal }
     }
 }

@@ -1,7 +1,7 @@
 //! Everything that is no move: tool and its length, spindle, coordinate systems, corners, dwells.
 
-use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 
 use super::ToolUse;
 use crate::dialect::Dialect;
@@ -206,6 +206,14 @@ impl Setup {
 
     /// Where M6 puts tools in, the length that counts is that of the tool in the spindle. The native program and others count none.
     fn cutting_length(&mut self, line: u32, problems: &mut Problems) {
+        if self.length.is_none() && self.keeps_lengths() {
+            // Said once: from here on it is as if it stood there.
+            self.length = Some((ToolLength::Off, line));
+            problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
+                let d = d.with("words", "G49").with("taken", "G49");
+                Diagnostic { severity: Severity::Error, ..d }
+            });
+        }
         let fits = match self.length {
             None | Some((ToolLength::Off, _)) => !self.must_count(),
             Some((ToolLength::OfTool(entry), _)) => {
@@ -217,6 +225,11 @@ impl Setup {
             let at = self.length.map_or(line, |(_, line)| line);
             problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
         }
+    }
+
+    /// Controls on which the length of the program before still counts, unless a program says otherwise.
+    fn keeps_lengths(&self) -> bool {
+        matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl)
     }
 
     /// Controls whose tools have lengths in a table.

@@ -5,12 +5,15 @@ use std::fmt::Debug;
 use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::pattern::PATTERNS;
+use crate::config::kinds::text::choice;
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
-use crate::config::types::Pattern;
+use crate::config::types::{Pattern, SheetFormat};
 
 section! {
     /// globs of path names: what `emit` without arguments and `watch --emit` write
     targets: Vec<Pattern> = "targets", PATTERNS, Vec::new(), "[]", Neither;
+    /// none | pdf | html | svg: a sheet for who stands at the machine, written beside each program
+    sheet: SheetFormat = "sheet", choice::<SheetFormat>(), SheetFormat::No, r#""none""#, Emit;
 }

@@ -14,6 +14,8 @@ section! {
     below_plate: f64 = "below-plate", NOT_NEGATIVE, 0.5, "0.5", Check;
     /// how many times T an infeed I may be (PB211)
     infeed: f64 = "infeed", NOT_NEGATIVE, 1.0, "1", Check;
+    /// how many times T a mark may be deep (PB211)
+    mark_depth: f64 = "mark-depth", NOT_NEGATIVE, 0.5, "0.5", Check;
     /// mm: by how much a text must be nearer to its element than to another (PB116)
     text_margin: f64 = "text-margin", NOT_NEGATIVE, 0.1, "0.1", Check;
 }

@@ -15,7 +15,7 @@ use crate::report::conclude;
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
     if args.inputs.inputs.is_empty() && !context.has_library() {
-        return context.nothing_named("check");
+        return context.nothing_named();
     }
     let since = |revision: &String| git::changed_since(context, revision);
     let changed = match args.changed_since.as_ref().map(since).transpose() {
@@ -30,9 +30,10 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let checked = match request.run(&mut session) {
         Ok(checked) => checked,
         Err(NotDirectories) => {
-            return context.usage(
-                "--changed-since looks at directories or the library, not at single drawings or paths",
-            );
+            return context.usage(context.choose(
+                "--changed-since is for directories or the library, not for single drawings or paths",
+                "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",
+            ));
         }
     };
     let status = conclude(context, args, checked, begun.elapsed());

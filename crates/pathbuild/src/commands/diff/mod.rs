@@ -21,7 +21,7 @@ use side::{Drawings, Failure, Side};
 
 /// Runs the command. Changes are no errors; paths that can no longer be compared are.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
-    let output = match Output::of(args.output.as_deref()) {
+    let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
@@ -29,7 +29,12 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let compared = match side::sides(context, args) {
         Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
         Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
-        Ok(_) => return context.usage("a program is compared with a path or another program"),
+        Ok(_) => {
+            return context.usage(context.choose(
+                "a program is compared with a path or another program",
+                "ein Programm wird mit einem Pfad oder einem anderen Programm verglichen",
+            ));
+        }
         Err(failure) => Err(failure),
     };
     let comparison = match compared {

@@ -23,13 +23,17 @@ impl Output {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn of(file: Option<&Utf8Path>) -> Result<Self, String> {
+    pub(super) fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
         let Some(file) = file else { return Ok(Self(None)) };
         let format = match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
             "html" => Format::Html,
             "md" => Format::Markdown,
             _ => {
-                return Err(format!("-o {}: the name must end in .html or .md", shown::line(file.as_str())));
+                return Err(context.phrase(
+                    "-o {}: the name must end in .html or .md",
+                    "-o {}: der Name muss auf .html oder .md enden",
+                    &shown::line(file.as_str()),
+                ));
             }
         };
         Ok(Self(Some((format, file.to_owned()))))
@@ -50,7 +54,7 @@ impl Output {
             Format::Html => page::page(comparison, context.lang()),
             Format::Markdown => markdown::markdown(comparison, context.lang()),
         };
-        let refused = |reason: Box<str>| Box::new(cannot_write(file, &reason));
+        let refused = |reason| Box::new(cannot_write(file, reason));
         let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
             Written::Changed => context.choose("written", "geschrieben"),
             Written::Unchanged => context.choose("unchanged", "unverändert"),

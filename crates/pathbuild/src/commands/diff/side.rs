@@ -126,7 +126,13 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
     Session::new(context).settled(|session| {
         let wanted = session.wanted(&inputs);
         let [path] = wanted.paths.as_slice() else {
-            let reason = || format!("{name:?} is neither a directory nor a program nor one path");
+            let reason = || {
+                context.phrase(
+                    "{} is neither a directory nor a program nor one path",
+                    "{} ist weder ein Verzeichnis noch ein Programm noch ein einzelner Pfad",
+                    &format!("{name:?}"),
+                )
+            };
             let problems = wanted.problems;
             return Err(if problems.is_empty() {
                 Failure::Usage(reason())

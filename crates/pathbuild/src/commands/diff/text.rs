@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
+use crate::numbers::counted;
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Lang, Number, shown};
-use pathbuild_view::{Group, Totals, phrase};
+use pathbuild_view::{Group, Totals, moves, phrase};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, ProgramDiff};
 
 /// The whole comparison: what became of each path, and how many of how many it concerns.
@@ -66,24 +67,18 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
 }
 
 fn line(group: &Group, lang: Lang) -> String {
-    let moves = match (group.moves, lang) {
-        (1, Lang::En) => "move",
-        (_, Lang::En) => "moves",
-        (1, Lang::De) => "Bewegung",
-        (_, Lang::De) => "Bewegungen",
-    };
     let first = either(lang, "the first to", "die erste nach");
     let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
-    format!("{}: {} {moves}, {} mm{at}", phrase(group, lang), group.moves, Number(tenths(group.length)))
+    format!("{}: {}, {} mm{at}", phrase(group, lang), moves(group, lang), tenths(group.length).prose(lang))
 }
 
 fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
-    let length = |totals: &Totals| Number(tenths(totals.milling + totals.drilling));
+    let length = |totals: &Totals| tenths(totals.milling + totals.drilling).prose(lang);
     let minutes = match (old.minutes, new.minutes) {
         (Some(old), Some(new)) if (old - new).abs() > f64::EPSILON => {
-            format!(", {} → {} min", Number(old), Number(new))
+            format!(", {} → {} min", Number(old).prose(lang), Number(new).prose(lang))
         }
-        (_, Some(new)) => format!(", {} min", Number(new)),
+        (_, Some(new)) => format!(", {} min", Number(new).prose(lang)),
         _ => String::new(),
     };
     format!("{}: {} → {} mm{minutes}", either(lang, "cutting", "Fräsweg"), length(old), length(new))
@@ -94,8 +89,12 @@ pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
     let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
     let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
     let mut parts = vec![match lang {
-        Lang::En => format!("{changed} of {} paths changed", comparison.looked_at),
-        Lang::De => format!("{changed} von {} Pfaden geändert", comparison.looked_at),
+        Lang::En => {
+            format!("{changed} of {} changed", counted(comparison.looked_at, lang, ["path", "paths"]))
+        }
+        Lang::De => {
+            format!("{changed} von {} geändert", counted(comparison.looked_at, lang, ["Pfad", "Pfaden"]))
+        }
     }];
     let mut add = |number: usize, en: &str, de: &str| {
         if number > 0 {
@@ -126,6 +125,6 @@ pub(super) fn either<'a>(lang: Lang, en: &'a str, de: &'a str) -> &'a str {
     }
 }
 
-fn tenths(value: f64) -> f64 {
-    (value * 10.0).round() / 10.0
+fn tenths(value: f64) -> Number {
+    Number((value * 10.0).round() / 10.0)
 }

@@ -22,7 +22,7 @@ use pathbuild_workspace::session::{Direction, Graph, Session, Wanted};
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named("show");
+        return context.nothing_named();
     }
     let (asked, graph) = session.settled(|session| {
         let asked = GraphArguments::new(session, session.wanted(&args.inputs));
@@ -37,7 +37,7 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named("show");
+        return context.nothing_named();
     }
     let (asked, graph) = session.settled(|session| {
         let asked = GraphArguments::new(session, session.wanted(&args.inputs));
@@ -52,7 +52,9 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
 /// below.
 pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() {
-        return context.usage("rdeps needs to know of what: name drawings or paths");
+        return context.usage(
+            context.choose("name drawings or paths for rdeps", "für rdeps Zeichnungen oder Pfade nennen"),
+        );
     }
     let mut session = Session::new(context);
     let (asked, whole) = session.settled(|session| {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Number, shown};
+use pathbuild_diagnostic::{Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::summary::{Extent, Used};
 
@@ -28,23 +28,9 @@ impl Say<'_> {
 
     fn title(&self, facts: &Facts<'_>) -> String {
         let program = facts.program;
-        let lines = self.is("lines", "Zeilen");
-        let mut title = format!(
-            "{}: {} {lines}, {}",
-            shown::line(program.file.as_str()),
-            program.lines(),
-            program.dialect
-        );
-        if let Some(evidence) = program.evidence {
-            let reason = self.is(evidence.reason.en, evidence.reason.de);
-            _ = write!(title, " ({}: {reason}", self.is("guessed", "vermutet"));
-            if let Some(line) = evidence.line {
-                _ = write!(title, ", {} {line}", self.is("line", "Zeile"));
-            }
-            title.push(')');
-        }
-        title.push('\n');
-        title
+        let lines = program.lines();
+        let noun = if lines == 1 { self.is("line", "Zeile") } else { self.is("lines", "Zeilen") };
+        format!("{}: {lines} {noun}, {}\n", shown::line(program.file.as_str()), program.read_as(self.0))
     }
 
     fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {
@@ -93,7 +79,12 @@ impl Say<'_> {
         let cutting = total.cutting().length;
         let rapid = total.rapid.total.length;
         let [cuts, sweeps] = [self.is("cutting", "Fräsen"), self.is("rapid", "Eilgang")];
-        format!("{:.1} mm: {cutting:.1} mm {cuts}, {rapid:.1} mm {sweeps}", cutting + rapid)
+        let [whole, cutting, rapid] = [cutting + rapid, cutting, rapid].map(|length| self.tenths(length));
+        format!("{whole} mm: {cutting} mm {cuts}, {rapid} mm {sweeps}")
+    }
+
+    fn tenths(&self, number: f64) -> String {
+        in_prose(format!("{number:.1}"), self.0.lang())
     }
 
     /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis goes anywhere that is known.
@@ -113,8 +104,9 @@ impl Say<'_> {
             None => self.is("none named", "keins genannt").to_owned(),
         };
         let (moves, length) = (used.tally.moves(), used.tally.cutting().length);
-        let mut line = format!("{name}: {moves} {}", self.is("moves", "Bewegungen"));
-        _ = write!(line, ", {length:.1} mm {}", self.is("cutting", "Fräsen"));
+        let noun = if moves == 1 { self.is("move", "Bewegung") } else { self.is("moves", "Bewegungen") };
+        let mut line = format!("{name}: {moves} {noun}");
+        _ = write!(line, ", {} mm {}", self.tenths(length), self.is("cutting", "Fräsen"));
         if !used.feeds.is_empty() {
             _ = write!(line, ", F {}", numbers(&used.feeds));
         }
@@ -131,7 +123,7 @@ impl Say<'_> {
                 "{} {minutes:.0} min, {} {}",
                 self.is("about", "etwa"),
                 self.is("rapid at", "Eilgang mit"),
-                Number(rapid)
+                Number(rapid).prose(self.0.lang())
             ),
             None => format!(
                 "{} {minutes:.0} min {}",
@@ -157,7 +149,7 @@ impl Say<'_> {
         let summary = &facts.summary;
         let mut waits = Vec::new();
         if summary.dwell > 0.0 {
-            waits.push(format!("{:.1} s {}", summary.dwell, self.is("dwelling", "Verweilen")));
+            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.is("dwelling", "Verweilen")));
         }
         if summary.stops > 0 {
             waits.push(format!("{} {}", summary.stops, self.is("for a person", "auf einen Menschen")));

@@ -1,10 +1,9 @@
 //! `pathbuild list` and `stats`: the paths of a library, and what they add up to. (book: reference/commands)
 
-mod json;
 mod row;
 mod stats;
 
-use pathbuild_workspace::list::{Listed, Request};
+use pathbuild_workspace::list::{Listed, Request, Row, Stats, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
@@ -12,17 +11,17 @@ use crate::args::{Format, ListArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::table::table;
-use row::Row;
-use stats::Stats;
 
 /// Prints a line for each path.
 pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, _| match context.format {
-        Format::Json => rows.iter().for_each(|row| context.row("path", json::path(context, row))),
+        Format::Json => rows.iter().for_each(|row| {
+            context.row("path", path_json(&context.file(&row.path.drawing), row));
+        }),
         _ if rows.is_empty() => {}
         _ => {
-            let cells = rows.iter().map(|row| row.cells(context));
-            context.printer.result(table(&Row::columns(context), cells));
+            let cells = rows.iter().map(|row| row::cells(row, context));
+            context.printer.result(table(&row::columns(context), cells));
         }
     })
 }
@@ -32,8 +31,8 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, drawings| {
         let stats = Stats::of(rows, drawings);
         match context.format {
-            Format::Json => context.row("statistics", json::stats(&stats)),
-            _ => context.printer.result(stats.text(context)),
+            Format::Json => context.row("statistics", stats_json(&stats)),
+            _ => context.printer.result(stats::text(&stats, context)),
         }
     })
 }

@@ -26,18 +26,26 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     };
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named("show");
+        return context.nothing_named();
     }
     let (texts, problems) = session.settled(|session| texts(context, session, args, pattern.as_ref()));
-    for text in texts {
-        match context.format {
-            Format::Json => context.printer.result_json(text),
-            _ => context.printer.result(text),
+    for shown in texts {
+        match shown {
+            Shown::Row(kind, row) => context.row(kind, row),
+            Shown::Lines(lines) => context.printer.result(lines),
         }
     }
     let findings = context.findings(problems);
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// A text, or what holds for an element.
+enum Shown {
+    /// In JSON: a line's type and values.
+    Row(&'static str, Json),
+    /// For people.
+    Lines(String),
 }
 
 /// What is shown of each text, and what is wrong with drawings and arguments.
@@ -46,7 +54,7 @@ fn texts(
     session: &Session<'_>,
     args: &TextsArgs,
     pattern: Option<&Regex>,
-) -> (Vec<String>, Vec<Diagnostic>) {
+) -> (Vec<Shown>, Vec<Diagnostic>) {
     let wanted = session.wanted(&args.inputs);
     let whole = wanted.whole(session).into_iter().map(|file| (file, None));
     let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
@@ -64,8 +72,8 @@ fn texts(
         // Who looks for a text wants to see that.
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
-            Format::Json => object(name, text).to_string(),
-            _ => lines(context, name, text),
+            Format::Json => Shown::Row("text", object(&context.file(file.path(db)), text)),
+            _ => Shown::Lines(lines(context, name, text)),
         }));
         shown.extend(paths.flat_map(|path| table::shown(context, db, file, path)));
     }
@@ -86,7 +94,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
         context.choose("circle around", "Kreis um"),
         point(centre),
         context.choose("diameter", "Durchmesser"),
-        Number(2.0 * radius),
+        Number(2.0 * radius).prose(context.lang()),
     );
     for element in &text.elements {
         let AssignedElement { entity, line_type, position, shape } = element;
@@ -113,14 +121,18 @@ fn geometry(context: &Context, shape: &Shape) -> String {
         [context.choose("centre", "Mittelpunkt"), context.choose("diameter", "Durchmesser")];
     match shape {
         Shape::Circle { centre: at, radius } => {
-            format!("{centre} {}, {diameter} {}", point(*at), Number(2.0 * radius))
+            format!("{centre} {}, {diameter} {}", point(*at), Number(2.0 * radius).prose(context.lang()))
         }
         Shape::Curve(curve) => {
             let ends = format!("{from} {} {to} {}", point(curve.start()), point(curve.end()));
             match curve {
                 Curve::Line(_) => ends,
                 Curve::Arc(arc) => {
-                    format!("{ends}, {centre} {}, {diameter} {}", point(arc.centre), Number(2.0 * arc.radius))
+                    format!(
+                        "{ends}, {centre} {}, {diameter} {}",
+                        point(arc.centre),
+                        Number(2.0 * arc.radius).prose(context.lang())
+                    )
                 }
             }
         }

@@ -7,21 +7,24 @@ use pathbuild_diagnostic::{Point, shown};
 use pathbuild_path::{InForce, Parameter, PathName, Position, Provider};
 use serde_json::{Value as Json, json};
 
-use super::{handle, named};
+use super::{Shown, handle, named};
 use crate::args::Format;
 use crate::context::Context;
 
 /// What is shown of a path: a table, or as JSON one object for each element.
-pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<String> {
+pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<Shown> {
     let index = file_index(db, file).path(path);
     let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
     let positions = drawn.positions.positions();
     let elements = in_force(db, file, path, &index.examples, true);
     let placed = elements.iter().filter_map(|it| Some((it, *positions.get(it.origin.id.0 as usize)?)));
-    let file = file.path(db).as_str();
+    let file = file.path(db);
     match context.format {
-        Format::Json => placed.map(|(it, at)| object(file, path, it, at).to_string()).collect(),
-        _ => vec![table(context, file, path, placed)],
+        Format::Json => {
+            let name = context.file(file);
+            placed.map(|(it, at)| Shown::Row("element", object(&name, path, it, at))).collect()
+        }
+        _ => vec![Shown::Lines(table(context, file.as_str(), path, placed))],
     }
 }
 

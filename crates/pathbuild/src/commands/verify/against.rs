@@ -2,24 +2,31 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{MissingOption, Role, Target, check_file, path_names, placed_keep_outs, program};
-use pathbuild_diagnostic::Diagnostic;
+use camino::Utf8PathBuf;
+use pathbuild_db::{Role, Target, check_file, path_names, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::outputs;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Move, Turning};
 use pathbuild_gcode::verify::{self, Clamps, PastClamps, ToolUse};
 use pathbuild_path::{KeepOut, PathName};
 use pathbuild_post::Spindle;
 use pathbuild_toolpath::Program as Drawn;
+use serde_json::json;
 
+use crate::commands::program::Program;
 use crate::context::Context;
+use crate::numbers::count;
 use pathbuild_workspace::Inputs;
+use pathbuild_workspace::emit::missing_values;
 use pathbuild_workspace::posting::tool_table;
 use pathbuild_workspace::session::Session;
 
 /// The program of a path.
 pub(super) struct Against {
     drawn: Arc<Drawn>,
+    /// The drawing.
+    file: Utf8PathBuf,
     /// Those around it, where its drawings have some.
     clamps: Option<Clamps>,
 }
@@ -41,13 +48,15 @@ impl Against {
             return Err(Failure::Found(checked.diagnostics.clone()));
         }
         if !checked.missing_options.is_empty() {
-            return Err(Failure::Usage(missing(context, &checked.missing_options)));
+            let names = checked.missing_options.iter().map(|option| option.name());
+            return Err(Failure::Usage(missing_values(context, names)));
         }
         let drawn = program(session.db(), target).clone().ok_or_else(|| Failure::Found(Vec::new()))?;
         let placed = placed_keep_outs(session.db(), target).into_iter().map(|clamp| clamp.placed);
         let placed: Vec<KeepOut> = placed.collect();
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
-        Ok(Self { drawn, clamps })
+        let file = target.file(session.db()).path(session.db()).clone();
+        Ok(Self { drawn, file, clamps })
     }
 
     /// O in mm, if everything is milled with the same.
@@ -73,6 +82,38 @@ impl Against {
             spin_up: context.settings.machine.spin_up.value,
         };
         verify::Against::new(drawn, dialect)
+    }
+
+    /// Says what was compared, and how many moves are equal.
+    pub(super) fn say(&self, context: &Context, program: &Program, equal: usize) {
+        let (path, moves) = (&self.drawn.path, interpret::each_move_of(&self.drawn).count());
+        context.row_of_json(|| {
+            let row = json!({
+                "file": context.file(&program.file),
+                "path": &**path,
+                "drawing": context.file(&self.file),
+                "dialect": program.dialect.name(),
+                "moves": moves,
+                "equal": equal,
+            });
+            ("agreement", row)
+        });
+        let lang = context.lang();
+        let (drawing, dialect) = (&self.file, program.read_as(context));
+        let rest = context.choose("; what follows is not compared", "; was folgt, ist nicht verglichen");
+        let rest = if equal < moves { rest } else { "" };
+        let [equal, all] = [equal, moves].map(|number| count(number, lang));
+        let line = match lang {
+            Lang::En => {
+                format!("{equal} of {all} moves as in path {path} of {drawing}{rest}; read as {dialect}")
+            }
+            Lang::De => {
+                format!(
+                    "{equal} von {all} Bewegungen wie im Pfad {path} aus {drawing}{rest}; gelesen als {dialect}"
+                )
+            }
+        };
+        context.printer.status(format_args!("{}: {line}", program.file));
     }
 
     /// What holds a program of a dialect against the clamps around it, where there are some.
@@ -104,7 +145,11 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
         return Ok(session.target(path, Role::Emitted));
     }
     let [file] = wanted.named.as_slice() else {
-        return Err(Failure::Usage(format!("--against takes one path: `{name}` is a directory")));
+        return Err(Failure::Usage(session.workspace().phrase(
+            "--against takes one path: `{}` is a directory",
+            "--against braucht einen Pfad: `{}` ist ein Verzeichnis",
+            name,
+        )));
     };
     let file = *file;
     match path_names(db, file) {
@@ -121,12 +166,4 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
             Err(Failure::Found(found))
         }
     }
-}
-
-fn missing(context: &Context, options: &[MissingOption]) -> String {
-    let line = |option: &MissingOption| {
-        let name = option.name();
-        format!("{} --{name}, `{name}` in pathbuild.toml", context.choose("missing:", "es fehlt:"))
-    };
-    options.iter().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -5,7 +5,7 @@ mod stock;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
-use pathbuild_gcode::verify::{self, Checks, MachineRules, PastClamps, coarse_arcs, verify_with};
+use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
@@ -99,7 +99,11 @@ fn check(
     found.extend(coarse_arcs(&program.text, program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
     found.extend(stock::unknown_tools(context, &program, &tools));
-    found.extend(comparison.map(verify::Against::finish).unwrap_or_default());
+    if let Some((against, comparison)) = against.zip(comparison) {
+        let agreement = comparison.finish();
+        against.say(context, &program, agreement.equal);
+        found.extend(agreement.differences);
+    }
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if against.is_some() {

@@ -98,7 +98,7 @@ pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools)
 /// What is left out without it.
 pub(super) fn not_known(context: &Context) -> &'static str {
     context.choose(
-        "cutter or material are not known, so rapid moves into it are not looked for; --against PATH says both, --cutter and --surface one each",
-        "Fräser oder Material sind nicht bekannt, Eilgang ins Material wird nicht gesucht; --against PFAD sagt beides, --cutter und --surface je eins",
+        "not checked: rapid moves into material, because cutter or material is not known (give --against PATH, or --cutter and --surface)",
+        "nicht geprüft: Eilgang ins Material, weil Fräser oder Material nicht bekannt ist (--against PFAD angeben oder --cutter und --surface)",
     )
 }

@@ -12,7 +12,7 @@ use target::Failure;
 
 /// Runs the command. What has errors is shown with them.
 pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
-    let output = match Output::of(args.output.as_deref()) {
+    let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
@@ -21,9 +21,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
         Err(Failure::Usage(reason)) => return context.usage(&reason),
         Err(Failure::Found(problems)) => return context.fail(problems),
     };
-    let target::Seen { mut scene, file, diagnostics } = seen;
-    let findings = context.findings(diagnostics);
-    scene.findings = pathbuild_view::findings(&findings.diagnostics, &file);
+    let (scene, findings) = seen.what.judged(context, &seen.file);
     context.show(&findings);
     if let Err(problem) = output.deliver(context, &scene) {
         return context.fail(vec![*problem]);

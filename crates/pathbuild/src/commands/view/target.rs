@@ -14,12 +14,11 @@ use crate::args::ViewArgs;
 use crate::commands::program::Program;
 use crate::context::Context;
 
-/// A scene, and what is wrong with what it shows.
+/// What there is to see of an argument.
 pub(super) struct Seen {
-    pub(super) scene: Scene,
+    pub(super) what: session::Seen,
     /// The drawing or program that is shown.
     pub(super) file: String,
-    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 /// Why there is nothing to see.
@@ -45,7 +44,8 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Seen, 
     let source =
         GcodeSource { file: file.as_str(), steps: &program.read.steps, text: &program.text, tool: None };
     scene.paths.push(gcode_path(&source));
-    Ok(Seen { scene, file: file.to_string(), diagnostics: program.read.problems })
+    let what = session::Seen { scene, diagnostics: program.read.problems };
+    Ok(Seen { what, file: file.to_string() })
 }
 
 fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
@@ -60,14 +60,18 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
             ([], [], [file]) => (*file, path_names(db, *file).to_vec()),
             _ => {
                 let what = shown::line(what);
-                let reason = format!("view shows one path, drawing or program: `{what}` is a directory");
+                let reason = session.workspace().phrase(
+                    "view shows one path, drawing or program: `{}` is a directory",
+                    "view zeigt einen Pfad, eine Zeichnung oder ein Programm: `{}` ist ein Verzeichnis",
+                    &what,
+                );
                 return Err(Failure::Usage(reason));
             }
         };
-    let session::Seen { scene, mut diagnostics } = session.scene(file, &names);
-    if names.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
+    let mut what = session.scene(file, &names);
+    if names.is_empty() && !what.diagnostics.iter().any(Diagnostic::is_error) {
         let problem = Diagnostic::new(&outputs::NO_PATH).with("pattern", "path-pattern");
-        diagnostics.push(problem.in_file(file.path(db)));
+        what.diagnostics.push(problem.in_file(file.path(db)));
     }
-    Ok(Seen { scene, file: file.path(db).to_string(), diagnostics })
+    Ok(Seen { what, file: file.path(db).to_string() })
 }

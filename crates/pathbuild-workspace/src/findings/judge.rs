@@ -1,7 +1,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 
-use pathbuild_workspace::config::{Settings, clean};
+use crate::config::{Settings, clean};
 
 /// Gives diagnostics the severities that the configuration says, and drops those that it ignores. Names of files are relative to
 /// the working directory, those of the configuration to itself.

@@ -2,19 +2,19 @@
 
 use serde_json::{Value, json};
 
+use super::ProgramState;
 use super::row::{Row, State};
 use super::stats::{Stats, Total};
-use crate::context::Context;
-use pathbuild_workspace::list::ProgramState;
+use crate::findings::Findings;
 
-/// A path, as one object.
-pub(super) fn path(context: &Context, row: &Row) -> Value {
+/// A path, as one object. `file` is what its drawing is called.
+pub fn path_json(file: &str, row: &Row) -> Value {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
     let [x, y, z] = path.cutting_box.map(axis);
     json!({
         "path": path.name.as_str(),
-        "file": context.file(&path.drawing),
+        "file": file,
         "material": path.material,
         "thickness": path.thickness,
         "tool": path.tool,
@@ -33,8 +33,14 @@ pub(super) fn path(context: &Context, row: &Row) -> Value {
     })
 }
 
+/// A drawing that is wrong as a whole, as one object beside those of its paths; `None` where nothing of that is an error.
+pub fn drawing_json(found: &Findings) -> Option<Value> {
+    let (errors, warnings) = (found.errors(), found.warnings());
+    (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))
+}
+
 /// What paths add up to, as one object.
-pub(super) fn stats(stats: &Stats) -> Value {
+pub fn stats_json(stats: &Stats) -> Value {
     let states =
         stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));
     let materials = stats.materials.iter().map(|(name, total)| with(total, "material", json!(name)));

@@ -1,5 +1,9 @@
 //! The paths of a library, with what a workshop asks of each. (`list` and `stats`)
 
+mod json;
+mod row;
+mod stats;
+
 use std::collections::HashMap;
 
 use camino::Utf8PathBuf;
@@ -17,6 +21,10 @@ use crate::emit;
 use crate::inputs::Input;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, DrawingResult, Session};
+
+pub use json::{drawing_json, path_json, stats_json};
+pub use row::{Row, State};
+pub use stats::{Stats, Total};
 
 /// What is to be listed.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +69,24 @@ pub struct ListedPath {
     pub minutes: Option<f64>,
     /// What lies on disk.
     pub program: ProgramState,
+}
+
+impl ListedPath {
+    /// One of which nothing is known but what keeps it from being looked at.
+    pub fn unknown(name: PathName, drawing: Utf8PathBuf, problem: Diagnostic) -> Self {
+        Self {
+            diagnostics: vec![problem.in_file(&drawing).in_path(name.as_str())],
+            name,
+            drawing,
+            material: None,
+            thickness: None,
+            tool: None,
+            cutting_box: Extent::default(),
+            length: None,
+            minutes: None,
+            program: ProgramState::None,
+        }
+    }
 }
 
 /// What lies on disk of a path's program.
@@ -129,8 +155,7 @@ impl Request<'_> {
             paths.extend(names.map(|name| (*file, name.clone())));
         }
         listed.drawings = files.len();
-        listed.paths = session.in_batches(&paths, BATCH, |session, paths| known(session, paths));
-        self.compare(session, &paths, &mut listed.paths);
+        listed.paths = list_paths(session, &paths, self.poster);
         let unmet = asked
             .unmet(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).with("name", text));
@@ -138,26 +163,67 @@ impl Request<'_> {
         listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
         listed
     }
+}
 
-    /// Holds the programs on disk against the paths.
-    fn compare(
-        &self,
-        session: &mut Session<'_>,
-        paths: &[(SourceFile, PathName)],
-        listed: &mut [ListedPath],
-    ) {
-        let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
-        let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
-        let targets: Vec<Target> = targets.collect();
-        let states: HashMap<Target, bool> = emit::on_disk(session, self.poster, &targets);
-        for ((file, name), listed) in paths.iter().zip(listed) {
-            listed.program = match states.get(&session.target_in(*file, name, Role::Emitted)) {
-                None => ProgramState::None,
-                Some(true) => ProgramState::Current,
-                Some(false) => ProgramState::Stale,
-            };
-        }
+/// What there is to list of a path.
+pub fn of_path(
+    session: &mut Session<'_>,
+    file: SourceFile,
+    name: &PathName,
+    poster: Option<&PostProcessor>,
+) -> Vec<ListedPath> {
+    let path = [(file, name.clone())];
+    session.settled(|session| list_paths(session, &path, poster))
+}
+
+/// What there is to list of every path of some drawings.
+pub fn of_drawings(
+    session: &mut Session<'_>,
+    files: &[SourceFile],
+    poster: Option<&PostProcessor>,
+) -> Vec<ListedPath> {
+    session.settled(|session| {
+        let names = files.iter().map(|file| (*file, path_names(session.db(), *file)));
+        let paths = names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone())));
+        let paths: Vec<(SourceFile, PathName)> = paths.collect();
+        list_paths(session, &paths, poster)
+    })
+}
+
+fn list_paths(
+    session: &mut Session<'_>,
+    paths: &[(SourceFile, PathName)],
+    poster: Option<&PostProcessor>,
+) -> Vec<ListedPath> {
+    let mut listed = session.in_batches(paths, BATCH, known);
+    compare(session, poster, paths, &mut listed);
+    listed
+}
+
+/// Holds the programs on disk against the paths.
+fn compare(
+    session: &mut Session<'_>,
+    poster: Option<&PostProcessor>,
+    paths: &[(SourceFile, PathName)],
+    listed: &mut [ListedPath],
+) {
+    let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
+    let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
+    let targets: Vec<Target> = targets.collect();
+    let states: HashMap<Target, bool> = emit::on_disk(session, poster, &targets);
+    for ((file, name), listed) in paths.iter().zip(listed) {
+        listed.program = match states.get(&session.target_in(*file, name, Role::Emitted)) {
+            None => ProgramState::None,
+            Some(true) => ProgramState::Current,
+            Some(false) => ProgramState::Stale,
+        };
     }
+}
+
+fn not_a_pattern(session: &Session<'_>, name: &str, reason: &str) -> String {
+    let what =
+        session.workspace().phrase("`{}` is not a pattern of names", "`{}` ist kein Muster für Namen", name);
+    format!("{what}: {reason}")
 }
 
 /// What arguments come to.
@@ -172,7 +238,8 @@ impl Asked {
         for (input, text) in inputs.iter().zip(&inputs.inputs) {
             match input {
                 Input::Name(name) if !session.is_directory(name.into()) => {
-                    patterns.push(Pattern::new(name).map_err(|reason| format!("{name}: {reason}"))?);
+                    let wrong = |reason: String| not_a_pattern(session, name, &reason);
+                    patterns.push(Pattern::new(name).map_err(wrong)?);
                 }
                 Input::Name(name) => places.inputs.push(format!("./{name}")),
                 Input::Place(_) => places.inputs.push(text.clone()),

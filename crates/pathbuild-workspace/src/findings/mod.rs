@@ -1,5 +1,14 @@
+//! What a run found, made ready to be shown: severities applied, each finding once, in an order that does not depend on threads.
+//! (book: reference/diagnostics)
+
+mod judge;
+
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_workspace::check::CheckedFile;
+
+use crate::check::CheckedFile;
+use crate::workspace::Workspace;
+
+pub use judge::judge;
 
 /// Everything that a run found, and what it looked at.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +40,13 @@ impl Findings {
     /// The number of warnings.
     pub fn warnings(&self) -> usize {
         self.diagnostics.len() - self.errors()
+    }
+}
+
+impl Workspace {
+    /// Findings with the severities of the configuration, in order, each once.
+    pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
+        Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
     }
 }
 

@@ -1,0 +1,61 @@
+//! One spelling of paths on every platform: `/` between their parts. Windows takes it as it takes its own `\`, and what is shown, kept or
+//! written into a file is the same wherever the program runs.
+
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+
+/// A path with `/` between its parts. What begins with `\\?\` is left as it is: Windows takes `/` for a letter there.
+pub fn spelt(path: Utf8PathBuf) -> Utf8PathBuf {
+    if cfg!(windows) { with_slashes(path) } else { path }
+}
+
+/// A name in a directory, made at once in the memory that it needs, spelt as [`spelt`] does.
+pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
+    let name = name.as_ref();
+    let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.as_str().len());
+    path.push(directory);
+    path.push(name);
+    spelt(path)
+}
+
+/// The path without `.` and `..`, with `/` between its parts, else as it is written: links are not followed, so that a linked drawing belongs where it is seen.
+pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
+    let mut clean = Utf8PathBuf::new();
+    for component in path.components() {
+        match component {
+            Utf8Component::ParentDir if clean.file_name().is_some() => _ = clean.pop(),
+            // Nothing is above the root.
+            Utf8Component::ParentDir if clean.has_root() => {}
+            Utf8Component::CurDir => {}
+            other => clean.push(other),
+        }
+    }
+    spelt(clean)
+}
+
+fn with_slashes(path: Utf8PathBuf) -> Utf8PathBuf {
+    let text = path.as_str();
+    if text.starts_with(r"\\?\") || !text.contains('\\') { path } else { text.replace('\\', "/").into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drives_shares_and_relative_paths_have_slashes() {
+        for (path, expected) in [
+            (r"parts\a.dxf", "parts/a.dxf"),
+            (r"C:\parts/a.dxf", "C:/parts/a.dxf"),
+            (r"\\server\share\a.dxf", "//server/share/a.dxf"),
+            (r"\\?\C:\parts", r"\\?\C:\parts"),
+            ("parts/a.dxf", "parts/a.dxf"),
+        ] {
+            assert_eq!(with_slashes(path.into()), expected);
+        }
+    }
+
+    #[test]
+    fn where_a_backslash_is_a_letter_it_stays() {
+        assert_eq!(spelt(r"a\b".into()), if cfg!(windows) { "a/b" } else { r"a\b" });
+    }
+}

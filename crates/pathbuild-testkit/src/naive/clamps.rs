@@ -1,0 +1,228 @@
+//! Which moves come into clamps, told from what is drawn: passes of straight lines and rapid moves between them. Clamps are upright
+//! rectangles here, and none stands where the tool goes up or down. (book: language/keep-outs)
+
+use std::collections::BTreeMap;
+
+use pathbuild_path::{KeepOut, Path, Segment, SegmentKind, SubpathName, Xy};
+
+use super::{Finding, Instance, Model};
+
+/// Lengths in mm that differ by no more are the same.
+const LENGTH: f64 = 1e-6;
+
+/// X and Y in mm, or cosine and sine of an angle.
+type Pair = [f64; 2];
+
+/// A path where it stands in a program.
+struct Occurrence {
+    instance: Instance,
+    path: Path,
+    /// The occurrence that embeds it, and by which element.
+    parent: Option<(usize, Option<String>)>,
+    place: Place,
+}
+
+/// Where a drawing comes to lie.
+#[derive(Clone, Copy)]
+struct Place {
+    origin: Pair,
+    turn: Pair,
+    raised: f64,
+}
+
+/// A straight move at one height.
+struct Move {
+    occurrence: usize,
+    element: Option<String>,
+    what: &'static str,
+    ends: [Pair; 2],
+    z: f64,
+}
+
+/// A path and all that it embeds, unfolded.
+struct Unfolded<'m> {
+    model: &'m Model,
+    occurrences: Vec<Occurrence>,
+    moves: Vec<Move>,
+}
+
+impl Model {
+    /// The moves of a path without errors that come into clamps.
+    pub(super) fn entered_clamps(&self, root: &Instance) -> Vec<Finding> {
+        let mut unfolded = Unfolded { model: self, occurrences: Vec::new(), moves: Vec::new() };
+        let place = Place { origin: [0.0; 2], turn: [1.0, 0.0], raised: 0.0 };
+        unfolded.unfold(root.clone(), None, |_| place);
+        unfolded.findings()
+    }
+}
+
+impl Unfolded<'_> {
+    /// Adds a path, its moves, and what it embeds.
+    fn unfold(
+        &mut self,
+        instance: Instance,
+        parent: Option<(usize, Option<String>)>,
+        place: impl Fn(&Path) -> Place,
+    ) {
+        let Some(path) = self.model.bound(&instance).0 else { return };
+        let (number, place) = (self.occurrences.len(), place(&path));
+        self.occurrences.push(Occurrence { instance, path: path.clone(), parent, place });
+        for segment in &path.segments {
+            self.segment(number, &path, segment, place);
+        }
+    }
+
+    fn segment(&mut self, number: usize, path: &Path, segment: &Segment, place: Place) {
+        let instance = &self.occurrences[number].instance;
+        let drawing = &self.model.drawings[instance.0];
+        let element = drawing.handle(&path.name, path.origin(segment).id);
+        let ends = path.ends(segment).map(|end| place.of(pair(end)));
+        let mut go = |what, z: f64| {
+            let (element, z) = (element.clone(), z + place.raised);
+            self.moves.push(Move { occurrence: number, element, what, ends, z });
+        };
+        match &segment.kind {
+            SegmentKind::Cut(cut) => {
+                let cut = &path.cuts[*cut as usize];
+                let infeed = cut.chain.infeed.unwrap_or(f64::INFINITY);
+                let passes: Vec<f64> = passes(path.thickness, infeed, cut.bottom).collect();
+                for z in &passes {
+                    go("cut", *z);
+                }
+                if passes.len().is_multiple_of(2) {
+                    // To and fro: the last pass ended where the first began.
+                    go("rapid move", path.embedded_sweep_height());
+                }
+            }
+            SegmentKind::Sweep { height } => {
+                go("rapid move", height.unwrap_or(path.embedded_sweep_height()));
+            }
+            SegmentKind::Subpath(subpath) => {
+                let SubpathName::Found { name, .. } = &subpath.name else { return };
+                let Some(child) = self.model.child(instance, name, subpath) else { return };
+                let [start, end] = [subpath.start, subpath.end].map(|at| place.of(pair(at)));
+                let raised = place.raised + subpath.height;
+                let lies =
+                    |inner: &Path| Place::from_to([inner.start, inner.end].map(pair), [start, end], raised);
+                self.unfold(child, Some((number, element)), lies);
+            }
+            SegmentKind::Hole(_) | SegmentKind::Helix(_) => {}
+        }
+    }
+
+    /// One finding for each clamp, each element of the innermost path that holds both, and each kind of move.
+    fn findings(&self) -> Vec<Finding> {
+        let mut entries: BTreeMap<_, (u32, f64)> = BTreeMap::new();
+        for (number, occurrence) in self.occurrences.iter().enumerate() {
+            let drawing = &self.model.drawings[occurrence.instance.0];
+            for (clamp, drawn) in drawing.clamps.iter().enumerate() {
+                for it in self.moves.iter().filter(|it| self.is_in(it, occurrence, drawn)) {
+                    let (holder, element) = self.common(number, it);
+                    let entry = entries.entry((number, clamp, holder, element, it.what));
+                    let (moves, lowest) = entry.or_insert((0, f64::INFINITY));
+                    (*moves, *lowest) = (*moves + 1, lowest.min(it.z));
+                }
+            }
+        }
+        let finding = |(entry, (moves, lowest)): ((usize, usize, usize, _, _), (u32, f64))| {
+            let (number, clamp, holder, element, what) = entry;
+            let [around, holder] = [number, holder].map(|number: usize| &self.occurrences[number]);
+            let clamp = &self.model.drawings[around.instance.0].clamps[clamp];
+            let lowest = lowest - holder.place.raised;
+            Finding {
+                code: "PB407".to_owned(),
+                file: self.model.drawings[holder.instance.0].path.clone(),
+                path: Some(holder.path.name.to_string()),
+                handle: element,
+                words: vec![
+                    format!("the clamp of layer {} at ({}, {}),", clamp.layer, clamp.at.x, clamp.at.y),
+                    format!(": {what}, lowest Z {lowest}, moves: {moves}"),
+                ],
+            }
+        };
+        entries.into_iter().map(finding).collect()
+    }
+
+    /// Whether a move comes into a clamp of a drawing: it is lower than that, and nearer than the cutter's radius.
+    fn is_in(&self, it: &Move, around: &Occurrence, clamp: &KeepOut) -> bool {
+        let radius = self.occurrences[0].path.tool / 2.0;
+        it.z < clamp.height + around.place.raised - LENGTH
+            && distance(it.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
+    }
+
+    /// The innermost path that holds a clamp's drawing and a move, and the element in it that leads to the move.
+    fn common(&self, clamp: usize, it: &Move) -> (usize, Option<String>) {
+        let parent = |number: usize| self.occurrences[number].parent.as_ref();
+        let around_clamp: Vec<usize> =
+            std::iter::successors(Some(clamp), |number| parent(*number).map(|outer| outer.0)).collect();
+        let mut at = (it.occurrence, it.element.clone());
+        while let Some(outer) = parent(at.0).filter(|_| !around_clamp.contains(&at.0)) {
+            at = outer.clone();
+        }
+        at
+    }
+}
+
+impl Place {
+    /// Such that two points come to lie where the first two are, the second in its direction.
+    fn from_to(inner: [Pair; 2], outer: [Pair; 2], raised: f64) -> Self {
+        let turn = times(direction(outer), conjugate(direction(inner)));
+        Self { origin: minus(outer[0], times(turn, inner[0])), turn, raised }
+    }
+
+    fn of(&self, at: Pair) -> Pair {
+        let turned = times(self.turn, at);
+        [0, 1].map(|axis| self.origin[axis] + turned[axis])
+    }
+
+    fn back(&self, at: Pair) -> Pair {
+        times(conjugate(self.turn), minus(at, self.origin))
+    }
+}
+
+/// The heights of the passes from the upper face down.
+fn passes(surface: f64, infeed: f64, bottom: f64) -> impl Iterator<Item = f64> {
+    let next = move |z: &f64| (*z > bottom + LENGTH).then(|| (z - infeed).max(bottom));
+    std::iter::successors(Some(surface), next).skip(1)
+}
+
+/// Least and greatest X, and Y, of a rectangle.
+fn corners(clamp: &KeepOut) -> [Pair; 2] {
+    let points: Vec<Pair> = clamp.outline.iter().map(|curve| pair(curve.start())).collect();
+    [0, 1].map(|axis| {
+        let along = || points.iter().map(|point| point[axis]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+    })
+}
+
+/// Between a line and a rectangle, for lines that are upright or level.
+fn distance(ends: [Pair; 2], rectangle: &[Pair; 2]) -> f64 {
+    let gap = [0, 1].map(|axis| {
+        let (low, high) = (ends[0][axis].min(ends[1][axis]), ends[0][axis].max(ends[1][axis]));
+        (rectangle[axis][0] - high).max(low - rectangle[axis][1]).max(0.0)
+    });
+    (gap[0] * gap[0] + gap[1] * gap[1]).sqrt()
+}
+
+fn pair(at: Xy) -> Pair {
+    [at.x, at.y]
+}
+
+fn minus(a: Pair, b: Pair) -> Pair {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// The product of two complex numbers.
+fn times(a: Pair, b: Pair) -> Pair {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
+fn conjugate(a: Pair) -> Pair {
+    [a[0], -a[1]]
+}
+
+fn direction([from, to]: [Pair; 2]) -> Pair {
+    let along = minus(to, from);
+    let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
+    along.map(|part| part / length)
+}

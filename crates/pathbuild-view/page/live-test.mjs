@@ -1,0 +1,230 @@
+// The page of a library that is watched, in a browser: node live-test.mjs PATHBUILD LIBRARY [PICTURES]. Needs Debian's chromium.
+import { spawn } from "node:child_process";
+import { copyFileSync, cpSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { createInterface } from "node:readline";
+import assert from "node:assert/strict";
+import { chromium } from "playwright-core";
+
+const [pathbuild, library, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
+const place = join(mkdtempSync(join(tmpdir(), "pathbuild-live-")), "library");
+cpSync(library, place, { recursive: true });
+
+/** Serves the library, from when everything is checked. */
+async function serve(at) {
+  const server = spawn(pathbuild, ["watch", "components", "mistakes", "projects", "--serve", at, "--no-cache", "--lang", "en"], { cwd: place, stdio: ["ignore", "ignore", "pipe"] });
+  let address;
+  for await (const line of createInterface({ input: server.stderr })) {
+    address ??= /served at (\S+)/.exec(line)?.[1];
+    if (line.startsWith("watching ")) break;
+  }
+  server.stderr.resume();
+  return { server, address };
+}
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+
+/** Opens the page; errors and requests to elsewhere fail the test. */
+async function open(address, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, locale: "en", ...options });
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  page.on("request", (request) => request.url().startsWith(new URL("/", address).href) || /^(data|blob):/.test(request.url()) || faults.push(request.url()));
+  await page.goto(address);
+  await page.waitForSelector(".item");
+  return { page, faults };
+}
+
+async function shot(page, name) {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+const text = (page, selector) => page.locator(selector).innerText();
+const camera = (page) => page.locator("#labels .zero").first().evaluate((node) => node.style.transform);
+const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Saves a drawing as careful programs do: whole, under its name. */
+function save(name, change) {
+  const file = join(place, name);
+  writeFileSync(`${file}.new`, change(readFileSync(file, "latin1")), "latin1");
+  renameSync(`${file}.new`, file);
+}
+
+const { server, address } = await serve("127.0.0.1:0");
+{
+  const { page, faults } = await open(address);
+  // The library: rows with their states, counted.
+  await page.waitForFunction(() => /paths$/.test(document.getElementById("count").textContent));
+  const all = Number(/^(\d+) paths/.exec(await text(page, "#count"))[1]);
+  assert.ok(all > 20, `${all} paths`);
+  assert.match(await text(page, "#states"), /errors \d+/);
+  await shot(page, "live-library");
+  await page.click("#totals");
+  assert.match(await text(page, "#statistics"), /cutter O/);
+  await shot(page, "live-statistics");
+  await page.click("#totals");
+  // By state.
+  await page.click("#filter-errors");
+  const wrong = Number(/^(\d+) of/.exec(await text(page, "#count"))[1]);
+  assert.ok(wrong > 0 && wrong < all, `${wrong} of ${all}`);
+  assert.equal(await page.locator(".item .state.ok").count(), 0);
+  await page.click("#filter-all");
+  // Search, all by keys: the picture of a path opens.
+  await page.keyboard.press("/");
+  await page.keyboard.type("8001.1p");
+  assert.equal(await page.locator(".item").count(), 1);
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
+  assert.match(await text(page, "#where"), /^Move \d+ of \d+/);
+  assert.match(page.url(), /#file=.*path=8001\.1P/);
+  await settled(page);
+  await shot(page, "live-path");
+  // Loading again shows the same.
+  await page.reload();
+  await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
+  // Language, colours.
+  await page.keyboard.press("l");
+  assert.match(await text(page, "#where"), /^Bewegung/);
+  assert.match(await text(page, "#count"), /Pfade$/);
+  assert.match(await text(page, "#states"), /Fehler/);
+  await page.keyboard.press("d");
+  await settled(page);
+  await shot(page, "live-german-other-colours");
+  await page.keyboard.press("l");
+  await page.keyboard.press("d");
+  // Back to the library, and back to the path.
+  await page.keyboard.press("Escape");
+  assert.ok(await page.locator("#viewer").isHidden());
+  await page.goBack();
+  await page.waitForSelector("#viewer:not([hidden])");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  const file = "mistakes/3001.1P.dxf";
+  const { page, faults } = await open(`${address}#${new URLSearchParams({ file, path: "3001.1P" })}`);
+  await page.waitForFunction(() => /PB401/.test(document.getElementById("findings").textContent));
+  // A click on a finding goes to its place.
+  const before = await camera(page);
+  await page.locator("#findings button").first().click();
+  await settled(page);
+  const near = await camera(page);
+  assert.notEqual(near, before);
+  const circle = await page.locator("#labels .finding").first().boundingBox();
+  const box = await page.locator("#picture").boundingBox();
+  assert.ok(Math.hypot(circle.x + circle.width / 2 - box.x - box.width / 2, circle.y + circle.height / 2 - box.y - box.height / 2) < 20, JSON.stringify(circle));
+  await shot(page, "live-mistake");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // A saved drawing appears; camera, layers and what was chosen stay.
+  const file = "components/2054.1P.dxf";
+  const { page, faults } = await open(`${address}#${new URLSearchParams({ file, path: "2054.1P" })}`);
+  await page.waitForFunction(() => document.getElementById("title").textContent === "2054.1P");
+  await page.keyboard.press("a");
+  await page.keyboard.press("Home");
+  for (let step = 0; step < 3; step++) await page.keyboard.press("ArrowRight");
+  const picture = page.locator("#picture");
+  const box = await picture.boundingBox();
+  await page.mouse.move(box.x + box.width / 3, box.y + box.height / 3);
+  await page.mouse.wheel(0, -300);
+  await page.waitForTimeout(300);
+  const view = await camera(page);
+  const chosen = await text(page, "#details");
+  assert.match(chosen, /LINE|CIRCLE|ARC/);
+  const moves = await page.locator("#slider").getAttribute("max");
+  const begun = Date.now();
+  save(file, (drawing) => drawing.replace("I0.5", "I0.25"));
+  await page.waitForFunction((moves) => Number(document.getElementById("slider").max) > Number(moves), moves);
+  await settled(page);
+  console.log(`edit to picture: ${Date.now() - begun} ms`);
+  assert.equal(await camera(page), view);
+  assert.equal(await page.locator("#arrows").getAttribute("aria-pressed"), "false");
+  assert.match(await text(page, "#where"), /^Move 3 of/);
+  assert.equal((await text(page, "#details")).split("\n")[0], chosen.split("\n")[0]);
+  // A drawing that goes is told, and the last picture stays; one that comes back appears.
+  renameSync(join(place, file), join(place, "gone.kept"));
+  await page.waitForSelector("#note:not([hidden])");
+  assert.match(await text(page, "#note"), /no longer there/);
+  renameSync(join(place, "gone.kept"), join(place, file));
+  await page.waitForSelector("#note", { state: "hidden" });
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // On a telephone.
+  const { page, faults } = await open(address, { viewport: { width: 390, height: 800 }, colorScheme: "dark", locale: "de" });
+  await shot(page, "live-library-390");
+  await page.fill("#search", "8001.1P");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
+  await settled(page);
+  await shot(page, "live-path-390");
+  assert.ok(await page.locator("#library").isHidden());
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await page.click("#back");
+  assert.ok(await page.locator("#library").isVisible());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Without WebGL the picture stands still, as an image: nothing of a drawing becomes part of the page.
+  const still = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--disable-webgl", "--disable-webgl2"],
+  });
+  const page = await still.newPage({ viewport: { width: 1280, height: 800 } });
+  await page.goto(`${address}#${new URLSearchParams({ file: "projects/8001.1P.dxf", path: "8001.1P" })}`);
+  await page.waitForFunction(() => document.querySelector("#still img")?.naturalWidth > 100);
+  assert.ok(await page.locator("#still img").isVisible());
+  await shot(page, "live-still");
+  await still.close();
+}
+{
+  // What a drawing says is text, whatever it looks like.
+  const hostile = `evil <img src=x onerror=alert(1)> & "q".dxf`;
+  copyFileSync(join(place, "mistakes/3001.1P.dxf"), join(place, "mistakes", hostile));
+  const { page, faults } = await open(address);
+  await page.fill("#search", "onerror");
+  await page.waitForFunction(() => document.querySelectorAll(".item").length === 1);
+  assert.match(await text(page, ".item .file"), /<img src=x onerror=alert\(1\)>/);
+  await page.locator(".item").click();
+  await page.waitForSelector("#viewer:not([hidden])");
+  assert.equal(await page.locator("#library img, #viewer img").count(), 0);
+  // When pathbuild ends, the page says so.
+  faults.splice(0).forEach((fault) => assert.fail(fault));
+  server.kill("SIGINT");
+  await page.waitForSelector("#note:not([hidden])");
+  assert.match(await text(page, "#note"), /No connection/);
+  await settled(page);
+  await shot(page, "live-offline");
+  await page.close();
+}
+{
+  // From elsewhere: the token leaves the address, and outlives loading again; without it nothing is told.
+  const { server, address } = await serve("0.0.0.0:0");
+  const { page, faults } = await open(address);
+  assert.ok(!page.url().includes("token"), page.url());
+  await page.reload();
+  await page.waitForSelector(".item");
+  assert.deepEqual(faults, []);
+  await page.close();
+  const stranger = await browser.newPage();
+  await stranger.goto(address.split("#")[0]);
+  await stranger.waitForSelector("#trouble:not([hidden])");
+  assert.match(await text(stranger, "#trouble"), /whole address/);
+  assert.equal(await stranger.locator(".item").count(), 0);
+  await stranger.close();
+  server.kill();
+}
+await browser.close();
+rmSync(join(place, ".."), { recursive: true });
+console.log("live page: all passed");

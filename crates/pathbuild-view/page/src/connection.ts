@@ -1,0 +1,72 @@
+// What the server that gave out this page is asked. Where others than this machine may come, it wants a token, which stood in the address.
+
+import { Scene } from "./scene.js";
+import { LibraryNews, Refused, Source } from "./source.js";
+
+const TOKEN = "pathbuild-token";
+
+export class Connection implements Source {
+  private headers: Record<string, string> = {};
+  private run: string | null = null;
+
+  constructor() {
+    const token = takeToken();
+    if (token) this.headers = { Authorization: `Bearer ${token}` };
+  }
+
+  async library(since: number): Promise<LibraryNews> {
+    return (await this.get(`api/library?since=${since}`)).json();
+  }
+
+  async scene(file: string, path: string | null): Promise<Scene> {
+    return (await this.get(`api/scene?${query(file, path)}`)).json();
+  }
+
+  async picture(file: string, path: string | null): Promise<Blob> {
+    return (await this.get(`api/picture?${query(file, path)}`)).blob();
+  }
+
+  /** Calls for each change, until the connection ends. A server that was started again has other pages. */
+  async events(hear: () => void): Promise<void> {
+    const answer = await this.get("api/events");
+    const reader = answer.body!.pipeThrough(new TextDecoderStream()).getReader();
+    let rest = "";
+    for (;;) {
+      const { value, done } = await reader.read();
+      if (done) return;
+      const lines = (rest + value).split("\n");
+      rest = lines.pop()!;
+      for (const line of lines) {
+        if (!line.startsWith("data: ")) continue;
+        const run = line.slice(6).split(" ")[0];
+        if (this.run !== null && this.run !== run) location.reload();
+        this.run = run;
+        hear();
+      }
+    }
+  }
+
+  private async get(what: string): Promise<Response> {
+    const answer = await fetch(what, { headers: this.headers, cache: "no-store" });
+    if (!answer.ok) throw new Refused(answer.status);
+    return answer;
+  }
+}
+
+function query(file: string, path: string | null): string {
+  const wanted = new URLSearchParams({ file });
+  if (path !== null) wanted.set("path", path);
+  return wanted.toString();
+}
+
+/** Takes the token out of the address, so that it is neither seen nor kept in the browser's history. */
+function takeToken(): string | null {
+  const from = new URLSearchParams(location.hash.slice(1));
+  const token = from.get("token");
+  if (token === null) return sessionStorage.getItem(TOKEN);
+  sessionStorage.setItem(TOKEN, token);
+  from.delete("token");
+  const rest = from.toString();
+  history.replaceState(null, "", rest ? `#${rest}` : location.pathname);
+  return token;
+}

@@ -1,0 +1,94 @@
+// Files that a visitor drops or picks.
+
+import { Files } from "./compiler.js";
+
+/** More than that no browser's memory holds twice, in the page and in the compiler, with what is made of it. */
+export const MOST_FILES = 20_000;
+export const MOST_BYTES = 256 << 20;
+
+/** Too many files, or too large ones. */
+export class TooMuch extends Error {
+  constructor(
+    readonly files: number,
+    readonly bytes: number,
+  ) {
+    super("too much");
+  }
+}
+
+/** What was given: whether it was a folder, and its files by their places in it. */
+export interface Given {
+  isFolder: boolean;
+  files: Files;
+}
+
+type Placed = [string, File];
+
+/** Of what was picked by a button. */
+export function picked(list: FileList): Promise<Given> {
+  const files = [...list].map((file): Placed => [file.webkitRelativePath || file.name, file]);
+  return given(files);
+}
+
+/** Of what was dropped. What was dropped can be asked for at once only. */
+export async function dropped(data: DataTransfer): Promise<Given> {
+  const all = [...data.items].map((item) => item.webkitGetAsEntry() ?? item.getAsFile());
+  const files: Placed[] = [];
+  for (const one of all) {
+    if (one instanceof File) files.push([one.name, one]);
+    else if (one) await walk(one, files);
+  }
+  return given(files);
+}
+
+async function walk(entry: FileSystemEntry, into: Placed[]): Promise<void> {
+  if (isHidden(entry.fullPath)) return;
+  if (into.length > MOST_FILES) throw new TooMuch(into.length, 0);
+  if (entry.isFile) {
+    const file = await new Promise<File>((answer, fail) => (entry as FileSystemFileEntry).file(answer, fail));
+    into.push([entry.fullPath.replace(/^\//, ""), file]);
+    return;
+  }
+  const reader = (entry as FileSystemDirectoryEntry).createReader();
+  for (;;) {
+    const some = await new Promise<FileSystemEntry[]>((answer, fail) => reader.readEntries(answer, fail));
+    if (some.length === 0) return;
+    for (const inner of some) await walk(inner, into);
+  }
+}
+
+/** What no drawing depends on: .git above all, which may be large. Rules of what does not count are read. */
+function isHidden(place: string): boolean {
+  const parts = place.split("/").filter((part) => part !== "");
+  return parts.some((part, index) => part.startsWith(".") && !(index === parts.length - 1 && /^\.(git)?ignore$/.test(part)));
+}
+
+async function given(all: Placed[]): Promise<Given> {
+  const placed = all.filter(([place]) => !isHidden(place));
+  const bytes = placed.reduce((sum, [, file]) => sum + file.size, 0);
+  if (placed.length > MOST_FILES || bytes > MOST_BYTES) throw new TooMuch(placed.length, bytes);
+  const folder = /^[^/]*\//.exec(placed[0]?.[0] ?? "")?.[0];
+  const isFolder = folder !== undefined && placed.every(([place]) => place.startsWith(folder));
+  const files: Files = new Map();
+  for (const [place, file] of placed) files.set(isFolder ? place.slice(folder.length) : place, await read(place, file));
+  return { isFolder, files };
+}
+
+async function read(place: string, file: File): Promise<ArrayBuffer> {
+  try {
+    return await file.arrayBuffer();
+  } catch (error) {
+    throw new Error(`${place}: ${error instanceof Error ? error.message : error}`);
+  }
+}
+
+/** Drawings that come to what is there: a drawing of the same name is replaced, wherever it lies, if there is one only. */
+export function joined(before: Files, given: Given): Files {
+  if (given.isFolder || before.size === 0) return given.files;
+  const files = new Map(before);
+  for (const [place, bytes] of given.files) {
+    const same = [...before.keys()].filter((known) => known === place || known.endsWith(`/${place}`));
+    files.set(same.length === 1 ? same[0] : place, bytes);
+  }
+  return files;
+}

@@ -1,0 +1,353 @@
+// The page of a library: what is listed, and one path of it that is looked at.
+
+import { List } from "./list.js";
+import { Finding } from "./scene.js";
+import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
+import { hide, lang, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
+import { Word, say } from "./words.js";
+
+const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+
+/** What may be looked at: a path, or all of a drawing. */
+interface Wanted {
+  file: string;
+  path: string | null;
+}
+
+/** Which rows are listed. */
+type Filter = "all" | "errors" | "stale" | "current" | "ok" | "warnings";
+
+const FILTERS: [Filter, Word][] = [
+  ["all", "all"],
+  ["errors", "stateErrors"],
+  ["stale", "stateStale"],
+  ["current", "stateCurrent"],
+  ["ok", "stateOk"],
+  ["warnings", "withWarnings"],
+];
+
+/** The page, which asks that source. */
+export function live(source: Source): void {
+  new Page(source).begin();
+}
+
+class Page {
+  private drawings = new Map<string, LibraryRow[]>();
+  /** In order of place. */
+  private files: string[] = [];
+  private revision = 0;
+  private isPulling = false;
+  private isBehind = false;
+  private isOnline = true;
+  private isComplete = false;
+  private halted: string | null = null;
+  private problems: Finding[] = [];
+  private statistics: Statistics | null = null;
+  private filter: Filter = "all";
+  private open: Wanted | null = null;
+  /** The drawing of what is open, where it is no longer there. */
+  private isGone = false;
+  /** Grows with each look: an answer to an older one comes too late. */
+  private look = 0;
+  private list = new List($("list"), $("items"), (row) => this.choose({ file: row.file, path: row.path }));
+  private note = node("div", "");
+
+  constructor(private source: Source) {}
+
+  begin(): void {
+    const back = node("button", "");
+    back.id = "back";
+    back.dataset.word = "library";
+    back.addEventListener("click", () => this.choose(null));
+    $("viewer").querySelector("header")!.prepend(back);
+    this.note.id = "note";
+    this.note.hidden = true;
+    $("viewer").querySelector("header")!.after(this.note);
+    $("paper").addEventListener("click", theme);
+    $("tongue").addEventListener("click", otherLang);
+    $("totals").addEventListener("click", () => this.toggleStatistics());
+    const search = $<HTMLInputElement>("search");
+    search.addEventListener("input", () => this.relist());
+    search.addEventListener("keydown", (event) => {
+      if (event.key === "ArrowDown") $("list").focus();
+      else if (event.key === "Enter") this.list.openFirst();
+      else if (event.key === "Escape") {
+        search.value = "";
+        this.relist();
+      } else return;
+      event.preventDefault();
+    });
+    addEventListener("keydown", (event) => {
+      if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey) return;
+      if (event.key === "/" && event.target !== search) search.focus();
+      else if (event.key === "Escape" && this.open) this.choose(null);
+      else return;
+      event.preventDefault();
+    });
+    addEventListener("hashchange", () => this.follow());
+    onSpeak(() => this.say());
+    speak();
+    this.follow();
+    void this.pull();
+    void this.listen();
+  }
+
+  /** Hears of changes for as long as the page is open. */
+  private async listen(): Promise<void> {
+    for (;;) {
+      try {
+        await this.source.events(() => {
+          this.setOnline(true);
+          void this.pull();
+        });
+      } catch (error) {
+        if (error instanceof Refused && error.status === 401) return this.complain(say("unknown", lang));
+      }
+      this.setOnline(false);
+      await new Promise((done) => setTimeout(done, 1000));
+    }
+  }
+
+  /** Fetches what is new; once more if more came meanwhile. */
+  private async pull(): Promise<void> {
+    this.isBehind = true;
+    if (this.isPulling) return;
+    this.isPulling = true;
+    try {
+      while (this.isBehind) {
+        this.isBehind = false;
+        this.take(await this.source.library(this.revision));
+      }
+    } catch {
+      // The events tell whether it is worth while to ask again.
+    }
+    this.isPulling = false;
+  }
+
+  private take(news: LibraryNews): void {
+    const isFirst = this.revision === 0;
+    if (news.all) this.drawings.clear();
+    const known = new Set(this.files);
+    for (const { file, rows } of news.drawings) {
+      if (rows) this.drawings.set(file, rows.map((row) => ({ ...row, file })));
+      else this.drawings.delete(file);
+    }
+    if (news.all || news.drawings.some(({ file, rows }) => !rows || !known.has(file))) this.files = inOrder(this.drawings.keys());
+    const wasComplete = this.isComplete;
+    [this.revision, this.isComplete, this.halted] = [news.revision, news.complete, news.halted];
+    [this.problems, this.statistics] = [news.problems, news.statistics];
+    this.say();
+    const { open } = this;
+    if (open) {
+      this.isGone = !this.drawings.has(open.file) && this.isComplete;
+      const isTouched = news.all || news.drawings.some(({ file, rows }) => file === open.file && rows);
+      if (isTouched && !isFirst) void this.view(true);
+      this.remark();
+    }
+    const only = this.isComplete && !wasComplete && !open ? this.rows() : [];
+    if (only.length === 1) this.choose(only[0]);
+  }
+
+  private rows(): LibraryRow[] {
+    return this.files.flatMap((file) => this.drawings.get(file)!);
+  }
+
+  /** Lists what is searched for. */
+  private relist(): void {
+    const words = $<HTMLInputElement>("search").value.toLowerCase().split(/\s+/).filter((word) => word !== "");
+    const isMeant = (row: LibraryRow) => {
+      if (this.filter === "warnings" ? !row.warnings : this.filter !== "all" && row.state !== this.filter) return false;
+      const text = `${row.path ?? ""} ${row.file} ${row.material ?? ""}`.toLowerCase();
+      return words.every((word) => text.includes(word));
+    };
+    const all = this.rows();
+    const rows = words.length === 0 && this.filter === "all" ? all : all.filter(isMeant);
+    this.list.set(rows, this.open);
+    const count = new Intl.NumberFormat(lang);
+    const shown = rows.length === all.length ? "" : `${count.format(rows.length)} ${say("of", lang)} `;
+    const pending = all.filter((row) => row.state === undefined).length;
+    const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
+    const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
+    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "onePath" : "paths", lang)}${open}`;
+  }
+
+  /** Everything that is said in words. */
+  private say(): void {
+    $<HTMLInputElement>("search").placeholder = say("search", lang);
+    $("search").setAttribute("aria-label", say("search", lang));
+    $("list").setAttribute("aria-label", say("paths", lang));
+    $("columns").replaceChildren(...(["path", "drawing", "M", "T", "O", "size", "length", "min", "state"] as const).map((word) => node("span", word.length === 1 ? word : say(word as Word, lang))));
+    this.sayStates();
+    this.sayTrouble();
+    if (!$("statistics").hidden) this.sayStatistics();
+    this.remark();
+    this.relist();
+  }
+
+  private sayStates(): void {
+    const { statistics } = this;
+    if (!statistics) return $("states").replaceChildren();
+    const numbers = { ...statistics.states, all: statistics.paths, warnings: statistics.with_warnings };
+    const shown = FILTERS.filter(([filter]) => filter === "all" || filter === this.filter || numbers[filter] > 0);
+    const focused = document.activeElement?.id;
+    const buttons = shown.map(([filter, word]) => {
+      const button = node("button", `${say(word, lang)} ${new Intl.NumberFormat(lang).format(numbers[filter])}`);
+      button.id = `filter-${filter}`;
+      button.setAttribute("aria-pressed", String(filter === this.filter));
+      button.addEventListener("click", () => {
+        this.filter = filter;
+        this.sayStates();
+        this.relist();
+      });
+      return button;
+    });
+    $("states").replaceChildren(...buttons);
+    if (focused?.startsWith("filter-")) document.getElementById(focused)?.focus();
+  }
+
+  private sayTrouble(): void {
+    const lines: HTMLElement[] = [];
+    if (!this.isOnline) lines.push(node("p", say("offline", lang)));
+    if (this.halted !== null) lines.push(node("p", `${say("halted", lang)} ${this.halted}`));
+    for (const { code, file, message, help } of this.problems) {
+      const line = node("p", `${file ? `${file}: ` : ""}${code}: ${message[lang]}`);
+      if (help[lang]) line.append(node("small", help[lang]));
+      lines.push(line);
+    }
+    $("trouble").replaceChildren(...lines);
+    $("trouble").hidden = lines.length === 0;
+  }
+
+  private complain(text: string): void {
+    $("trouble").replaceChildren(node("p", text));
+    $("trouble").hidden = false;
+  }
+
+  private setOnline(isOnline: boolean): void {
+    if (isOnline === this.isOnline) return;
+    this.isOnline = isOnline;
+    this.sayTrouble();
+    this.remark();
+  }
+
+  /** What there is to say of the picture as a whole. */
+  private remark(): void {
+    const text = !this.isOnline ? say("offline", lang) : this.isGone ? `${this.open?.file} ${say("gone", lang)}` : "";
+    this.note.textContent = text;
+    this.note.hidden = text === "";
+  }
+
+  private toggleStatistics(): void {
+    const shown = $("statistics");
+    shown.hidden = !shown.hidden;
+    $("totals").setAttribute("aria-expanded", String(!shown.hidden));
+    if (!shown.hidden) this.sayStatistics();
+  }
+
+  private sayStatistics(): void {
+    const { statistics } = this;
+    if (!statistics) return;
+    const number = (value: number | null, digits = 0) => (value === null ? say("noneOfIt", lang) : new Intl.NumberFormat(lang, { maximumFractionDigits: digits }).format(value));
+    const all = table([
+      [say("drawings", lang), number(statistics.drawings)],
+      [say("paths", lang), number(statistics.paths)],
+      [say("length", lang), `${number(statistics.length)} mm`],
+      [say("minutes", lang), number(statistics.minutes)],
+      ...FILTERS.slice(1).map(([filter, word]) => [say(word, lang), number(filter === "warnings" ? statistics.with_warnings : statistics.states[filter as "ok"])]),
+    ]);
+    const heads = [say("paths", lang), `${say("length", lang)} mm`, say("min", lang)];
+    const by = (word: Word, rows: [string, { paths: number; length: number; minutes: number }][]) =>
+      table(rows.map(([name, total]) => [name, number(total.paths), number(total.length), number(total.minutes)]), [say(word, lang), ...heads]);
+    $("statistics").replaceChildren(
+      all,
+      by("materialM", statistics.materials.map((it) => [it.material ?? say("noneOfIt", lang), it])),
+      by("cutterO", statistics.cutters.map((it) => [number(it.tool, 3), it])),
+    );
+  }
+
+  /** Looks at something else, or at the list alone. */
+  private choose(wanted: Wanted | null): void {
+    const to = new URLSearchParams();
+    if (wanted) to.set("file", wanted.file);
+    if (wanted?.path) to.set("path", wanted.path);
+    const hash = to.toString();
+    if (location.hash.slice(1) === hash) return;
+    history.pushState(null, "", hash ? `#${hash}` : location.pathname);
+    this.follow();
+  }
+
+  /** Looks at what the address says. */
+  private follow(): void {
+    const from = new URLSearchParams(location.hash.slice(1));
+    const file = from.get("file");
+    const wasOpen = this.open !== null;
+    this.open = file === null ? null : { file, path: from.get("path") };
+    this.isGone = false;
+    if (this.open) {
+      document.body.dataset.open = "true";
+      void this.view(false);
+    } else {
+      delete document.body.dataset.open;
+      this.look++;
+      $("viewer").hidden = true;
+      document.title = "pathbuild";
+      hide();
+    }
+    this.list.set(null, this.open);
+    this.remark();
+    if (wasOpen && !this.open) $("list").focus();
+  }
+
+  /** Fetches and shows what is open. */
+  private async view(isSame: boolean): Promise<void> {
+    const [{ open }, look] = [this, ++this.look];
+    if (!open) return;
+    try {
+      const scene = await this.source.scene(open.file, open.path);
+      if (look !== this.look) return;
+      const isShown = isSame && !$("viewer").hidden;
+      $("viewer").hidden = false;
+      show(scene, isShown, () => void this.still(open));
+      this.isGone = false;
+    } catch (error) {
+      if (look !== this.look) return;
+      const isGone = error instanceof Refused && error.status === 404;
+      if (isGone && $("viewer").hidden) return this.choose(null);
+      this.isGone = isGone;
+    }
+    this.remark();
+  }
+
+  /** The picture that stands still, as an image: what is in a drawing never becomes part of this page. */
+  private async still({ file, path }: Wanted): Promise<void> {
+    const image = document.createElement("img");
+    image.alt = path ?? file;
+    image.src = URL.createObjectURL(await this.source.picture(file, path));
+    image.addEventListener("load", () => URL.revokeObjectURL(image.src));
+    $("still").replaceChildren(image);
+  }
+}
+
+/** Files in order of place: what lies in a directory stands together. */
+function inOrder(files: Iterable<string>): string[] {
+  const keyed = [...files].map((file): [string, string] => [file.replaceAll("/", "\u0001"), file]);
+  return keyed.sort(([a], [b]) => (a < b ? -1 : 1)).map(([, file]) => file);
+}
+
+function node(tag: string, content: string): HTMLElement {
+  const made = document.createElement(tag);
+  made.textContent = content;
+  return made;
+}
+
+function table(rows: string[][], heads: string[] = []): HTMLElement {
+  const made = document.createElement("table");
+  const row = (tag: string, cells: string[]) => {
+    const line = document.createElement("tr");
+    line.append(...cells.map((cell) => node(tag, cell)));
+    return line;
+  };
+  if (heads.length > 0) made.append(row("th", heads));
+  made.append(...rows.map((cells) => row("td", cells)));
+  return made;
+}

@@ -1,0 +1,315 @@
+// The page in the browser alone: the page of a library, of files that a visitor drops, compiled here.
+
+import { zipSync } from "fflate";
+import { Compiler, Files, IndexRow, Options, Place } from "./compiler.js";
+import { Given, MOST_BYTES, MOST_FILES, TooMuch, dropped, joined, picked } from "./files.js";
+import { live } from "./live.js";
+import { Finding, Scene } from "./scene.js";
+import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
+import { lang, onSpeak, speak } from "./viewer.js";
+import { Word, say } from "./words.js";
+
+const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+
+/** So often, in ms, what was checked is shown. */
+const PAUSE = 100;
+
+/** The library that was given, as a source. */
+class Local implements Source {
+  files: Files = new Map();
+  compiler: Compiler | null = null;
+  private drawings = new Map<string, IndexRow[] | null>();
+  private changed = new Set<string>();
+  private isNew = true;
+  private revision = 0;
+  private isComplete = true;
+  private halted: string | null = null;
+  private problems: Finding[] = [];
+  private statistics: Statistics | null = null;
+  private hear: () => void = () => {};
+  private told = 0;
+  /** Until all paths are listed nobody knows what there is to see. */
+  private listed: Promise<void> = Promise.resolve();
+  /** Until all are checked. */
+  private settled: Promise<void> = Promise.resolve();
+
+  constructor(
+    private wasm: ArrayBuffer,
+    private script: string,
+    private opened: (posts: { name: string; for: string }[]) => void,
+  ) {}
+
+  /** Opens files: what was open is forgotten. */
+  open(files: Files, options: Options): void {
+    document.body.dataset.files = "true";
+    this.compiler?.end();
+    const compiler = new Compiler(this.wasm, this.script, files, options);
+    Object.assign(this, { files, compiler, statistics: null, problems: [], halted: null, isComplete: false, isNew: true });
+    this.drawings.clear();
+    this.changed.clear();
+    const fail = (error: unknown) => {
+      if (compiler === this.compiler) this.halted = `${say("broken", lang)} ${error instanceof Error ? error.message : error}`;
+    };
+    this.listed = this.list(compiler).catch(fail);
+    this.settled = this.listed.then(() => this.check(compiler)).catch(fail).then(() => this.finish(compiler));
+  }
+
+  /** The paths that are written when all are, once all are checked. */
+  async emitted(): Promise<Place[]> {
+    for (let settled = null; settled !== this.settled; ) await (settled = this.settled);
+    const rows = [...this.drawings].flatMap(([file, rows]) => (rows ?? []).map((row) => ({ ...row, file })));
+    return rows.filter((row) => row.path !== null && row.emitted && row.state !== "errors").map(({ file, path }) => ({ file, path }));
+  }
+
+  /** The paths of a drawing, or one of them. */
+  places({ file, path }: Place): Place[] {
+    return path !== null ? [{ file, path }] : (this.drawings.get(file) ?? []).filter((row) => row.path !== null).map((row) => ({ file, path: row.path }));
+  }
+
+  async library(): Promise<LibraryNews> {
+    const { halted, problems, statistics } = this;
+    const drawings = [...this.changed].map((file) => ({ file, rows: this.drawings.get(file) ?? null }));
+    const news = { revision: this.revision, all: this.isNew, complete: this.isComplete, halted, problems, statistics, drawings };
+    this.changed.clear();
+    this.isNew = false;
+    return news;
+  }
+
+  async scene(file: string, path: string | null): Promise<Scene> {
+    const scene: Scene = JSON.parse(new TextDecoder().decode(await this.see("scene", { file, path })));
+    const post = options().post ?? "native";
+    if (post !== "native" && path !== null) await this.posted(scene, { file, path });
+    return scene;
+  }
+
+  async picture(file: string, path: string | null): Promise<Blob> {
+    return new Blob([await this.see("picture", { file, path })], { type: "image/svg+xml" });
+  }
+
+  events(hear: () => void): Promise<void> {
+    this.hear = hear;
+    hear();
+    return new Promise(() => {});
+  }
+
+  /** Shows what a post makes of the program. Its lines are not those of the moves. */
+  private async posted(scene: Scene, place: Place): Promise<void> {
+    const { files } = await this.compiler!.emit([place]);
+    if (files.length !== 1) return;
+    for (const shown of scene.paths) {
+      shown.gcode = new TextDecoder().decode(files[0][1]);
+      for (const move of shown.moves) delete move.line;
+    }
+  }
+
+  private async see(what: "scene" | "picture", place: Place): Promise<Uint8Array<ArrayBuffer>> {
+    await this.listed;
+    const seen = this.drawings.has(place.file) ? await this.compiler!.see(what, place) : null;
+    if (!seen) throw new Refused(404);
+    return seen;
+  }
+
+  /** Lists all paths. */
+  private async list(compiler: Compiler): Promise<void> {
+    const { halted, problems, drawings, posts } = await compiler.open();
+    if (compiler !== this.compiler) return;
+    [this.halted, this.problems] = [halted, problems];
+    this.opened(posts);
+    for (const file of drawings) {
+      const rows = await compiler.index(file);
+      if (compiler !== this.compiler) return;
+      this.set(file, rows);
+    }
+    this.tell(true);
+  }
+
+  /** Checks all paths that are listed. */
+  private async check(compiler: Compiler): Promise<void> {
+    if (compiler !== this.compiler || this.halted !== null) return;
+    // One that begins anew knows no figures of what was checked before.
+    const known = new Map<IndexRow, number>();
+    for (let isSettled = false; !isSettled; ) {
+      isSettled = true;
+      for (const file of this.drawings.keys()) {
+        for (const row of this.drawings.get(file) ?? []) {
+          if (row.path === null || known.get(row) === compiler.generation) continue;
+          isSettled = false;
+          const checked: LibraryRow | null = await compiler.check({ file, path: row.path });
+          if (compiler !== this.compiler) return;
+          Object.assign(row, checked);
+          known.set(row, compiler.generation);
+          this.set(file, this.drawings.get(file)!);
+        }
+      }
+    }
+    this.statistics = await compiler.statistics();
+  }
+
+  private finish(compiler: Compiler): void {
+    if (compiler !== this.compiler) return;
+    this.isComplete = true;
+    this.tell(true);
+  }
+
+  private set(file: string, rows: IndexRow[]): void {
+    this.drawings.set(file, rows);
+    this.changed.add(file);
+    this.tell(false);
+  }
+
+  private tell(isUrgent: boolean): void {
+    const now = performance.now();
+    if (!isUrgent && now - this.told < PAUSE) return;
+    this.told = now;
+    this.revision++;
+    this.hear();
+  }
+}
+
+/** The configuration of what was given lies at its root. */
+const CONFIGURATION = "pathbuild.toml";
+
+const FIELDS = ["feed", "sweep-height", "rapid", "probe-feed"] as const;
+
+/** What the visitor says beside the configuration. */
+function options(): Options {
+  const said: Options = { lang };
+  for (const name of FIELDS) {
+    const value = $<HTMLInputElement>(name).value.trim();
+    if (value !== "") said[name] = value;
+  }
+  const post = $<HTMLSelectElement>("post").value;
+  if (post !== "") said.post = post;
+  return said;
+}
+
+/** Bytes of a text in the page, packed and in base 64. */
+async function unpacked(id: string): Promise<ArrayBuffer> {
+  const packed = Uint8Array.from(atob($(id).textContent!.trim()), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+
+/** Says something below the bar, in lines; nothing: takes it away. */
+function tell(lines: string[]): void {
+  $("said").replaceChildren(
+    ...lines.map((line) => {
+      const shown = document.createElement("p");
+      shown.textContent = line;
+      return shown;
+    }),
+  );
+  $("said").hidden = lines.length === 0;
+}
+
+function message({ code, file, message, help }: Finding): string {
+  return `${file ? `${file}: ` : ""}${code}: ${message[lang]}${help[lang] ? ` (${help[lang]})` : ""}`;
+}
+
+function save(name: string, bytes: BlobPart): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** Downloads programs: one file as it is, several in an archive. */
+async function download(source: Local, wanted: Place[] | Promise<Place[]>): Promise<void> {
+  tell([]);
+  const places = await wanted;
+  const { compiler } = source;
+  if (!compiler || places.length === 0) return tell([say("noProgram", lang)]);
+  try {
+    const { refused, problems, files } = await compiler.emit(places);
+    const lines = [...(refused?.split("\n") ?? []), ...problems.map(message)];
+    const base = (name: string) => name.slice(name.lastIndexOf("/") + 1);
+    if (files.length === 1) save(base(files[0][0]), files[0][1]);
+    else if (files.length > 1) save("pathbuild.zip", zipSync(Object.fromEntries(files)));
+    const done = files.length === 0 ? (lines.length === 0 ? [say("noProgram", lang)] : []) : [`${say("downloaded", lang)} ${files.map(([name]) => base(name)).join(", ")}`];
+    tell([...done, ...lines]);
+  } catch (error) {
+    tell([`${say("broken", lang)} ${error instanceof Error ? error.message : error}`]);
+  }
+}
+
+async function begin(): Promise<void> {
+  const toml = $<HTMLTextAreaElement>("toml");
+  const source = new Local(await unpacked("wasm"), $("worker").textContent!, offer);
+  const take = async (given: Promise<Given>) => {
+    tell([]);
+    try {
+      const files = joined(source.files, await given);
+      toml.value = new TextDecoder().decode(files.get(CONFIGURATION));
+      if (files.size > 0) source.open(files, options());
+    } catch (error) {
+      if (!(error instanceof TooMuch)) return tell([`${say("unreadable", lang)} ${error instanceof Error ? error.message : error}`]);
+      const [megabytes, most] = [error.bytes, MOST_BYTES].map((bytes) => `${Math.ceil(bytes / (1 << 20))} MB`);
+      tell([`${say("tooMuch", lang)} (${error.files} ${say("files", lang)}, ${megabytes}; ${say("most", lang)} ${MOST_FILES} ${say("files", lang)}, ${most})`]);
+    }
+  };
+  for (const [button, input] of [["pick-drawings", "drawings"], ["pick-folder", "folder"]]) {
+    const chosen = $<HTMLInputElement>(input);
+    $(button).addEventListener("click", () => chosen.click());
+    chosen.addEventListener("change", () => {
+      if (chosen.files) void take(picked(chosen.files)).then(() => (chosen.value = ""));
+    });
+  }
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (event.dataTransfer) void take(dropped(event.dataTransfer));
+  });
+  const again = () => {
+    if (source.files.size > 0) source.open(source.files, options());
+  };
+  for (const name of [...FIELDS, "post"]) $(name).addEventListener("change", again);
+  $("download-all").addEventListener("click", () => void download(source, source.emitted()));
+  $("configure").addEventListener("click", () => {
+    toml.hidden = !toml.hidden;
+    $("configure").setAttribute("aria-expanded", String(!toml.hidden));
+  });
+  toml.addEventListener("change", () => {
+    source.files.set(CONFIGURATION, new TextEncoder().encode(toml.value).buffer);
+    again();
+  });
+  const single = document.createElement("button");
+  single.id = "download";
+  single.dataset.word = "download";
+  single.addEventListener("click", () => {
+    const from = new URLSearchParams(location.hash.slice(1));
+    void download(source, source.places({ file: from.get("file") ?? "", path: from.get("path") }));
+  });
+  $("viewer").querySelector("nav")!.prepend(single);
+  live(source);
+  onSpeak(label);
+  speak();
+}
+
+/** The posts to choose from, and what was chosen. */
+function offer(posts: { name: string; for: string }[]): void {
+  const select = $<HTMLSelectElement>("post");
+  if (select.options.length > 1) return;
+  for (const { name, for: whom } of posts) select.append(new Option(name, name));
+  [...select.options].slice(1).forEach((option, index) => (option.title = posts[index].for));
+}
+
+/** Names of fields, for who sees them and who hears them. */
+function label(): void {
+  const names: [string, Word, string][] = [
+    ["post", "post", ""],
+    ["feed", "feedF", "mm/min"],
+    ["sweep-height", "sweepHeight", "mm"],
+    ["rapid", "rapidSpeed", "mm/min"],
+    ["probe-feed", "probeFeed", "mm/min"],
+  ];
+  for (const [id, word, unit] of names) $(id).title = unit;
+  for (const [id, word] of names) $(id).setAttribute("aria-label", say(word, lang));
+}
+
+if (typeof WebAssembly === "undefined" || typeof DecompressionStream === "undefined") {
+  speak();
+  tell([say("noWasm", lang)]);
+} else {
+  await begin();
+}
+document.documentElement.dataset.ready = "true";

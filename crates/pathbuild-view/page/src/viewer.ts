@@ -1,0 +1,473 @@
+// What shows a scene: the picture, its G-code, and what goes between them.
+
+import { Model, model } from "./model.js";
+import { Finding, Parameter, Scene, pointsOfShape } from "./scene.js";
+import { Stage, Spot, isThick } from "./stage.js";
+import { Lang, Word, mm, say, sayKind } from "./words.js";
+
+const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const slider = $<HTMLInputElement>("slider");
+const picture = $("picture");
+const code = $("code");
+const rows = $("rows");
+const details = $("details");
+
+/** A row of G-code in px. */
+const ROW = 18;
+/** Numbers and texts beyond so many would cover the picture. */
+const MOST_SPOTS = 600;
+
+export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
+let dark = matchMedia("(prefers-color-scheme: dark)").matches;
+let scene: Scene = { schema: "", version: 1, title: "", paths: [], other_layers: [], keep_outs: [], findings: [] };
+let made: Model = model(scene, dark);
+/** Whether there is something to see: without, keys are for others. */
+let isOpen = false;
+/** Draws what stands still, where there is no WebGL. */
+let drawStill: () => void = () => {};
+/** Who hears of another language. */
+const hearers: (() => void)[] = [];
+let stage: Stage | null = null;
+let space = false;
+let count = made.steps.length;
+let chosen: number | null = null;
+let timer = 0;
+let measured: [number, number][] | null = null;
+/** On a telephone texts would cover the picture. */
+const shown = { rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true };
+let lines: string[] = [];
+let linesOf: number | null = null;
+/** The path of each step, and its steps by line of G-code. */
+let byLine: Map<number, number>[] = [];
+let pathOf: number[] = [];
+
+/** Shows a scene. One that was shown before and has changed is shown from where it was looked at. */
+export function show(next: Scene, isSame: boolean, still: () => void = () => {}): void {
+  const atEnd = count === made.steps.length;
+  const same = isSame ? marked(chosen) : null;
+  scene = next;
+  drawStill = still;
+  isOpen = true;
+  byLine = scene.paths.map(() => new Map<number, number>());
+  pathOf = [];
+  scene.paths.forEach((path, index) => {
+    for (const move of path.moves) {
+      if (move.line !== undefined && !byLine[index].has(move.line)) byLine[index].set(move.line, pathOf.length);
+      pathOf.push(index);
+    }
+  });
+  $("title").textContent = scene.title;
+  document.title = scene.title;
+  linesOf = null;
+  if (!isSame) {
+    measured = null;
+    $("measured").textContent = "";
+    if (timer) play();
+  }
+  count = isSame && !atEnd ? count : Infinity;
+  start(isSame);
+  slider.max = String(made.steps.length);
+  chosen = same && found(same);
+  speak();
+}
+
+/** Nothing is shown any more. */
+export function hide(): void {
+  isOpen = false;
+  if (timer) play();
+}
+
+/** Which move of which element a step is, by what outlives an edit. */
+interface Mark {
+  path: string;
+  handle: string;
+  turn: number;
+}
+
+function marked(at: number | null): Mark | null {
+  const own = at === null ? null : owner(at);
+  if (own === null || at === null) return null;
+  let turn = 0;
+  for (let step = 0; step < at; step++) {
+    const other = owner(step);
+    if (other?.path === own.path && other.handle === own.handle) turn++;
+  }
+  return { ...own, turn };
+}
+
+function owner(at: number): { path: string; handle: string } | null {
+  const { path, move } = made.steps[at];
+  const element = move.element === undefined ? undefined : path.elements[move.element];
+  return element?.handle ? { path: path.embedded[element.path]?.name ?? path.name, handle: element.handle } : null;
+}
+
+function found({ path, handle, turn }: Mark): number | null {
+  for (let step = 0; step < made.steps.length; step++) {
+    const other = owner(step);
+    if (other?.path === path && other.handle === handle && turn-- === 0) return step;
+  }
+  return null;
+}
+
+function text(tag: string, content: string, className = ""): HTMLElement {
+  const node = document.createElement(tag);
+  node.textContent = content;
+  node.className = className;
+  return node;
+}
+
+/** Starts or starts again: colours are part of the buffers. */
+function start(keepsView: boolean): void {
+  made = model(scene, dark);
+  const view = keepsView ? stage?.view() : undefined;
+  try {
+    if (stage && stage.isThick !== isThick(made)) {
+      stage.dispose();
+      stage = null;
+    }
+    stage ??= new Stage(picture, $("labels"), isThick(made));
+    stage.load(made, scene, dark);
+  } catch {
+    stage = null;
+    $("still").hidden = false;
+    $("nowebgl").hidden = false;
+    drawStill();
+  }
+  for (const what of ["rapids", "arrows", "other"] as const) stage?.toggle(what, shown[what]);
+  if (view) stage?.restore(view);
+  else stage?.fit(space);
+  spots();
+  go(count);
+}
+
+/** Sets the colours of everything but the picture. */
+function paint(): void {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+}
+
+/** Numbers, texts and findings that stand in the picture. */
+function spots(): void {
+  const all: Spot[] = [];
+  const add = (at: [number, number], z: number, node: HTMLElement) => all.push({ at: [at[0], at[1], z], node });
+  for (const path of scene.paths) {
+    const place = ([x, y]: [number, number]): [number, number] => [x + path.zero[0], y + path.zero[1]];
+    if (shown.order) {
+      for (const { order, shape } of path.elements) {
+        if (order === null) continue;
+        const at: [number, number] =
+          shape.type === "line"
+            ? [(shape.from[0] + shape.to[0]) / 2, (shape.from[1] + shape.to[1]) / 2]
+            : shape.type === "circle"
+              ? shape.centre
+              : middle(shape);
+        add(place(at), 0, text("span", String(order), "order"));
+      }
+    }
+    if (shown.texts) {
+      for (const label of path.texts) if (label.path === 0) add(place(label.at), 0, text("span", label.text, "text"));
+      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), 0, text("span", inner.name, "name"));
+    }
+    for (const probe of path.probes) {
+      add(place(probe.at), probe.height, text("span", `#${probe.number} ${probe.label ?? ""}`, "probe"));
+    }
+    const zero = path.elements.find((element) => element.path === 0 && element.kind === "start");
+    if (zero || path.moves.length > 0) add(place([0, 0]), 0, text("span", "X0 Y0", "zero"));
+  }
+  for (const { outline, height } of scene.keep_outs) {
+    const corners = outline.flatMap((shape) => pointsOfShape(shape).slice(1));
+    const mean = (axis: 0 | 1) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length;
+    add([mean(0), mean(1)], height, text("span", `Z${mm(height)}`, "clamp"));
+  }
+  for (const finding of scene.findings) {
+    if (!finding.at) continue;
+    const node = text("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
+    node.title = `${finding.code}: ${finding.message[lang]}`;
+    node.addEventListener("click", () => goTo(finding));
+    add(finding.at, 0, node);
+  }
+  for (const at of measured ?? []) add(at, 0, text("span", "+", "cross"));
+  stage?.setSpots(all.slice(-MOST_SPOTS));
+}
+
+function middle(shape: { from: [number, number]; centre: [number, number]; clockwise: boolean; degrees: number }): [number, number] {
+  const [x, y] = [shape.from[0] - shape.centre[0], shape.from[1] - shape.centre[1]];
+  const angle = ((shape.clockwise ? -1 : 1) * shape.degrees * Math.PI) / 360;
+  return [
+    shape.centre[0] + x * Math.cos(angle) - y * Math.sin(angle),
+    shape.centre[1] + x * Math.sin(angle) + y * Math.cos(angle),
+  ];
+}
+
+/** Runs the tool to behind so many moves. */
+function go(to: number): void {
+  count = Math.min(Math.max(to, 0), made.steps.length);
+  slider.value = String(count);
+  $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
+  stage?.show(count);
+  listing(true);
+}
+
+/** The line of G-code that is being run. */
+function current(): number | null {
+  return count === 0 ? null : (made.steps[count - 1].move.line ?? null);
+}
+
+/** Shows the G-code round the present line; only the rows that can be seen are made. */
+function listing(follow: boolean): void {
+  const path = pathOf[Math.max(count - 1, 0)] ?? 0;
+  if (linesOf !== path) {
+    linesOf = path;
+    lines = (scene.paths[path]?.gcode ?? "").split("\n");
+    code.hidden = !scene.paths.some((it) => it.gcode);
+    rows.style.height = `${lines.length * ROW}px`;
+  }
+  const line = current();
+  if (follow && line !== null) {
+    const top = (line - 1) * ROW;
+    if (top < code.scrollTop || top > code.scrollTop + code.clientHeight - 2 * ROW) {
+      code.scrollTop = top - code.clientHeight / 2;
+    }
+  }
+  const first = Math.max(0, Math.floor(code.scrollTop / ROW) - 5);
+  const last = Math.min(lines.length, first + Math.ceil(code.clientHeight / ROW) + 10);
+  const visible: HTMLElement[] = [];
+  for (let index = first; index < last; index++) {
+    const row = text("div", "", "row");
+    row.append(text("i", String(index + 1)), text("span", lines[index]));
+    row.style.top = `${index * ROW}px`;
+    row.dataset.line = String(index + 1);
+    if (index + 1 === line) row.classList.add("now");
+    visible.push(row);
+  }
+  rows.replaceChildren(...visible);
+}
+
+/** What there is to say of a move and its element. */
+function describe(at: number | null): void {
+  stage?.point(at);
+  if (at === null) return summary();
+  const { path, move } = made.steps[at];
+  const list: [string, string][] = [[say("step", lang), `${at + 1}: ${sayKind(move.kind, lang)}`]];
+  const place = (values: (number | null)[]) =>
+    ["X", "Y", "Z"].map((axis, index) => (values[index] === null ? "" : `${axis}${mm(values[index]!)}`)).join(" ");
+  list.push(["→", place(move.to)]);
+  if (move.feed) list.push([say("feed", lang), `${mm(move.feed)} mm/min`]);
+  if (move.line !== undefined) list.push(["G-code", `${move.line}: ${(path.gcode ?? "").split("\n", move.line)[move.line - 1] ?? ""}`]);
+  const element = move.element === undefined ? undefined : path.elements[move.element];
+  if (element) {
+    const inside = path.embedded[element.path];
+    const own = path.texts.filter((label) => label.elements.includes(move.element!));
+    const starts = path.elements.flatMap((it, index) => (it.path === element.path && it.kind === "start" ? [index] : []));
+    const ofPath = path.texts.filter((label) => label.elements.some((index) => starts.includes(index)));
+    const joined = (labels: { text: string }[]) => labels.map((label) => label.text).join(" | ") || say("none", lang);
+    list.push([say("element", lang), `${element.entity} ${element.handle ?? ""} · ${sayKind(element.kind, lang)}`]);
+    list.push([say("layer", lang), element.layer]);
+    if (element.line !== null) list.push([say("line", lang), `${inside?.file ?? path.file}:${element.line}`]);
+    list.push([say("text", lang), joined(own)]);
+    list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
+    for (const parameter of element.parameters ?? []) list.push([parameter.letter, `${parameter.value} · ${provider(parameter)}`]);
+  }
+  fill(list);
+}
+
+/** Where a parameter comes from. */
+function provider({ from, which }: Parameter): string {
+  const words = { own: "fromOwn", chain: "fromChain", path: "fromPath", lender: "fromLender", option: "fromOption", default: "fromDefault" } as const;
+  return `${say(words[from], lang)}${from === "option" ? "" : " "}${which ?? ""}`.trim();
+}
+
+/** What there is to say of the whole. */
+function summary(): void {
+  const list: [string, string][] = [];
+  for (const path of scene.paths) {
+    list.push(["", `${path.name} · ${path.file}`]);
+    if (path.tool !== null) list.push([say("tool", lang), mm(path.tool)]);
+    if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
+    if (path.material) list.push([say("material", lang), path.material]);
+    const { totals } = path;
+    if (totals && path.moves.length > 0) {
+      for (const kind of ["milling", "drilling", "sweeps"] as const) list.push([say(kind, lang), `${totals[kind].toFixed(0)} mm`]);
+      if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
+    }
+  }
+  fill(list);
+}
+
+function fill(list: [string, string][]): void {
+  details.replaceChildren(...list.flatMap(([name, value]) => [text("dt", name), text("dd", value)]));
+}
+
+/** A click on a finding that has a place goes there. */
+function findings(): void {
+  const list = scene.findings.map((it) => {
+    const item = text("li", "", it.is_error ? "error" : "");
+    const words = `${it.number} · ${it.code}: ${it.message[lang]}`;
+    const line = text(it.at && stage ? "button" : "span", words);
+    if (it.at && stage) line.addEventListener("click", () => goTo(it));
+    item.append(line);
+    if (it.help[lang]) item.append(text("small", it.help[lang]));
+    item.dataset.number = String(it.number);
+    return item;
+  });
+  $("findings").replaceChildren(...list);
+  $("found").hidden = list.length === 0;
+}
+
+/** Looks at the place of a finding, and marks its line. */
+function goTo(finding: Finding): void {
+  if (finding.at) stage?.look(finding.at);
+  for (const item of $("findings").children as Iterable<HTMLElement>) {
+    const isIt = item.dataset.number === String(finding.number);
+    item.classList.toggle("now", isIt);
+    if (isIt) item.scrollIntoView({ block: "nearest" });
+  }
+}
+
+/** Says everything in the language that holds. */
+export function speak(): void {
+  document.documentElement.lang = lang;
+  document.querySelectorAll<HTMLElement>("[data-word]").forEach((node) => {
+    node.textContent = say(node.dataset.word as Word, lang);
+  });
+  $("keys").title = say("keys", lang);
+  slider.setAttribute("aria-label", say("step", lang));
+  hearers.forEach((hear) => hear());
+  if (!isOpen) return;
+  findings();
+  describe(chosen);
+  spots();
+  go(count);
+}
+
+/** Whom to tell of another language. */
+export function onSpeak(hear: () => void): void {
+  hearers.push(hear);
+}
+
+function measure(at: [number, number]): void {
+  measured = measured && measured.length < 2 ? [...measured, at] : [at];
+  const [a, b] = measured;
+  $("measured").textContent = b
+    ? `${mm(Math.hypot(b[0] - a[0], b[1] - a[1]))} mm · ΔX ${mm(b[0] - a[0])} · ΔY ${mm(b[1] - a[1])}`
+    : `X${mm(a[0])} Y${mm(a[1])}`;
+  spots();
+}
+
+function play(): void {
+  if (timer) {
+    clearInterval(timer);
+    timer = 0;
+    return;
+  }
+  if (count >= made.steps.length) go(0);
+  timer = window.setInterval(() => {
+    if (count >= made.steps.length) return play();
+    go(count + Math.max(1, Math.round(made.steps.length / 600)));
+  }, 40);
+}
+
+const acts = {
+  view2: () => stage?.fit((space = false)),
+  view3: () => stage?.fit((space = true)),
+  fit: () => stage?.fit(space),
+  measure: () => {
+    measured = measured ? null : [];
+    $("measured").textContent = measured ? say("pick", lang) : "";
+    spots();
+  },
+  theme: () => {
+    dark = !dark;
+    paint();
+    if (isOpen) start(true);
+  },
+  lang: () => {
+    lang = lang === "en" ? "de" : "en";
+    speak();
+  },
+  play,
+  rapids: () => switchLayer("rapids"),
+  arrows: () => switchLayer("arrows"),
+  order: () => switchLayer("order"),
+  texts: () => switchLayer("texts"),
+  other: () => switchLayer("other"),
+};
+
+/** What the buttons for colours and language do, wherever they are. */
+export const { theme, lang: otherLang } = acts;
+
+function switchLayer(what: keyof typeof shown): void {
+  shown[what] = !shown[what];
+  $(what).setAttribute("aria-pressed", String(shown[what]));
+  if (what === "order" || what === "texts") spots();
+  else stage?.toggle(what, shown[what]);
+}
+for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
+
+const keys: Record<string, () => void> = {
+  ArrowRight: () => go(count + 1),
+  ArrowLeft: () => go(count - 1),
+  PageDown: () => go(count + 10),
+  PageUp: () => go(count - 10),
+  Home: () => go(0),
+  End: () => go(made.steps.length),
+  " ": play,
+  "2": acts.view2,
+  "3": acts.view3,
+  f: acts.fit,
+  r: acts.rapids,
+  a: acts.arrows,
+  n: acts.order,
+  t: acts.texts,
+  o: acts.other,
+  m: acts.measure,
+  l: acts.lang,
+  d: acts.theme,
+};
+addEventListener("keydown", (event) => {
+  const act = event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented ? undefined : keys[event.key];
+  const { target } = event;
+  const isButton = target instanceof HTMLButtonElement && event.key === " ";
+  const isTyping = target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target !== slider);
+  if (!act || isButton || isTyping || !(isOpen || "ld".includes(event.key))) return;
+  event.preventDefault();
+  act();
+  if (event.key.startsWith("Arrow")) describe((chosen = count > 0 ? count - 1 : null));
+});
+
+slider.addEventListener("input", () => go(Number(slider.value)));
+code.addEventListener("scroll", () => listing(false));
+rows.addEventListener("click", (event) => {
+  const line = (event.target as HTMLElement).closest<HTMLElement>(".row")?.dataset.line;
+  const step = line === undefined ? undefined : byLine[linesOf ?? 0].get(Number(line));
+  if (step === undefined) return;
+  go(step + 1);
+  describe((chosen = step));
+});
+let down: [number, number] = [0, 0];
+picture.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+picture.addEventListener("click", (event) => {
+  if (!stage || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+  const box = picture.getBoundingClientRect();
+  const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+  if (measured) return measure(stage.plane(x, y, count));
+  chosen = stage.pick(x, y, count);
+  if (chosen !== null) go(chosen + 1);
+  describe(chosen);
+});
+let hovering = false;
+picture.addEventListener("pointermove", (event) => {
+  if (!stage || hovering || event.buttons > 0) return;
+  hovering = true;
+  requestAnimationFrame(() => {
+    hovering = false;
+    const box = picture.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    const at = stage!.plane(x, y, 0);
+    $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}`;
+    const step = stage!.pick(x, y, count);
+    if (step !== null || chosen === null) describe(step);
+  });
+});
+
+$("texts").setAttribute("aria-pressed", String(shown.texts));
+paint();

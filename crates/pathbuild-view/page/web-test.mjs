@@ -1,0 +1,313 @@
+// The page in the browser alone: node web-test.mjs PATHBUILD LIBRARY HTML [PICTURES]. Needs Debian's chromium.
+import { spawnSync } from "node:child_process";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import assert from "node:assert/strict";
+import { unzipSync } from "fflate";
+import { chromium } from "playwright-core";
+
+const [pathbuild, given, html, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
+const place = mkdtempSync(join(tmpdir(), "pathbuild-web-"));
+const library = join(place, "library");
+cpSync(given, library, { recursive: true });
+rmSync(join(library, "gcode"), { recursive: true, force: true });
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+
+/** Opens the page from a file; errors and requests to elsewhere fail the test. */
+async function open(options = {}, file = html) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, locale: "en", ...options });
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  page.on("request", (request) => request.url().startsWith(`file://${file}`) || /^(data|blob):/.test(request.url()) || faults.push(request.url()));
+  await page.goto(`file://${file}`);
+  await page.waitForSelector("html[data-ready]");
+  return { page, faults };
+}
+
+async function shot(page, name) {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+const text = (page, selector) => page.locator(selector).innerText();
+const checked = (page, paths) => page.waitForFunction((paths) => document.getElementById("count").textContent === `${paths} paths`, paths, { timeout: 120_000 });
+
+/** What a click downloads: its files by name. */
+async function downloaded(page, button) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+  const bytes = readFileSync(await download.path());
+  const name = download.suggestedFilename();
+  return name.endsWith(".zip") ? unzipSync(bytes) : { [name]: bytes };
+}
+
+/** Runs the program itself. */
+function run(...line) {
+  const done = spawnSync(pathbuild, [...line, "--no-cache"], { cwd: library, encoding: "utf8", maxBuffer: 1 << 28 });
+  assert.equal(done.error, undefined);
+  return done;
+}
+
+/** All files below a folder. */
+function all(folder) {
+  return readdirSync(folder, { recursive: true }).filter((name) => statSync(join(folder, name)).isFile());
+}
+
+{
+  const { page, faults } = await open();
+  assert.match(await text(page, "#drop"), /Nothing leaves this machine/);
+  await shot(page, "web-empty");
+  // A folder: the paths of the library that its configuration describes, with the states and figures that `list` tells.
+  const listed = JSON.parse(`[${run("list", "--format", "json").stdout.trim().split("\n").join(",")}]`).filter((row) => row.type === "path");
+  const begun = Date.now();
+  await page.setInputFiles("#folder", library);
+  await page.waitForSelector(".item");
+  await checked(page, listed.length);
+  await page.waitForSelector("#filter-ok");
+  console.log(`${listed.length} paths of the library opened and checked: ${Date.now() - begun} ms`);
+  assert.equal(await text(page, "#filter-ok"), `ok ${listed.filter((row) => row.state === "ok").length}`);
+  await shot(page, "web-library");
+  await page.click("#totals");
+  assert.match(await text(page, "#statistics"), /cutter O/);
+  await page.click("#totals");
+  // All programs, byte for byte as `emit` writes them.
+  const programs = await downloaded(page, "#download-all");
+  const emitted = run("emit");
+  assert.equal(emitted.status, 0, emitted.stderr);
+  const written = all(join(library, "gcode"));
+  assert.ok(written.length >= 5, String(written));
+  assert.deepEqual(Object.keys(programs).sort(), written.map((name) => `gcode/${name}`).sort());
+  for (const name of written) assert.ok(readFileSync(join(library, "gcode", name)).equals(programs[`gcode/${name}`]), name);
+  assert.match(await text(page, "#said"), /8001\.1P_Milling\.gcode/);
+  // One path: picture, G-code, program.
+  await page.fill("#search", "8001.1P");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
+  assert.match(await text(page, "#code"), /Path 8001\.1P|G0/);
+  const single = await downloaded(page, "#download");
+  assert.deepEqual(Object.keys(single), ["8001.1P_Milling.gcode"]);
+  assert.ok(readFileSync(join(library, "gcode/8001.1P_Milling.gcode")).equals(single["8001.1P_Milling.gcode"]));
+  await page.keyboard.press("Home");
+  for (let step = 0; step < 3; step++) await page.keyboard.press("ArrowRight");
+  assert.match(await text(page, "#where"), /^Move 3 of/);
+  await shot(page, "web-path");
+  // Through a post: what a control needs that nobody says is asked for, then given.
+  await page.keyboard.press("Escape");
+  await page.fill("#search", "");
+  await page.selectOption("#post", "linuxcnc");
+  await checked(page, listed.length);
+  await page.click("#download-all");
+  await page.waitForFunction(() => /PB754/.test(document.getElementById("said").textContent));
+  const configuration = readFileSync(join(library, "pathbuild.toml"), "utf8");
+  await page.click("#configure");
+  assert.equal(await page.inputValue("#toml"), configuration);
+  const manual = `spindle = "manual"\n${configuration}`;
+  await page.fill("#toml", manual);
+  await page.locator("#toml").blur();
+  await page.click("#configure");
+  await checked(page, listed.length);
+  writeFileSync(join(library, "pathbuild.toml"), manual);
+  const posts = await page.locator("#post option").evaluateAll((options) => options.map((option) => option.value).filter((name) => name !== "" && name !== "native"));
+  assert.ok(posts.length >= 7, String(posts));
+  for (const post of posts) {
+    await page.selectOption("#post", post);
+    await page.evaluate(() => (location.hash = `#${new URLSearchParams({ file: "projects/8001.1P.dxf", path: "8001.1P" })}`));
+    await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P" && !document.getElementById("viewer").hidden);
+    const [program] = Object.values(await downloaded(page, "#download"));
+    const own = spawnSync(pathbuild, ["emit", "8001.1P", "--post", post, "--no-cache", "-o", "-"], { cwd: library });
+    assert.ok(own.stdout.length > 1000 && own.stdout.equals(Buffer.from(program)), post);
+    const first = own.stdout.toString("latin1").split(/\r?\n/).find((line) => line.trim() !== "");
+    assert.ok((await text(page, "#code")).includes(first.trim()), `${post}: ${first}`);
+    await page.keyboard.press("Escape");
+  }
+  // What was downloaded lies on no disk that the page knows.
+  await checked(page, listed.length);
+  await page.waitForSelector("#filter-ok");
+  assert.equal(await text(page, "#filter-ok"), `ok ${listed.length}`);
+  await shot(page, "web-post");
+  // Language and colours by keys, as on the served page.
+  await page.locator("#list").focus();
+  await page.keyboard.press("l");
+  assert.match(await text(page, "#drop"), /Nichts verlässt diesen Rechner/);
+  assert.match(await text(page, "#count"), /Pfade$/);
+  await page.keyboard.press("d");
+  await shot(page, "web-german-other-colours");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Drawings alone: what nobody says is asked for; a drawing that comes again replaces itself.
+  const { page, faults } = await open();
+  const drawing = join(library, "components/2050.1P.dxf");
+  await page.setInputFiles("#drawings", [drawing, join(library, "mistakes/3001.1P.dxf")]);
+  await checked(page, 2);
+  await page.waitForSelector("#filter-errors");
+  await page.click("#download-all");
+  await page.waitForFunction(() => /missing: /.test(document.getElementById("said").textContent));
+  for (const [field, value] of [["feed", "150"], ["sweep-height", "20"], ["rapid", "1000"]]) {
+    await page.fill(`#${field}`, value);
+    await page.locator(`#${field}`).blur();
+  }
+  await checked(page, 2);
+  const programs = await downloaded(page, "#download-all");
+  assert.deepEqual(Object.keys(programs), ["2050.1P_Milling.gcode"]);
+  run("emit", "components/2050.1P.dxf", "--out-dir", join(place, "alone"));
+  assert.ok(readFileSync(join(place, "alone/2050.1P_Milling.gcode")).equals(programs["2050.1P_Milling.gcode"]));
+  // A finding with its place.
+  await page.fill("#search", "3001");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => /PB401/.test(document.getElementById("findings").textContent));
+  await shot(page, "web-mistake");
+  await page.keyboard.press("Escape");
+  await page.fill("#search", "");
+  writeFileSync(drawing, readFileSync(drawing, "latin1").replaceAll(/2050(\.|\D)1P/g, "2050$19P"), "latin1");
+  await page.setInputFiles("#drawings", drawing);
+  await page.waitForFunction(() => /2050\.9P/.test(document.getElementById("items").textContent));
+  assert.equal(await page.locator(".item").count(), 2);
+  // A wrong value, a wrong configuration.
+  await page.fill("#feed", "fast");
+  await page.locator("#feed").blur();
+  await page.waitForSelector("#trouble:not([hidden])");
+  assert.match(await text(page, "#trouble"), /--feed/);
+  await page.fill("#feed", "100");
+  await page.locator("#feed").blur();
+  await page.waitForSelector("#trouble", { state: "hidden" });
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // What is dropped, a folder in a folder among it.
+  const { page, faults } = await open();
+  const files = all(library).filter((name) => !name.startsWith("gcode")).map((name) => [name, readFileSync(join(library, name), "base64")]);
+  const transfer = await page.evaluateHandle((files) => {
+    const data = new DataTransfer();
+    for (const [name, bytes] of files) data.items.add(new File([Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0))], name.split("/").pop()));
+    return data;
+  }, files.filter(([name]) => /2051|2052|2053/.test(name)));
+  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+  await page.waitForFunction(() => /2053\.1P/.test(document.getElementById("items").textContent));
+  // More than the page can hold.
+  const huge = join(place, "huge");
+  mkdirSync(huge);
+  for (let number = 0; number < 20_001; number++) writeFileSync(join(huge, `${number}.txt`), "");
+  await page.setInputFiles("#folder", huge);
+  await page.waitForFunction(() => /more than this page can hold/.test(document.getElementById("said").textContent), undefined, { timeout: 120_000 });
+  assert.match(await text(page, "#said"), /20001 files/);
+  assert.match(await text(page, "#items"), /2053\.1P/);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+
+/** A page whose compiler does something else when it is asked for a path, until it is told that this one was lost. */
+function broken(way) {
+  const change = `const first=WebAssembly.instantiate;WebAssembly.instantiate=async(...given)=>{
+    const own=(await first(...given)).instance.exports;let room=0,length=0,known=false;
+    const answer=()=>{
+      const question=new TextDecoder().decode(new Uint8Array(own.memory.buffer,room,length)).split("\\n")[0];
+      if(/"ask":"open".*2052/.test(question))known=true;
+      if(!known&&/"ask":"(check|scene)".*2052/.test(question)){${way}}
+      return own.answer();
+    };
+    return{instance:{exports:{...own,answer,room:(n)=>(length=n,room=own.room(n)>>>0)}}};
+  };`;
+  const file = join(place, `broken-${broken.count = (broken.count ?? 0) + 1}.html`);
+  const page = readFileSync(html, "utf8");
+  const mark = '<script type="text/plain" id="worker">';
+  assert.ok(page.includes(mark));
+  writeFileSync(file, page.replace(mark, () => mark + change));
+  return file;
+}
+for (const [way, code] of [["own.room(-1)", "PB006"], ["for(;;);", "PB005"], ["(function deeper(){return deeper()+1})()", "PB006"]]) {
+  // A path that ends the compiler has a finding; all others are what they were.
+  const { page, faults } = await open({}, broken(way));
+  const drawings = ["2051.1P", "2052.1P", "2053.1P"].map((name) => join(library, `components/${name}.dxf`));
+  writeFileSync(join(place, "pathbuild.toml"), "feed = 150\nrapid = 1000\nsweep-height = 20\n[limits]\nseconds-per-path = 1\n");
+  await page.setInputFiles("#drawings", [...drawings, join(place, "pathbuild.toml")]);
+  await checked(page, 3);
+  await page.waitForSelector("#filter-errors");
+  assert.equal(await text(page, "#filter-errors"), "errors 1");
+  assert.equal(await text(page, "#filter-ok"), "ok 2");
+  await page.fill("#search", "2052");
+  await page.locator(".item").first().click();
+  await page.waitForFunction((code) => document.getElementById("findings").textContent.includes(code), code);
+  await shot(page, `web-${code}`);
+  await page.keyboard.press("Escape");
+  await page.fill("#search", "2053");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => document.getElementById("title").textContent === "2053.1P");
+  assert.deepEqual(Object.keys(await downloaded(page, "#download")), ["2053.1P_Milling.gcode"]);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+
+/** A drawing of a path that embeds the one before it; the first one mills a line. */
+function level(number) {
+  const layer = `${1000 + number}.1P`;
+  const line = (kind, x1, y1, x2, y2) => `0 LINE 8 ${layer} 6 ${kind} 10 ${x1} 20 ${y1} 11 ${x2} 21 ${y2}`;
+  const circle = (x, y, radius, kind) => `0 CIRCLE 8 ${layer} 6 ${kind} 10 ${x} 20 ${y} 40 ${radius}`;
+  const words = (x, y, said) => [`0 TEXT 8 ${layer} 10 ${x} 20 ${y} 40 2 1`, said];
+  const parts = [
+    circle(0, 0, 0.5, "PHANTOM"),
+    words(-1, 1, number === 0 ? "T5 O2 I1 B3 MX" : "T5 O2 S40 MX"),
+    line("HIDDEN", 0, 0, 20, 0),
+    line(number === 0 ? "CONTINUOUS" : "DASHDOT", 20, 0, 30, 0),
+    number === 0 ? [] : words(18.4, -0.5, `>${999 + number}.1P H1`),
+    line("HIDDEN", 30, 0, 10, 0),
+    circle(10, 0, 1, "PHANTOM"),
+  ];
+  const lines = parts.flat().flatMap((part) => (/^0 /.test(part) ? part.split(" ") : [part]));
+  return ["0", "SECTION", "2", "ENTITIES", ...lines, "0", "ENDSEC", "0", "EOF", ""].join("\n");
+}
+{
+  // Deep nesting, where stacks are small: what is written, and what is refused, is what the program itself says.
+  const deep = join(place, "deep");
+  mkdirSync(deep);
+  writeFileSync(join(deep, "pathbuild.toml"), "feed = 150\nrapid = 1000\nsweep-height = 40\n");
+  for (let number = 0; number < 40; number++) writeFileSync(join(deep, `${1000 + number}.1P.dxf`), level(number));
+  const rows = spawnSync(pathbuild, ["list", "--no-cache", "--format", "json"], { cwd: deep, encoding: "utf8" }).stdout.trim().split("\n").map((row) => JSON.parse(row));
+  const count = (state) => rows.filter((row) => row.type === "path" && row.state === state).length;
+  assert.ok(count("ok") >= 10 && count("errors") >= 20, JSON.stringify([count("ok"), count("errors")]));
+  const { page, faults } = await open();
+  await page.setInputFiles("#folder", deep);
+  await checked(page, 40);
+  await page.waitForSelector("#filter-errors");
+  assert.equal(await text(page, "#filter-ok"), `ok ${count("ok")}`);
+  assert.equal(await text(page, "#filter-errors"), `errors ${count("errors")}`);
+  await page.fill("#search", "1039");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => /PB508/.test(document.getElementById("findings").textContent));
+  await page.keyboard.press("Escape");
+  await page.fill("#search", "");
+  const programs = await downloaded(page, "#download-all");
+  assert.equal(Object.keys(programs).length, count("ok"));
+  for (const [name, bytes] of Object.entries(programs)) {
+    const own = spawnSync(pathbuild, ["emit", name.replace("_Milling.gcode", ""), "--no-cache", "-o", "-"], { cwd: deep });
+    assert.ok(own.stdout.equals(Buffer.from(bytes)), name);
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // On a telephone.
+  const { page, faults } = await open({ viewport: { width: 390, height: 800 }, colorScheme: "dark", locale: "de" });
+  await page.setInputFiles("#folder", library);
+  await page.waitForSelector("#filter-ok");
+  assert.match(await text(page, "#count"), /Pfade$/);
+  await shot(page, "web-library-390");
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await page.fill("#search", "8001.1P");
+  await page.locator(".item").first().click();
+  await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
+  await shot(page, "web-path-390");
+  await page.click("#back");
+  assert.ok(await page.locator("#library").isVisible());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+await browser.close();
+rmSync(place, { recursive: true });
+console.log("page in the browser alone: all passed");

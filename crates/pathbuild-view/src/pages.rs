@@ -1,0 +1,60 @@
+//! Several pictures as the pages of one PDF.
+
+use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref};
+use usvg::Tree;
+
+/// A page of A4 in points.
+const PAPER: [f32; 2] = [595.276, 841.89];
+
+/// By what a page's content names its picture.
+const PICTURE: Name<'static> = Name(b"S");
+
+/// A PDF whose pages are filled by pictures, each by one. What it says about itself comes first, so that it is found in the head of the file.
+pub(crate) fn joined(trees: &[Tree], metadata: &str) -> Result<Vec<u8>, String> {
+    let mut next = 1..;
+    let mut fresh = move || Ref::new(next.next().unwrap_or(i32::MAX));
+    let mut pdf = Pdf::new();
+    let (about, catalogue, all) = (fresh(), fresh(), fresh());
+    pdf.metadata(about, metadata.as_bytes());
+    let mut pages = Vec::new();
+    for tree in trees {
+        let (chunk, picture) = svg2pdf::to_chunk(tree, svg2pdf::ConversionOptions::default())
+            .map_err(|error| error.to_string())?;
+        let mut renumbered = std::collections::HashMap::new();
+        let mut number = |old: Ref| *renumbered.entry(old).or_insert_with(&mut fresh);
+        let chunk = chunk.renumber(&mut number);
+        let picture = number(picture);
+        let (page, content) = (fresh(), fresh());
+        let mut writer = pdf.page(page);
+        writer.media_box(Rect::new(0.0, 0.0, PAPER[0], PAPER[1])).parent(all).contents(content);
+        writer.resources().x_objects().pair(PICTURE, picture);
+        writer.finish();
+        let mut drawn = Content::new();
+        drawn.transform([PAPER[0], 0.0, 0.0, PAPER[1], 0.0, 0.0]).x_object(PICTURE);
+        pdf.stream(content, &drawn.finish());
+        pdf.extend(&chunk);
+        pages.push(page);
+    }
+    pdf.pages(all).count(i32::try_from(pages.len()).unwrap_or(i32::MAX)).kids(pages);
+    pdf.catalog(catalogue).pages(all).metadata(about);
+    Ok(in_order(&pdf.finish()))
+}
+
+/// The same PDF with the entries of its dictionaries that refer to objects in order: svg2pdf has them in that of a table of hashes, which is
+/// another one in each run. Order means nothing there, and no object moves.
+pub(crate) fn in_order(pdf: &[u8]) -> Vec<u8> {
+    let mut lines: Vec<&[u8]> = pdf.split_inclusive(|byte| *byte == b'\n').collect();
+    for entries in lines.chunk_by_mut(|a, b| is_entry(a) && is_entry(b)) {
+        entries.sort_unstable_by_key(|entry| (entry.len(), *entry));
+    }
+    lines.concat()
+}
+
+/// Whether a line is an entry such as `/gs12 16 0 R`.
+fn is_entry(line: &[u8]) -> bool {
+    let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    let is_number = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
+    words.next().is_some_and(|name| name.starts_with(b"/"))
+        && words.next().is_some_and(is_number)
+        && words.eq([b"0".as_slice(), b"R"])
+}

@@ -1,0 +1,164 @@
+//! The cut-out of a drawing round a place where something is wrong.
+
+use super::canvas::{Anchor, Canvas};
+use super::frame::{Frame, PageTransform, widen};
+use super::palette::{ERROR, INK, TEXT, WARNING};
+use super::room::Room;
+use super::{Shown, things};
+use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
+use pathbuild_diagnostic::Lang;
+
+/// The picture in px.
+const SIZE: Point = [420.0, 280.0];
+
+/// The least that it shows in mm, and how much more than what belongs together.
+const LEAST: f64 = 36.0;
+const AROUND: f64 = 1.4;
+
+/// A gap that is too narrow for that is shown larger: so much of it, but no less than this, in mm.
+const GAPS: f64 = 40.0;
+const NARROWEST: f64 = 4.0;
+
+/// Radius of the circle round the place, in px.
+const CIRCLE: f64 = 17.0;
+
+/// A text's place and its circle are as near as this, in mm, where the text itself is at fault.
+const NEAR: f64 = 1.0;
+
+/// Where something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// In the drawing.
+    pub at: Point,
+    /// What belongs to it: the nearest open end, where a text stands.
+    pub related: Vec<Point>,
+    /// The circle by which a text looks for its element, where it finds none: centre and radius.
+    pub circle: Option<(Point, f64)>,
+    /// Whether it is an error; else a warning.
+    pub is_error: bool,
+}
+
+/// Draws what is drawn near a place, the place circled. Only what is near is in the picture.
+pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
+    let window = window(spot);
+    let scale = SIZE[0] / (window[1][0] - window[0][0]);
+    let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
+    let near = near(scene, window);
+    let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
+    canvas.open("id=\"drawing\"");
+    things::under(&mut canvas, &near, &frame);
+    let shown = Shown { rapids: false, order: false, arrows: false, ..Shown::all(lang) };
+    let mut room = Room::default();
+    for path in &near.paths {
+        let place = frame.of_path(path);
+        circles(&mut canvas, path, spot, &place);
+        things::over(&mut canvas, path, &place, shown, &mut room);
+    }
+    canvas.close();
+    mark(&mut canvas, spot, &frame.of_drawing());
+    ruler(&mut canvas, scale);
+    canvas.finish()
+}
+
+/// The corners of what is shown: the place in the middle of what belongs to it.
+fn window(spot: &Spot) -> [Point; 2] {
+    let mut corners = None;
+    for at in spot.related.iter().chain([&spot.at]) {
+        widen(&mut corners, [*at, *at]);
+    }
+    let [low, high] = corners.unwrap_or_default();
+    let tall = SIZE[1] / SIZE[0];
+    let across = libm::hypot(high[0] - low[0], high[1] - low[1]);
+    let least = if across > 0.0 { (GAPS * across).clamp(NARROWEST, LEAST) } else { LEAST };
+    let width = ((high[0] - low[0]) * AROUND).max((high[1] - low[1]) * AROUND / tall).max(least);
+    let half = [width / 2.0, width * tall / 2.0];
+    let middle = [0, 1].map(|axis| f64::midpoint(low[axis], high[axis]));
+    [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
+}
+
+/// A scene without what lies outside: a large drawing would be in the picture of each of its findings.
+fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
+    let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
+    let is_near = |shape: &Shape| is_in(shape.extent());
+    let is_other_near = |other: &&OtherShape| match other {
+        OtherShape::Shape { shape, .. } => is_near(shape),
+        OtherShape::Text { at, height, text, .. } => {
+            let reach = height * text.chars().count().max(1) as f64;
+            is_in([[at[0] - reach, at[1] - reach], [at[0] + reach, at[1] + reach]])
+        }
+    };
+    let is_clamp_near = |clamp: &&KeepOut| clamp.outline.iter().any(is_near);
+    Scene {
+        paths: scene.paths.iter().map(|path| path_near(path, is_near, is_in)).collect(),
+        other_layers: scene.other_layers.iter().filter(is_other_near).cloned().collect(),
+        keep_outs: scene.keep_outs.iter().filter(is_clamp_near).cloned().collect(),
+        ..Scene::new(&scene.title)
+    }
+}
+
+fn path_near(
+    path: &ScenePath,
+    is_near: impl Fn(&Shape) -> bool,
+    is_in: impl Fn([Point; 2]) -> bool,
+) -> ScenePath {
+    let kept = path.elements.iter().zip(0_u32..).filter(|(element, _)| is_near(&element.shape));
+    let (elements, numbers): (Vec<_>, Vec<u32>) =
+        kept.map(|(element, number)| (element.clone(), number)).unzip();
+    let renumbered = |old: &u32| numbers.binary_search(old).ok().and_then(|new| u32::try_from(new).ok());
+    let label = |label: &Label| {
+        let [x, y] = label.at;
+        let r = label.radius;
+        is_in([[x - r, y - r], [x + r, y + r]]).then(|| Label {
+            elements: label.elements.iter().filter_map(renumbered).collect(),
+            ..label.clone()
+        })
+    };
+    ScenePath {
+        name: path.name.clone(),
+        tool: path.tool,
+        embedded: path.embedded.iter().take(1).cloned().collect(),
+        texts: path.texts.iter().filter_map(label).collect(),
+        elements,
+        ..ScenePath::default()
+    }
+}
+
+/// The circles by which texts at the place find their elements.
+fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTransform) {
+    for label in &path.texts {
+        let away = libm::hypot(label.at[0] - spot.at[0], label.at[1] - spot.at[1]);
+        if away <= label.radius + NEAR {
+            let style = format!("fill=\"none\" stroke=\"{TEXT}\" stroke-dasharray=\"3 3\"");
+            canvas.circle(place.at(label.at), label.radius * place.scale(), &style);
+        }
+    }
+}
+
+/// The place with a circle, and lines to what belongs to it.
+fn mark(canvas: &mut Canvas, spot: &Spot, place: &PageTransform) {
+    let color = if spot.is_error { ERROR } else { WARNING };
+    let at = place.at(spot.at);
+    canvas.open(&format!("id=\"finding\" fill=\"none\" stroke=\"{color}\""));
+    for related in &spot.related {
+        let to = place.at(*related);
+        canvas.line(at, to, "stroke-width=\"1.2\" stroke-dasharray=\"4 3\"");
+        canvas.circle(to, 5.0, "stroke-width=\"1.6\"");
+    }
+    if let Some((centre, radius)) = spot.circle {
+        canvas.circle(place.at(centre), radius * place.scale(), "stroke-dasharray=\"3 3\"");
+    }
+    canvas.circle(at, CIRCLE, "stroke-width=\"2.6\"");
+    canvas.circle(at, 1.5, &format!("stroke=\"none\" fill=\"{color}\""));
+    canvas.close();
+}
+
+/// A line of a round length, in the lower left corner.
+fn ruler(canvas: &mut Canvas, scale: f64) {
+    let decades = (-1..6).map(|decade| libm::pow(10.0, f64::from(decade)));
+    let lengths = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * decade));
+    let Some(length) = lengths.take_while(|length| length * scale <= SIZE[0] / 4.0).last() else { return };
+    let y = SIZE[1] - 8.0;
+    canvas.line([8.0, y], [8.0 + length * scale, y], &format!("stroke=\"{INK}\" stroke-width=\"1.5\""));
+    let text = format!("{} mm", super::legend::mm(length));
+    canvas.text([8.0, y - 4.0], 10.0, Anchor::Start, &format!("fill=\"{INK}\""), &text);
+}

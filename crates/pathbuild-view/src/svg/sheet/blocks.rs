@@ -1,0 +1,321 @@
+//! What a sheet says: checklist, facts, tables.
+
+use super::facts::{self, distinct};
+use super::flow::Block;
+use super::words::Words;
+use super::{Sheet, SheetTool};
+use crate::scene::{MoveKind, Point};
+use crate::svg::legend::mm;
+
+/// What is done before the program runs, in the order in which it is done.
+pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
+    let mut checks = vec![program(sheet, words), material(sheet, words)];
+    if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
+        let depth = mm(-deepest);
+        checks.push(words.either(
+            format!("Sacrificial plate lies under it: it is cut {depth} mm deep"),
+            format!("Opferplatte liegt darunter: sie wird {depth} mm tief angefräst"),
+        ));
+    }
+    checks.push(clamped(sheet, words));
+    checks.push(cutter(sheet, words));
+    if !sheet.starts_spindle {
+        checks.push(words.either("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
+    }
+    checks.extend(zero(sheet, words));
+    if let Some(values) = &sheet.values {
+        checks.push(words.either(
+            format!(
+                "Probing run is done, the heights are in {values}, pathbuild adjust has run without errors"
+            ),
+            format!(
+                "Abtastlauf ist gemacht, die Höhen stehen in {values}, pathbuild adjust lief ohne Fehler"
+            ),
+        ));
+    }
+    checks.push(
+        words
+            .either("Air run is done, with Z0 set higher", "Luftfahrt ist gemacht, mit höher gesetztem Z0")
+            .into(),
+    );
+    let heading = Block::Heading(words.either("Before the start", "Vor dem Start").into());
+    std::iter::once(heading).chain(checks.into_iter().map(Block::Check)).collect()
+}
+
+fn program(sheet: &Sheet, words: Words) -> String {
+    let (programs, hashes) = (sheet.programs.join(", "), &sheet.hashes);
+    words.either(
+        format!("Program {programs} is loaded; its first lines say {hashes}"),
+        format!("Programm {programs} ist geladen; in seinen ersten Zeilen steht {hashes}"),
+    )
+}
+
+fn material(sheet: &Sheet, words: Words) -> String {
+    let facts: Vec<String> = materials(sheet)
+        .into_iter()
+        .chain(
+            thicknesses(sheet).map(|thickness| {
+                words.either(format!("{thickness} mm thick"), format!("{thickness} mm dick"))
+            }),
+        )
+        .chain(size(sheet).map(|size| words.either(format!("at least {size}"), format!("mindestens {size}"))))
+        .collect();
+    let facts = facts.join(", ");
+    words.either(format!("Material lies ready: {facts}"), format!("Material liegt bereit: {facts}"))
+}
+
+fn clamped(sheet: &Sheet, words: Words) -> String {
+    let clamps = sheet.scene.keep_outs.len();
+    let highest = sheet.scene.keep_outs.iter().map(|clamp| clamp.height).reduce(f64::max);
+    match highest {
+        Some(highest) => words.either(
+            format!("Clamps ({clamps}) are where the picture has them, none higher than Z {}", mm(highest)),
+            format!("Spannpratzen ({clamps}) sitzen wie im Bild, keine höher als Z {}", mm(highest)),
+        ),
+        None => words
+            .either(
+                "Material is clamped; no clamp stands in a milled line or a rapid move",
+                "Material ist gespannt; keine Spannpratze steht in einer Fräsbahn oder einem Eilgang",
+            )
+            .into(),
+    }
+}
+
+fn cutter(sheet: &Sheet, words: Words) -> String {
+    match sheet.tools.as_slice() {
+        [tool] => {
+            let tool = tool_text(tool, words).join(", ");
+            words.either(
+                format!("Cutter is in and sharp: {tool}"),
+                format!("Fräser sitzt und ist scharf: {tool}"),
+            )
+        }
+        tools => {
+            let count = tools.len();
+            words.either(
+                format!("Cutters ({count}) are in the places of the table, their lengths are set"),
+                format!("Fräser ({count}) sitzen an den Plätzen der Tabelle, ihre Längen sind gesetzt"),
+            )
+        }
+    }
+}
+
+/// Where the zero point lies.
+fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
+    let mut checks = Vec::new();
+    if let Some([low, _]) = facts::cleared(sheet) {
+        let (across, up) = (words.beside(low[0], true), words.beside(low[1], false));
+        checks.push(words.either(
+            format!("X0 Y0 is set (G54): {across} and {up} of the dashed rectangle"),
+            format!("X0 Y0 ist gesetzt (G54): {across} und {up} des gestrichelten Rechtecks"),
+        ));
+    }
+    let top = thicknesses(sheet).unwrap_or_default();
+    checks.push(words.either(
+        format!("Z0 is set on the face that the material lies on; its upper face is at Z {top}"),
+        format!(
+            "Z0 ist auf der Fläche gesetzt, auf der das Material liegt; dessen Oberseite ist bei Z {top}"
+        ),
+    ));
+    checks
+}
+
+/// What has to be known while it runs.
+pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
+    let mut facts = Facts { words, blocks: Vec::new() };
+    facts.heading("Material", "Material");
+    facts.fact("M", "M", materials(sheet));
+    facts.fact("T", "T", thicknesses(sheet).map(|thickness| format!("{thickness} mm")));
+    facts.fact("at least", "mindestens", size(sheet));
+    if let [tool] = sheet.tools.as_slice() {
+        facts.heading("Cutter", "Fräser");
+        facts.fact("O", "O", Some(format!("Ø {} mm", mm(tool.diameter))));
+        facts.fact("number T", "Nummer T", tool.number.map(|number| number.to_string()));
+        facts.fact("name", "Name", tool.name.clone());
+        facts.fact("spindle", "Spindel", spindle(tool, words));
+    }
+    facts.heading("Feeds in mm/min", "Vorschübe in mm/min");
+    let feeds = |is_meant: fn(MoveKind) -> bool| listed(&facts::feeds(sheet, is_meant));
+    facts.fact("milling", "Fräsen", feeds(|kind| kind == MoveKind::Mill));
+    facts.fact("marking", "Markieren", feeds(|kind| kind == MoveKind::Mark));
+    facts.fact("plunging", "Eintauchen", feeds(|kind| kind == MoveKind::Plunge));
+    facts.fact("rapid", "Eilgang", sheet.rapid.map(mm));
+    facts.heading("Way of the cutter's tip", "Weg der Fräserspitze");
+    for (axis, extent) in ["X", "Y", "Z"].into_iter().zip(sheet.cutting_box) {
+        let range = |(low, high)| {
+            words.either(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
+        };
+        facts.fact(axis, axis, extent.map(range));
+    }
+    facts.fact("deepest", "am tiefsten", sheet.cutting_box[2].map(|(low, _)| format!("Z {}", mm(low))));
+    let rapids = facts::rapid_heights(sheet);
+    facts.fact("lowest rapid", "tiefster Eilgang", rapids.lowest().map(|z| format!("Z {}", mm(z))));
+    facts.fact("rapid across", "Eilgang quer", listed(&rapids.across).map(|it| format!("Z {it}")));
+    facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));
+    facts.fact("length", "Länge", Some(format!("{:.0} mm", sheet.length)));
+    facts.fact("time", "Zeit", sheet.minutes.map(|minutes| format!("{minutes:.0} min")));
+    facts.blocks
+}
+
+struct Facts {
+    words: Words,
+    blocks: Vec<Block>,
+}
+
+impl Facts {
+    fn heading(&mut self, en: &str, de: &str) {
+        self.blocks.push(Block::Heading(self.words.either(en, de).into()));
+    }
+
+    fn fact(&mut self, en: &str, de: &str, value: Option<String>) {
+        let name = self.words.either(en, de).to_owned();
+        self.blocks.extend(value.map(|value| Block::Fact(name, value)));
+    }
+}
+
+/// What is too much for the first page.
+pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {
+        if rows.is_empty() {
+            return;
+        }
+        let head: Vec<String> = head.iter().map(|&text| text.to_owned()).collect();
+        blocks.push(Block::Heading(heading.to_owned()));
+        blocks.extend(rows.into_iter().map(|cells| Block::Row { cells, shares, head: head.clone() }));
+    };
+    table(
+        words.either("Z-probes", "Z-Proben"),
+        &[0.09, 0.37, 0.12, 0.12, 0.12, 0.18],
+        &[
+            "#",
+            words.either("in the file of values", "in der Wertedatei"),
+            "X",
+            "Y",
+            words.either("drawn Z", "Z gezeichnet"),
+            words.either("measured", "gemessen"),
+        ],
+        probes(sheet),
+    );
+    table(
+        words.either("Clamps", "Spannpratzen"),
+        &[0.34, 0.24, 0.24, 0.18],
+        &[words.either("layer", "Layer"), "X", "Y", words.either("up to Z", "bis Z")],
+        clamps(sheet, words),
+    );
+    if sheet.tools.len() > 1 {
+        table(
+            words.either("Cutters", "Fräser"),
+            &[0.1, 0.12, 0.22, 0.24, 0.32],
+            &[
+                "T",
+                "Ø mm",
+                words.either("name", "Name"),
+                words.either("spindle", "Spindel"),
+                words.either("paths", "Pfade"),
+            ],
+            sheet.tools.iter().map(|tool| tool_row(tool, words)).collect(),
+        );
+    }
+    table(
+        words.either("Embedded paths", "Eingebettete Pfade"),
+        &[0.34, 0.14, 0.52],
+        &["", words.either("times", "Anzahl"), words.either("drawing", "Zeichnung")],
+        embedded(sheet),
+    );
+    blocks
+}
+
+fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
+    let row = |probe: &super::SheetProbe| {
+        vec![
+            format!("#{}", probe.number),
+            probe.name.clone(),
+            mm(probe.at[0]),
+            mm(probe.at[1]),
+            mm(probe.height),
+            // Who measures writes behind it, and later in the file.
+            "=".to_owned(),
+        ]
+    };
+    sheet.probes.iter().map(row).collect()
+}
+
+fn clamps(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
+    let to = words.either("to", "bis");
+    let row = |clamp: &crate::scene::KeepOut| {
+        let [low, high]: [Point; 2] = facts::outline(clamp);
+        let range = |axis: usize| format!("{} {to} {}", mm(low[axis]), mm(high[axis]));
+        vec![clamp.layer.clone(), range(0), range(1), mm(clamp.height)]
+    };
+    sheet.scene.keep_outs.iter().map(row).collect()
+}
+
+fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
+    vec![
+        tool.number.map(|number| number.to_string()).unwrap_or_default(),
+        mm(tool.diameter),
+        tool.name.clone().unwrap_or_default(),
+        spindle(tool, words).unwrap_or_default(),
+        tool.paths.join(", "),
+    ]
+}
+
+/// Each embedded path with how often it is embedded.
+fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
+    let all = || sheet.scene.paths.iter().flat_map(|path| path.embedded.iter().skip(1));
+    let each = distinct(all().map(|it| (&it.name, &it.file)));
+    let row = |(name, file): (&String, &String)| {
+        let times = all().filter(|it| (&it.name, &it.file) == (name, file)).count();
+        let file = file.rsplit('/').next().unwrap_or_default();
+        vec![name.clone(), times.to_string(), file.to_owned()]
+    };
+    each.into_iter().map(row).collect()
+}
+
+/// A cutter: what it is, then its speed.
+fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
+    let number = tool.number.map(|number| format!("T{number} "));
+    let name = tool.name.as_ref().map(|name| format!(" ({name})"));
+    let what =
+        format!("{}Ø {} mm{}", number.unwrap_or_default(), mm(tool.diameter), name.unwrap_or_default());
+    std::iter::once(what).chain(spindle(tool, words)).collect()
+}
+
+fn spindle(tool: &SheetTool, words: Words) -> Option<String> {
+    let speed =
+        tool.speed.map(|speed| words.either(format!("{} rpm", mm(speed)), format!("{} 1/min", mm(speed))));
+    let way = tool.clockwise.map(|clockwise| {
+        if clockwise {
+            words.either("clockwise", "im Uhrzeigersinn")
+        } else {
+            words.either("counterclockwise", "gegen den Uhrzeigersinn")
+        }
+    });
+    let texts: Vec<String> = speed.into_iter().chain(way.map(str::to_owned)).collect();
+    (!texts.is_empty()).then(|| texts.join(" "))
+}
+
+fn materials(sheet: &Sheet) -> Option<String> {
+    let materials = distinct(sheet.scene.paths.iter().filter_map(|path| path.material.clone()));
+    (!materials.is_empty()).then(|| materials.join(" / "))
+}
+
+fn thicknesses(sheet: &Sheet) -> Option<String> {
+    listed(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
+}
+
+/// What the cutters take away, across and up.
+fn size(sheet: &Sheet) -> Option<String> {
+    let [low, high] = facts::cleared(sheet)?;
+    Some(format!("{} × {} mm", mm(high[0] - low[0]), mm(high[1] - low[1])))
+}
+
+/// Numbers; of many the first and the last.
+fn listed(numbers: &[f64]) -> Option<String> {
+    match numbers {
+        [] => None,
+        [first, .., last] if numbers.len() > 4 => Some(format!("{} … {}", mm(*first), mm(*last))),
+        numbers => Some(numbers.iter().copied().map(mm).collect::<Vec<_>>().join(" / ")),
+    }
+}

@@ -1,0 +1,94 @@
+//! What moves and clamps come to, in numbers.
+
+use super::Sheet;
+use crate::scene::{KeepOut, Move, MoveKind, Point, Shape};
+use crate::svg::frame::widen;
+
+/// Lowest and highest corner.
+pub(super) type Corners = [Point; 2];
+
+/// What the cutters take away, seen from above; `None` where nothing is cut.
+pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
+    let mut corners = None;
+    for path in &sheet.scene.paths {
+        let radius = path.tool.unwrap_or_default() / 2.0;
+        let cuts = path.moves.iter().filter(|it| it.kind.cuts()).filter_map(Move::extent);
+        for [low, high] in cuts {
+            widen(&mut corners, [low.map(|it| it - radius), high.map(|it| it + radius)]);
+        }
+    }
+    corners
+}
+
+/// Everything that the picture shows.
+pub(super) fn seen(sheet: &Sheet) -> Corners {
+    let mut corners = cleared(sheet);
+    widen(&mut corners, [[0.0; 2]; 2]);
+    for path in &sheet.scene.paths {
+        for extent in path.moves.iter().filter_map(Move::extent) {
+            widen(&mut corners, extent);
+        }
+    }
+    for at in sheet.probes.iter().map(|probe| probe.at) {
+        widen(&mut corners, [at, at]);
+    }
+    for clamp in &sheet.scene.keep_outs {
+        widen(&mut corners, outline(clamp));
+    }
+    corners.unwrap_or_default()
+}
+
+/// The corners of a clamp.
+pub(super) fn outline(clamp: &KeepOut) -> Corners {
+    let mut corners = None;
+    for extent in clamp.outline.iter().map(Shape::extent) {
+        widen(&mut corners, extent);
+    }
+    corners.unwrap_or_default()
+}
+
+/// The feeds in mm/min of moves of some kinds, from slow to fast.
+pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
+    let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
+    let mut feeds: Vec<f64> =
+        moves.filter(|it| is_meant(it.kind)).filter_map(|it| it.way.pace.feed()).collect();
+    feeds.sort_by(f64::total_cmp);
+    feeds.dedup();
+    feeds
+}
+
+/// At which Z the tool goes rapidly.
+#[derive(Debug, PartialEq)]
+pub(super) struct RapidHeights {
+    /// In the plane, from low to high.
+    pub(super) across: Vec<f64>,
+    /// The lowest end of those that go straight down.
+    pub(super) down: Option<f64>,
+}
+
+impl RapidHeights {
+    pub(super) fn lowest(&self) -> Option<f64> {
+        self.across.iter().copied().chain(self.down).reduce(f64::min)
+    }
+}
+
+pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
+    let moves = || sheet.scene.paths.iter().flat_map(|path| &path.moves);
+    let sweeps = moves().filter(|it| it.kind == MoveKind::Sweep);
+    let mut across: Vec<f64> = sweeps.filter_map(Move::depth).collect();
+    across.sort_by(f64::total_cmp);
+    across.dedup();
+    let lifts = moves().filter(|it| it.kind == MoveKind::Lift && it.way.to.z() < it.way.from.z());
+    RapidHeights { across, down: lifts.map(|it| it.way.to.z()).reduce(f64::min) }
+}
+
+/// The values that paths have, each once, in order of the paths.
+pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut distinct = Vec::new();
+    for value in values {
+        if !distinct.contains(&value) {
+            distinct.push(value);
+        }
+    }
+    distinct
+}

@@ -1,0 +1,180 @@
+//! Blocks of text laid into columns and onto pages.
+
+use super::page::Item;
+use crate::scene::Point;
+
+/// Size of letters, and from one line to the next, in units of the page.
+pub(super) const LETTERS: f64 = 10.0;
+pub(super) const LINE: f64 = 13.5;
+
+/// Space above a heading, and below a block.
+const ABOVE_HEADING: f64 = 8.0;
+const BELOW: f64 = 2.5;
+
+/// Where the text of a checklist begins, right of its boxes.
+const INDENT: f64 = 17.0;
+
+/// Share of a column that the names of facts have.
+const NAMES: f64 = 0.45;
+
+/// The share of a line that is empty between two cells of a row.
+const GAP: f64 = 6.0;
+
+/// A piece of text that stands together.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Block {
+    /// Over what follows.
+    Heading(String),
+    /// Something to do, with a box to tick.
+    Check(String),
+    /// A name and what it is.
+    Fact(String, String),
+    /// A row of a table, in cells of shares of the width. On a new page its head is repeated.
+    Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String> },
+}
+
+/// A part of a page.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Column {
+    pub(super) left: f64,
+    pub(super) width: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+}
+
+/// Lays as many blocks into a column as it holds; those that are left, and where the last one ends. One is always laid, so that there is an
+/// end.
+pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>) -> (&'b [Block], f64) {
+    let mut y = column.top;
+    let mut head: Option<&[String]> = None;
+    for (index, block) in blocks.iter().enumerate() {
+        let mut laid = Vec::new();
+        let mut below = y;
+        if let Block::Row { shares, head: wanted, .. } = block
+            && head != Some(wanted)
+        {
+            below = row(wanted, shares, column, below, true, &mut laid);
+            head = Some(wanted);
+        }
+        below = block.lay(column, below, index == 0, &mut laid);
+        // A heading stands with what it is over.
+        let room = match block {
+            Block::Heading(_) => below + 3.0 * LINE,
+            _ => below,
+        };
+        if room > column.bottom && index > 0 {
+            return (&blocks[index..], y);
+        }
+        items.append(&mut laid);
+        y = below;
+    }
+    (&[], y)
+}
+
+impl Block {
+    /// Lays a block below a height; where it ends.
+    fn lay(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
+        match self {
+            Self::Heading(text) => {
+                let y = top + if is_first { 0.0 } else { ABOVE_HEADING } + LETTERS;
+                items.push(Item::text([column.left, y], LETTERS + 1.0, text).bold());
+                let line = y + 3.5;
+                items.push(Item::rule([column.left, line], [column.left + column.width, line]));
+                line + 4.0
+            }
+            Self::Check(text) => {
+                items.push(Item::Tick([column.left, top + 1.0]));
+                lines(text, column.left + INDENT, column.width - INDENT, top, items) + BELOW
+            }
+            Self::Fact(name, value) => {
+                let names = column.width * NAMES;
+                let left = lines(name, column.left, names - GAP, top, items);
+                let right = lines(value, column.left + names, column.width - names, top, items);
+                left.max(right)
+            }
+            Self::Row { cells, shares, .. } => row(cells, shares, column, top, false, items),
+        }
+    }
+}
+
+/// Lays a row; where it ends.
+fn row(
+    cells: &[String],
+    shares: &[f64],
+    column: Column,
+    top: f64,
+    is_head: bool,
+    items: &mut Vec<Item>,
+) -> f64 {
+    let mut left = column.left;
+    let mut bottom = top + LINE;
+    let first = items.len();
+    for (cell, share) in cells.iter().zip(shares) {
+        let width = share * column.width;
+        bottom = bottom.max(lines(cell, left, width - GAP, top + 3.0, items));
+        left += width;
+    }
+    if is_head {
+        items[first..].iter_mut().for_each(Item::make_bold);
+    }
+    bottom += 3.5;
+    items.push(Item::rule([column.left, bottom], [column.left + column.width, bottom]));
+    bottom
+}
+
+/// Lays the lines of a text below a height; where they end.
+fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> f64 {
+    let mut y = top;
+    for line in wrapped(text, width, LETTERS) {
+        items.push(Item::text([left, y + LETTERS], LETTERS, &line));
+        y += LINE;
+    }
+    y
+}
+
+/// A text broken at blanks, and where it has none within words, so that no line is wider than that.
+pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("there is a line always");
+        if last.is_empty() || breadth(last, size) + breadth(word, size) + 0.32 * size > width {
+            if !last.is_empty() {
+                lines.push(String::new());
+            }
+        } else {
+            last.push(' ');
+        }
+        for letter in word.chars() {
+            let last = lines.last_mut().expect("there is a line always");
+            if !last.is_empty() && breadth(last, size) + advance(letter) * size > width {
+                lines.push(String::new());
+            }
+            lines.last_mut().expect("there is a line always").push(letter);
+        }
+    }
+    lines
+}
+
+/// How wide a text is at most.
+pub(super) fn breadth(text: &str, size: f64) -> f64 {
+    text.chars().map(advance).sum::<f64>() * size
+}
+
+/// How wide a letter is, in letters' sizes: classes of the font are enough to break lines.
+fn advance(letter: char) -> f64 {
+    match letter {
+        ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,
+        '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' => 0.42,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' | '→' | '×' => 1.0,
+        '0'..='9' | 'a'..='z' | '_' | 'ä' | 'ö' | 'ü' | 'ß' => 0.64,
+        'A'..='Z' | 'Ä' | 'Ö' | 'Ü' | '#' | 'Ø' | '…' | '<' | '>' => 0.84,
+        _ => 1.0,
+    }
+}
+
+/// Where a column is on a page.
+impl Column {
+    pub(super) fn new([left, top]: Point, [right, bottom]: Point) -> Self {
+        Self { left, width: right - left, top, bottom }
+    }
+}

@@ -1,0 +1,160 @@
+//! The sheet of a program for who stands at the machine: pages of A4, the first with picture and checklist. (book: program/sheet)
+//!
+//! [`Sheet`] is the data; it is written in blocks, these are laid on [`Page`]s, and pages are drawn as SVG.
+
+mod blocks;
+mod facts;
+mod flow;
+mod measures;
+mod page;
+mod picture;
+mod words;
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::Lang;
+
+use crate::scene::{Point, Scene};
+use crate::svg::canvas::escaped;
+
+/// A page in mm.
+pub(super) const PAPER: Point = [210.0, 297.0];
+
+/// Units of a page's SVG for a mm of paper: letters of 10 units have 9.4 pt.
+pub(super) const UNITS: f64 = 3.0;
+
+/// Everything that a sheet says. Lengths are mm.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The path's name; of joined paths the name that they were given.
+    pub title: String,
+    /// The drawings of the paths, without directories.
+    pub drawings: Vec<String>,
+    /// The names of the programs that the machine runs, in order.
+    pub programs: Vec<String>,
+    /// The file for measured heights.
+    pub values: Option<String>,
+    /// The line of provenance in the programs' headers, and the title behind it.
+    pub head: [String; 2],
+    /// The hashes of that line.
+    pub hashes: String,
+    /// What there is to see, in the coordinates of the program.
+    pub scene: Scene,
+    /// The cutters in the order in which they are needed.
+    pub tools: Vec<SheetTool>,
+    /// Whether the program starts the spindle.
+    pub starts_spindle: bool,
+    /// Lowest and highest X, Y, Z of the cutter's tip while it cuts.
+    pub cutting_box: [Option<(f64, f64)>; 3],
+    /// How long the program is.
+    pub length: f64,
+    /// How long it takes; `None` where the rapid feed is not known.
+    pub minutes: Option<f64>,
+    /// Rapid feed in mm/min.
+    pub rapid: Option<f64>,
+    /// Z-probes in the order in which they are measured.
+    pub probes: Vec<SheetProbe>,
+}
+
+/// A cutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetTool {
+    /// Its diameter O.
+    pub diameter: f64,
+    /// Its place in the machine, T.
+    pub number: Option<u32>,
+    /// Its name in the configuration.
+    pub name: Option<String>,
+    /// Revolutions a minute.
+    pub speed: Option<f64>,
+    /// Whether it turns clockwise.
+    pub clockwise: Option<bool>,
+    /// The paths that are milled with it.
+    pub paths: Vec<String>,
+}
+
+/// A point that is measured before milling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetProbe {
+    /// The parameter that holds its height: 51 for #51.
+    pub number: usize,
+    /// What stands before it in the file of values.
+    pub name: String,
+    /// Where it is in the program.
+    pub at: Point,
+    /// The height that is expected.
+    pub height: f64,
+}
+
+/// The pages, each an SVG file of its own.
+pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
+    page::drawn(sheet, lang)
+}
+
+/// All pages in one SVG file, one below the other.
+pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
+    let pages = sheet_pages(sheet, lang);
+    let [width, height] = [PAPER[0], PAPER[1] * pages.len() as f64];
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n"
+    );
+    text.push_str(&metadata(&sheet.head));
+    for (index, page) in pages.iter().enumerate() {
+        let top = PAPER[1] * index as f64;
+        text.push_str(&page.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1).replace("mm\"", "\""));
+    }
+    text + "</svg>\n"
+}
+
+/// All pages in one HTML file, to look at and to print.
+pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
+    let code = match lang {
+        Lang::En => "en",
+        Lang::De => "de",
+    };
+    let mut text = format!("<!doctype html>\n<html lang=\"{code}\">\n<meta charset=\"utf-8\">\n");
+    text.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n");
+    _ = writeln!(text, "<title>{}</title>", escaped(&sheet.title));
+    _ = writeln!(
+        text,
+        "<svg width=\"0\" height=\"0\" style=\"display:none\">{}</svg>",
+        metadata(&sheet.head)
+    );
+    text.push_str(STYLE);
+    for page in sheet_pages(sheet, lang) {
+        text.push_str(&page);
+    }
+    text + "</html>\n"
+}
+
+/// By which a sheet is traced, as in the head of a program: two lines.
+pub(crate) fn metadata(head: &[String; 2]) -> String {
+    let [provenance, title] = head.each_ref().map(|line| escaped(line));
+    format!("<metadata>\n{provenance}\n{title}\n</metadata>\n")
+}
+
+/// The same for a PDF.
+#[cfg(feature = "pictures")]
+pub(crate) fn xmp(head: &[String; 2]) -> String {
+    let [provenance, title] = head.each_ref().map(|line| escaped(line));
+    format!(
+        "<?xpacket begin=\"\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\">\n<dc:description><rdf:Alt><rdf:li xml:lang=\"x-default\">\n{provenance}\n{title}\n</rdf:li></rdf:Alt></dc:description>\n</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"r\"?>"
+    )
+}
+
+/// Says what is missing.
+///
+/// # Errors
+/// Always: PDF is a part of the feature `pictures`.
+#[cfg(not(feature = "pictures"))]
+pub fn sheet_pdf(_: &Sheet, _: Lang) -> Result<Vec<u8>, String> {
+    Err("this pathbuild was built without the feature `pictures`: .html and .svg are left".to_owned())
+}
+
+const STYLE: &str = "<style>
+@page { size: A4 portrait; margin: 0 }
+body { margin: 0; background: #d5dadf }
+svg { display: block; margin: 4mm auto; background: #fff }
+@media print { body { background: none } svg { margin: 0; break-after: page } svg:last-of-type { break-after: auto } }
+</style>
+";

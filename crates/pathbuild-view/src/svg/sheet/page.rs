@@ -1,0 +1,212 @@
+//! Pages: items at places, drawn as SVG.
+
+use pathbuild_diagnostic::Lang;
+
+use super::blocks;
+use super::flow::{Block, Column, LETTERS, breadth, lay, wrapped};
+use super::picture::{self, Placed};
+use super::words::Words;
+use super::{PAPER, Sheet, UNITS};
+use crate::scene::Point;
+use crate::svg::canvas::{Anchor, Canvas, n};
+use crate::svg::palette::{INK, OTHER, TEXT};
+
+/// The page in units, and its margins.
+pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
+pub(super) const LEFT: f64 = 39.0;
+pub(super) const RIGHT: f64 = SIZE[0] - 33.0;
+const TOP: f64 = 36.0;
+const FOOT: f64 = SIZE[1] - 30.0;
+const BOTTOM: f64 = FOOT - 16.0;
+
+/// Where text begins below the title.
+const BELOW_TITLE: f64 = TOP + 32.0;
+
+/// How high the picture of the first page is at most: checklist and facts have the rest.
+pub(super) const PICTURE: f64 = 440.0;
+
+/// Between the columns of the first page.
+const GUTTER: f64 = 18.0;
+
+/// A table begins on the first page if it has so much room there.
+const ROOM_FOR_TABLE: f64 = 90.0;
+
+/// Share of the first page's width that the checklist has.
+const CHECKLIST: f64 = 0.54;
+
+/// A page: what stands where.
+#[derive(Debug, Default)]
+pub(super) struct Page {
+    pub(super) items: Vec<Item>,
+    pub(super) picture: Option<Placed>,
+}
+
+/// Something on a page.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Item {
+    Text {
+        at: Point,
+        size: f64,
+        text: String,
+        is_bold: bool,
+    },
+    Rule {
+        from: Point,
+        to: Point,
+    },
+    /// A box to tick, by its upper left corner.
+    Tick(Point),
+}
+
+impl Item {
+    pub(super) fn text(at: Point, size: f64, text: &str) -> Self {
+        Self::Text { at, size, text: text.to_owned(), is_bold: false }
+    }
+
+    pub(super) fn rule(from: Point, to: Point) -> Self {
+        Self::Rule { from, to }
+    }
+
+    pub(super) fn bold(mut self) -> Self {
+        self.make_bold();
+        self
+    }
+
+    pub(super) fn make_bold(&mut self) {
+        if let Self::Text { is_bold, .. } = self {
+            *is_bold = true;
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas) {
+        match self {
+            Self::Text { at, size, text, is_bold } => {
+                let weight = if *is_bold { " font-weight=\"bold\"" } else { "" };
+                canvas.text(*at, *size, Anchor::Start, &format!("fill=\"{INK}\"{weight}"), text);
+            }
+            Self::Rule { from, to } => {
+                canvas.line(*from, *to, &format!("stroke=\"{OTHER}\" stroke-width=\"0.8\""));
+            }
+            Self::Tick([x, y]) => canvas.raw(&format!(
+                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK}\"/>",
+                n(*x),
+                n(*y)
+            )),
+        }
+    }
+}
+
+/// The pages of a sheet as SVG.
+pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
+    let pages = pages(sheet, Words(lang));
+    let count = pages.len();
+    let drawn = pages.iter().enumerate().map(|(index, page)| {
+        let text = page.draw(sheet, lang, index, count);
+        if index == 0 {
+            return text;
+        }
+        // Pages may come to stand in one document, in which a name is given once. Quotes within texts are escaped.
+        let number = index + 1;
+        text.replace("id=\"", &format!("id=\"p{number}-")).replace("url(#", &format!("url(#p{number}-"))
+    });
+    drawn.collect()
+}
+
+/// Lays everything onto pages.
+pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
+    let mut first = Page::default();
+    let placed = picture::first(sheet, Column::new([LEFT, BELOW_TITLE], [RIGHT, BELOW_TITLE + PICTURE]));
+    let top = placed.bottom() + 6.0;
+    let is_whole = placed.is_whole();
+    first.picture = Some(placed);
+    let middle = LEFT + (RIGHT - LEFT) * CHECKLIST;
+    let left = Column::new([LEFT, top], [middle, BOTTOM]);
+    let right = Column::new([middle + GUTTER, top], [RIGHT, BOTTOM]);
+    let (checks, facts) = (blocks::checklist(sheet, words), blocks::facts(sheet, words));
+    let mut rest: Vec<Block> = Vec::new();
+    let mut below = top;
+    for (blocks, column) in [(&checks, left), (&facts, right)] {
+        let (open, bottom) = lay(blocks, column, &mut first.items);
+        rest.extend_from_slice(open);
+        below = below.max(bottom);
+    }
+    let has_room = rest.is_empty() && below + ROOM_FOR_TABLE < BOTTOM;
+    rest.extend(blocks::tables(sheet, words));
+    let mut rest: &[Block] = &rest;
+    if has_room {
+        let column = Column::new([LEFT, below + 12.0], [RIGHT, BOTTOM]);
+        rest = lay(rest, column, &mut first.items).0;
+    }
+    let mut pages = vec![first];
+    while !rest.is_empty() {
+        let mut page = Page::default();
+        let column = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
+        rest = lay(rest, column, &mut page.items).0;
+        pages.push(page);
+    }
+    if !is_whole {
+        let area = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
+        pages.extend(
+            picture::larger(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }),
+        );
+    }
+    pages
+}
+
+impl Page {
+    fn draw(&self, sheet: &Sheet, lang: Lang, index: usize, count: usize) -> String {
+        let mut canvas = Canvas::paper(PAPER, SIZE);
+        let words = Words(lang);
+        if let Some(picture) = &self.picture {
+            picture.draw(&mut canvas, sheet, lang);
+        }
+        for item in title(sheet, words) {
+            item.draw(&mut canvas);
+        }
+        for item in &self.items {
+            item.draw(&mut canvas);
+        }
+        foot(&mut canvas, sheet, words, index + 1, count);
+        canvas.finish()
+    }
+}
+
+/// The name of the program, and what it was drawn in.
+fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
+    let (size, width) = (20.0, (RIGHT - LEFT) * 0.62);
+    let name = wrapped(&sheet.title, width, size);
+    let name = if name.len() > 1 { format!("{}…", name[0]) } else { name[0].clone() };
+    let drawings = sheet.drawings.join(", ");
+    let beside = LEFT + breadth(&name, size) + 14.0;
+    let drawings = words.either(format!("drawing {drawings}"), format!("Zeichnung {drawings}"));
+    let lines = wrapped(&drawings, RIGHT - beside, LETTERS);
+    let first = if lines.len() > 1 { format!("{}…", lines[0]) } else { lines[0].clone() };
+    vec![
+        Item::text([LEFT, TOP + 14.0], size, &name).bold(),
+        Item::text([beside, TOP + 14.0], LETTERS, &first),
+        Item::rule([LEFT, TOP + 21.0], [RIGHT, TOP + 21.0]),
+    ]
+}
+
+/// By what a page is known when it lies alone, and a measure that tells whether the printer kept the scale.
+fn foot(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
+    let page = words.either(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
+    let text = format!("{} · {page}", sheet.hashes);
+    canvas.text([LEFT, FOOT + 8.0], 9.0, Anchor::Start, &format!("fill=\"{TEXT}\""), &text);
+    let ruler = words.either("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
+    let end = RIGHT - 50.0 * UNITS;
+    let y = FOOT + 4.0;
+    canvas.path(
+        &format!(
+            "M{l} {t}V{b}M{l} {y}H{r}M{r} {t}V{b}",
+            l = n(end),
+            r = n(RIGHT),
+            t = n(y - 4.0),
+            b = n(y + 4.0),
+            y = n(y)
+        ),
+        &format!("fill=\"none\" stroke=\"{INK}\""),
+    );
+    let style = format!("fill=\"{TEXT}\" text-anchor=\"end\"");
+    canvas.text([end - 6.0, FOOT + 8.0], 9.0, Anchor::Start, &style, ruler);
+}

@@ -1,0 +1,226 @@
+//! The picture: true to scale where the paper holds it, else at a round scale that is named.
+
+use pathbuild_diagnostic::Lang;
+
+use super::facts::{Corners, cleared, seen};
+use super::flow::Column;
+use super::words::Words;
+use super::{Sheet, UNITS, measures};
+use crate::scene::{Point, Scene};
+use crate::svg::canvas::{Anchor, Canvas, n};
+use crate::svg::frame::Frame;
+use crate::svg::palette::{Depths, INK, PROBE, TEXT};
+use crate::svg::room::Room;
+use crate::svg::{Shown, legend, marks, moves, things};
+
+/// Round the drawing, in units: measures stand left and below, their ends' numbers right.
+const LEFT: f64 = 56.0;
+const RIGHT: f64 = 46.0;
+const ABOVE: f64 = 18.0;
+const BELOW: f64 = 50.0;
+
+/// Scale, kinds of lines, depths.
+const LEGEND: f64 = 54.0;
+
+/// What takes less than this share of the room is shown larger, with its true size beside it.
+const SMALL: f64 = 0.34;
+
+/// The least that is shown, in mm, round what has no extent.
+const LEAST: f64 = 4.0;
+
+/// A picture on a page.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    area: Column,
+    corners: Corners,
+    scale: Scale,
+    /// Whether the true size stands beside it.
+    has_inset: bool,
+    height: f64,
+    /// Where the lower left corner lies of a picture that is turned, with its right side up.
+    turned: Option<Point>,
+}
+
+/// Mm of paper for a mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Scale(f64);
+
+impl Scale {
+    /// The largest round scale at which this share of a mm has room.
+    fn within(limit: f64) -> Self {
+        const STEPS: [f64; 4] = [1.0, 2.0, 2.5, 5.0];
+        let decades = (0..9).map(|decade| libm::pow(10.0, f64::from(decade)));
+        let reductions = decades.flat_map(|decade| STEPS.map(|step| step * decade));
+        let enlargements = [100.0, 50.0, 20.0, 10.0, 5.0, 2.0];
+        let all = enlargements.into_iter().chain(reductions.map(|step| 1.0 / step));
+        Self(all.into_iter().find(|scale| *scale <= limit).unwrap_or(limit))
+    }
+
+    fn text(self) -> String {
+        let mm = legend::mm;
+        if self.0 >= 1.0 { format!("{}:1", mm(self.0)) } else { format!("1:{}", mm(1.0 / self.0)) }
+    }
+}
+
+/// The picture of the first page: at true scale if it has room there.
+pub(super) fn first(sheet: &Sheet, area: Column) -> Placed {
+    let corners = padded(seen(sheet));
+    let limit = limit(corners, area);
+    let is_small = limit * SMALL >= 1.0;
+    let limit = if is_small { limit_beside(corners, area) } else { limit.min(1.0) };
+    Placed::new(area, corners, Scale::within(limit), is_small)
+}
+
+/// The same as large as a whole page holds it, if that is larger: at true scale at most.
+pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<Placed> {
+    let upright = first(sheet, area);
+    let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
+    let turned = Placed { turned: Some([area.left, area.bottom]), ..first(sheet, beneath) };
+    let placed = if turned.scale.0 > upright.scale.0 { turned } else { upright };
+    let on_first = first(sheet, Column { bottom: area.top + super::page::PICTURE, ..area });
+    (placed.scale.0 > on_first.scale.0).then_some(placed)
+}
+
+fn padded([mut low, mut high]: Corners) -> Corners {
+    for axis in [0, 1] {
+        let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
+        low[axis] -= missing;
+        high[axis] += missing;
+    }
+    [low, high]
+}
+
+/// Mm of paper for a mm at which the corners fill the area.
+fn limit([low, high]: Corners, area: Column) -> f64 {
+    let room = [area.width - LEFT - RIGHT, area.bottom - area.top - ABOVE - BELOW - LEGEND];
+    (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
+}
+
+/// The same, with the true size to the right.
+fn limit_beside(corners: Corners, area: Column) -> f64 {
+    let inset = inset_width(corners);
+    limit(corners, Column { width: area.width - inset, ..area })
+}
+
+fn inset_width([low, high]: Corners) -> f64 {
+    ((high[0] - low[0]) * UNITS).max(40.0) + 30.0
+}
+
+impl Placed {
+    fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
+        let [low, high] = corners;
+        let height = ABOVE + (high[1] - low[1]) * scale.0 * UNITS + BELOW + LEGEND;
+        Self { area, corners, scale, has_inset, height, turned: None }
+    }
+
+    /// Where it ends on its page.
+    pub(super) fn bottom(&self) -> f64 {
+        self.area.top + self.height
+    }
+
+    /// Whether nothing would be gained by a larger one.
+    pub(super) fn is_whole(&self) -> bool {
+        self.scale.0 >= 1.0
+    }
+
+    fn frame(&self) -> Frame {
+        let Self { area, corners: [low, high], scale, .. } = *self;
+        let inset = if self.has_inset { inset_width(self.corners) } else { 0.0 };
+        let spare = area.width - inset - LEFT - RIGHT - (high[0] - low[0]) * scale.0 * UNITS;
+        Frame::at_scale([low, high], scale.0 * UNITS, [area.left + LEFT + spare / 2.0, area.top + ABOVE])
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
+        let Some([left, bottom]) = self.turned else { return self.draw_upright(canvas, sheet, lang) };
+        canvas.open(&format!("transform=\"matrix(0 -1 1 0 {} {})\"", n(left), n(bottom)));
+        self.draw_upright(canvas, sheet, lang);
+        canvas.close();
+    }
+
+    fn draw_upright(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
+        let frame = self.frame();
+        let place = frame.of_drawing();
+        let [low, high] = self.corners;
+        let ([left, bottom], [right, top]) = (place.at(low), place.at(high));
+        let shown = Shown { texts: false, ..Shown::all(lang) };
+        let depths = Depths::of(&sheet.scene);
+        canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
+        let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
+        canvas.clip("frame", clip);
+        drawing(canvas, &sheet.scene, &frame, &depths, shown);
+        canvas.close();
+        axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
+        if let Some(box_) = cleared(sheet) {
+            measures::draw(canvas, box_, &place, [left, bottom]);
+        }
+        if self.has_inset {
+            self.inset(canvas, sheet, lang);
+        }
+        self.legend(canvas, sheet, &depths, shown);
+    }
+
+    fn legend(&self, canvas: &mut Canvas, sheet: &Sheet, depths: &Depths, shown: Shown) {
+        let words = Words(shown.lang);
+        let top = self.bottom() - LEGEND + 12.0;
+        canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
+        let scale = self.scale.text();
+        let scale = words.either(format!("scale {scale}"), format!("Maßstab {scale}"));
+        let bold = "font-weight=\"bold\"";
+        canvas.text([self.area.left, top], 11.0, Anchor::Start, bold, &scale);
+        legend::depths(canvas, depths, [self.area.left + 110.0, top]);
+        legend::kinds(
+            canvas,
+            &sheet.scene,
+            shown,
+            [self.area.left, top + 17.0],
+            self.area.left + self.area.width + 30.0,
+        );
+        canvas.close();
+    }
+
+    /// The true size, without anything that would not be read.
+    fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
+        let [low, high] = cleared(sheet).unwrap_or(self.corners);
+        let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
+        let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + ABOVE]);
+        let depths = Depths::of(&sheet.scene);
+        let shown = Shown { rapids: false, order: false, arrows: false, texts: false, lang };
+        canvas.open("id=\"true-size\"");
+        for path in &sheet.scene.paths {
+            moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
+        }
+        let y = self.area.top + ABOVE + (high[1] - low[1]) * UNITS + 14.0;
+        canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT}\""), "1:1");
+        canvas.close();
+    }
+}
+
+fn drawing(canvas: &mut Canvas, scene: &Scene, frame: &Frame, depths: &Depths, shown: Shown) {
+    things::under(canvas, scene, frame);
+    let mut room = Room::default();
+    for path in &scene.paths {
+        let place = frame.of_path(path);
+        moves::draw(canvas, path, &place, depths, shown);
+        things::over(canvas, path, &place, shown, &mut room);
+    }
+    marks::findings(canvas, scene, frame, &mut room);
+}
+
+/// The lines X0 and Y0.
+fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) {
+    let style = format!("stroke=\"{PROBE}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
+    canvas.open(&format!("id=\"axes\" fill=\"{PROBE}\""));
+    canvas.line([left, y], [right, y], &style);
+    canvas.line([x, bottom], [x, top], &style);
+    canvas.raw(&format!(
+        "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">X</text>",
+        n(right + 3.0),
+        n(y + 3.0)
+    ));
+    canvas.raw(&format!(
+        "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">Y</text>",
+        n(x - 3.0),
+        n(top - 2.0)
+    ));
+    canvas.close();
+}

@@ -1,0 +1,223 @@
+//! The files that were opened: one session, which is asked path by path.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::clean;
+use pathbuild_db::{
+    Db as _, Role, SourceFile, System, Target, bug, check_file, file_index, path_names, too_slow,
+};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
+use pathbuild_post::BUILT_IN;
+use pathbuild_view::{Scene, Shown};
+use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::emit::{self, Configured, Owners};
+use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::{Seen, Session};
+use pathbuild_workspace::{Inputs, Silent, Workspace};
+use serde_json::{Value, json};
+
+use crate::files::Files;
+use crate::message::{Answer, Lost, Options, Place, Question, Why};
+
+/// The files under one configuration.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    files: Arc<Files>,
+    session: Session<'static>,
+    poster: Option<PostProcessor>,
+    lost: BTreeMap<Place, Diagnostic>,
+    rows: BTreeMap<Place, Row>,
+}
+
+impl Opened {
+    /// Opens files, where nothing is wrong with the configuration and its post; what there is to say of that.
+    pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<Lost>) -> (Option<Self>, Value) {
+        let system: Arc<dyn System> = Arc::<Files>::clone(files);
+        let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;
+        let given = Overrides { feed, sweep_height, rapid, probe_feed, ..Overrides::default() };
+        let (settings, faults) = config::load(&system, &given, &Inputs::default(), Utf8Path::new(""));
+        let workspace = Workspace {
+            settings,
+            system,
+            own_lang: Some(lang.into()),
+            working_directory: Utf8PathBuf::new(),
+            // There is one thread.
+            jobs: Some(1),
+            cache: None,
+            reporter: Rc::new(Silent),
+        };
+        // It is for the rest of the page's life: to open other files it begins a new compiler.
+        let workspace: &'static Workspace = Box::leak(Box::new(workspace));
+        let posts = BUILT_IN.iter().map(|post| json!({ "name": post.name, "for": post.description }));
+        let posts: Value = posts.collect();
+        let problems = |found: Vec<Diagnostic>| {
+            json!(pathbuild_view::findings(&workspace.findings(found).diagnostics, ""))
+        };
+        let halted = |found| json!({ "halted": "", "problems": problems(found), "drawings": [], "posts": posts, "seconds": 0 });
+        if !faults.is_empty() {
+            return (None, halted(faults));
+        }
+        let poster = match PostProcessor::of_run(workspace, post.as_deref(), PostArguments::default()) {
+            Ok(poster) => poster,
+            Err(faults) => return (None, halted(faults)),
+        };
+        let session = Session::new(workspace);
+        let drawings: Vec<String> =
+            session.everything().iter().map(|file| file.path(session.db()).to_string()).collect();
+        let limit = workspace.settings.limits.seconds_per_path.value;
+        let answer = json!({
+            "halted": null,
+            "problems": problems(session.library_problems()),
+            "drawings": drawings,
+            "posts": posts,
+            "seconds": limit.as_secs_f64(),
+        });
+        let problem = |why| match why {
+            Why::Time => too_slow(limit),
+            Why::Bug { reason } => bug(&reason),
+        };
+        let lost = lost.into_iter().map(|Lost { place, why }| (place, problem(why))).collect();
+        (Some(Self { files: Arc::clone(files), session, poster, lost, rows: BTreeMap::new() }), answer)
+    }
+
+    /// Answers a question about what is open.
+    pub(crate) fn reply(&mut self, question: Question) -> Answer {
+        match question {
+            Question::Index { file } => json!({ "rows": self.index(&file) }).into(),
+            Question::Check(place) => json!({ "row": self.check(place) }).into(),
+            Question::Statistics => json!({ "statistics": self.statistics() }).into(),
+            Question::Scene(place) => {
+                let bytes = self.scene(&place).map(|scene| scene.to_json().into_bytes());
+                seen(bytes)
+            }
+            Question::Picture(place) => {
+                let lang = self.session.workspace().lang();
+                let svg = self.scene(&place).map(|scene| pathbuild_view::svg(&scene, Shown::all(lang)));
+                seen(svg.map(String::into_bytes))
+            }
+            Question::Emit { places } => self.emit(&places),
+            Question::Put { .. } | Question::Open { .. } => Answer::default(),
+        }
+    }
+
+    fn file(&self, file: &str) -> SourceFile {
+        self.session.db().file(&clean(Utf8Path::new(file)))
+    }
+
+    /// A path by its name; `None`: the drawing has none of that name, or it was lost.
+    fn path(&self, place: &Place) -> Option<(SourceFile, PathName)> {
+        if self.lost.contains_key(place) {
+            return None;
+        }
+        let (file, wanted) = (self.file(&place.file), place.path.as_deref()?);
+        let name = path_names(self.session.db(), file).iter().find(|name| name.as_str() == wanted)?;
+        Some((file, name.clone()))
+    }
+
+    /// The rows of a drawing, of which it is not known yet what they are.
+    fn index(&self, file: &str) -> Vec<Value> {
+        let whole = Place { file: file.to_owned(), path: None };
+        if let Some(problem) = self.lost.get(&whole) {
+            return self.of_drawing(vec![problem.clone()]).into_iter().collect();
+        }
+        let (db, file) = (self.session.db(), self.file(file));
+        let whole = self.of_drawing(check_file(db, file).to_vec());
+        let mut targets = Configured::new(&self.session.workspace().settings);
+        let rows = path_names(db, file).iter().map(
+            |name| json!({ "path": name.as_str(), "emitted": self.is_emitted(&mut targets, file, name) }),
+        );
+        whole.into_iter().chain(rows).collect()
+    }
+
+    /// A drawing that is wrong as a whole has a row of its own.
+    fn of_drawing(&self, found: Vec<Diagnostic>) -> Option<Value> {
+        drawing_json(&self.session.workspace().findings(found))
+    }
+
+    /// Whether a path is written when all are: as the configuration says, else unless it needs values of variables.
+    fn is_emitted(&self, targets: &mut Configured<'_>, file: SourceFile, name: &PathName) -> bool {
+        if !self.session.workspace().settings.emit.targets.value.is_empty() {
+            return targets.means(name.as_str());
+        }
+        let index = file_index(self.session.db(), file).path(name);
+        index.is_some_and(|path| path.header.definitions.is_empty())
+    }
+
+    /// A path, checked.
+    fn check(&mut self, place: Place) -> Option<Value> {
+        let path = if let Some(problem) = self.lost.get(&place) {
+            let name = PathName::new(place.path.as_deref()?);
+            ListedPath::unknown(name, self.session.normal(Utf8Path::new(&place.file)), problem.clone())
+        } else {
+            let (file, name) = self.path(&place)?;
+            list::of_path(&mut self.session, file, &name, self.poster.as_ref()).pop()?
+        };
+        let row = Row::new(self.session.workspace(), path);
+        let json = path_json(&place.file, &row);
+        self.rows.insert(place, row);
+        Some(json)
+    }
+
+    fn statistics(&self) -> Value {
+        let drawings = self.session.everything().len();
+        stats_json(&Stats::of(self.rows.values(), drawings))
+    }
+
+    /// What there is to see; `None`: nothing of that name.
+    fn scene(&mut self, place: &Place) -> Option<Scene> {
+        let workspace = self.session.workspace();
+        if let Some(problem) = self.lost.get(place) {
+            let scene = Scene::new(place.path.as_deref().unwrap_or(&place.file));
+            let problem = problem.clone().in_file(Utf8Path::new(&place.file));
+            return Some(Seen { scene, diagnostics: vec![problem] }.judged(workspace, &place.file).0);
+        }
+        let (file, names) = if place.path.is_some() {
+            let (file, name) = self.path(place)?;
+            (file, vec![name])
+        } else {
+            let file = self.file(&place.file);
+            (file, path_names(self.session.db(), file).to_vec())
+        };
+        let seen = self.session.settled(|session| session.scene(file, &names));
+        Some(seen.judged(workspace, &place.file).0)
+    }
+
+    /// The programs of paths.
+    fn emit(&mut self, places: &[Place]) -> Answer {
+        let workspace = self.session.workspace();
+        let found: Vec<(SourceFile, PathName)> = places.iter().filter_map(|place| self.path(place)).collect();
+        let target =
+            |(file, name): &(SourceFile, PathName)| self.session.target_in(*file, name, Role::Emitted);
+        let targets: Vec<Target> = found.iter().map(target).collect();
+        let poster = self.poster.as_ref();
+        let emission = match emit::write(&mut self.session, poster, &targets, &mut Owners::default()) {
+            Ok(emission) => emission,
+            Err(refusal) => return json!({ "refused": refusal, "problems": [], "files": [] }).into(),
+        };
+        let (mut files, mut bytes) = (Vec::new(), Vec::new());
+        for delivered in &emission.delivered {
+            for (path, _) in delivered.files.iter().filter(|(path, _)| delivered.has_written(path)) {
+                let text = self.files.take(path);
+                files.push(json!({ "name": path.as_str(), "size": text.len() }));
+                bytes.extend(text);
+            }
+        }
+        // What is wrong with drawings is no part of what writing finds.
+        let checked = self.session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics);
+        let found = workspace.findings(checked.chain(emission.diagnostics).collect());
+        let problems = pathbuild_view::findings(&found.diagnostics, "");
+        Answer { head: json!({ "refused": null, "problems": problems, "files": files }), bytes }
+    }
+}
+
+fn seen(bytes: Option<Vec<u8>>) -> Answer {
+    match bytes {
+        Some(bytes) => Answer { head: json!({ "seen": true }), bytes },
+        None => json!({ "seen": false }).into(),
+    }
+}

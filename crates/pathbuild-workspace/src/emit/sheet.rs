@@ -1,0 +1,296 @@
+//! What a sheet says of a program, from the same queries as the program. (book: program/sheet)
+
+use std::sync::Arc;
+
+use pathbuild_db::{
+    Database, Role, SourceFile, Target, check_file, keep_outs, path_names, placed_keep_outs, traced_program,
+};
+use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::native;
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::summary::cutting_box;
+use pathbuild_path::PathName;
+use pathbuild_post::{Spindle, ToolTable};
+use pathbuild_toolpath::Program;
+use pathbuild_view::{self as view, Scene, Sheet, SheetProbe, SheetTool};
+
+use super::deliver::{OutputSettings, Task, make};
+use super::job::{Job, Maker};
+use super::{making, options};
+use crate::config::types::SheetFormat;
+use crate::posting::PostProcessor;
+use crate::session::{OutputKind, Session, Writing, program_scene};
+use crate::{Inputs, config};
+
+/// What sheets have in common.
+#[derive(Debug)]
+pub(super) struct SheetSettings {
+    lang: Lang,
+    tools: ToolTable,
+    starts_spindle: bool,
+}
+
+impl SheetSettings {
+    /// As the configuration says, for programs that are written natively or through a post.
+    pub(super) fn new(settings: &config::Settings, tools: ToolTable, poster: Option<&PostProcessor>) -> Self {
+        let starts_spindle = poster.is_some_and(PostProcessor::starts_spindle);
+        Self { lang: settings.comment_lang(), tools, starts_spindle }
+    }
+}
+
+/// A sheet, and what is wrong with the path that it is of.
+#[derive(Debug)]
+pub struct SheetMade {
+    /// `None` where the path has errors.
+    pub sheet: Option<Sheet>,
+    /// Everything that was found.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The sheet of a path, or of the one path of a drawing.
+///
+/// # Errors
+/// Why the argument makes no sense, or which options are missing.
+pub fn sheet_of(
+    session: &mut Session<'_>,
+    poster: Option<&PostProcessor>,
+    what: &str,
+) -> Result<SheetMade, String> {
+    session.settled(|session| match wanted(session, what)? {
+        Ok(target) => of_target(session, poster, target),
+        Err(diagnostics) => Ok(SheetMade { sheet: None, diagnostics }),
+    })
+}
+
+/// The path that an argument means, or what is wrong with its drawing.
+fn wanted(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
+    let wanted = session.wanted(&Inputs { inputs: vec![what.to_owned()] });
+    if !wanted.problems.is_empty() {
+        return Ok(Err(wanted.problems));
+    }
+    let db = session.db();
+    match (&*wanted.directories, &*wanted.paths, &*wanted.named) {
+        ([], [path], []) => Ok(Ok(session.target_in(path.file, &path.name, Role::Emitted))),
+        ([], [], [file]) => match path_names(db, *file) {
+            [name] => Ok(Ok(session.target_in(*file, name, Role::Emitted))),
+            [] => Ok(Err(no_path(db, *file))),
+            names => {
+                let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
+                Err(session.workspace().phrase(
+                    "a sheet is of one path: name one of {}",
+                    "ein Blatt ist von einem Pfad: einen von diesen nennen: {}",
+                    &names.join(", "),
+                ))
+            }
+        },
+        _ => Err(session
+            .workspace()
+            .choose(
+                "a sheet is of one path: this is a directory",
+                "ein Blatt ist von einem Pfad: das ist ein Verzeichnis",
+            )
+            .into()),
+    }
+}
+
+/// What is wrong with a drawing without paths.
+fn no_path(db: &Database, file: SourceFile) -> Vec<Diagnostic> {
+    let mut found = check_file(db, file).to_vec();
+    if !found.iter().any(Diagnostic::is_error) {
+        let problem = Diagnostic::new(&messages::NO_PATH).with("pattern", "path-pattern");
+        found.push(problem.in_file(file.path(db)));
+    }
+    found
+}
+
+fn of_target(
+    session: &Session<'_>,
+    poster: Option<&PostProcessor>,
+    target: Target,
+) -> Result<SheetMade, String> {
+    let context = session.workspace();
+    let checked = session.check(&[target]);
+    let mut diagnostics: Vec<Diagnostic> =
+        checked.iter().flat_map(|checked| making::found(session, checked)).collect();
+    if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
+        return Err(refusal);
+    }
+    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
+    let job = maker.job(&checked).unwrap_or_else(|problems| {
+        diagnostics.extend(problems);
+        None
+    });
+    let sheet = job.and_then(|job| of_job(session, &job, poster, &mut diagnostics));
+    Ok(SheetMade { sheet, diagnostics: session.with_hints(diagnostics) })
+}
+
+/// The sheet of a job; `None` where its program would not be written.
+fn of_job(
+    session: &Session<'_>,
+    job: &Job,
+    poster: Option<&PostProcessor>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Sheet> {
+    let means = OutputSettings::new(session.workspace(), poster);
+    let work = |db: &Database, job: &&Job| {
+        let made = make(db, job, &means);
+        let sheet = if made.delivered.is_refused { Ok(None) } else { sheet(db, job, &means) };
+        (made.delivered.problems, sheet)
+    };
+    let made = session.guarded(&[job], work).pop()?;
+    let sheet = made.and_then(|(problems, sheet)| {
+        diagnostics.extend(problems);
+        sheet
+    });
+    sheet.unwrap_or_else(|problem| {
+        diagnostics.push(problem.in_file(job.drawing(session.db()).path(session.db())));
+        None
+    })
+}
+
+/// The bytes of a job's sheet; `None` where a drawing changed meanwhile.
+///
+/// # Errors
+/// PB005: it is too large; PB004: it cannot be made.
+pub(super) fn bytes(
+    db: &Database,
+    job: &Job,
+    format: SheetFormat,
+    means: &OutputSettings<'_>,
+) -> Result<Option<Vec<u8>>, Box<Diagnostic>> {
+    let Some(sheet) = sheet(db, job, means)? else { return Ok(None) };
+    sheet_bytes(&sheet, format, means.sheets.lang)
+        .map(Some)
+        .map_err(|reason| Box::new(super::deliver::cannot_write(&job.path, reason)))
+}
+
+/// A sheet as a file.
+///
+/// # Errors
+/// It cannot be made: a bug, or a program without pictures.
+pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec<u8>, String> {
+    match format {
+        SheetFormat::No => Ok(Vec::new()),
+        SheetFormat::Svg => Ok(view::sheet_svg(sheet, lang).into_bytes()),
+        SheetFormat::Html => Ok(view::sheet_html(sheet, lang).into_bytes()),
+        SheetFormat::Pdf => view::sheet_pdf(sheet, lang),
+    }
+}
+
+/// What a sheet says of a job.
+fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<Sheet>, Box<Diagnostic>> {
+    let mut scene = Scene::new(&job.path);
+    let mut programs: Vec<Arc<Program>> = Vec::new();
+    for target in &job.targets {
+        let Some(traced) = traced_program(db, *target) else { return Ok(None) };
+        let Some(program) = add(db, &mut scene, *target, traced, &means.writing)? else { return Ok(None) };
+        programs.push(program);
+    }
+    let provenance = means.provenances.of(&programs);
+    let total = super::deliver::total(&programs, means.writing.options.rapid);
+    let drawings = job.targets.iter().map(|target| file_name(db, target.file(db)));
+    let mut drawings: Vec<String> = drawings.collect();
+    drawings.dedup();
+    let names = |is_meant: fn(OutputKind) -> bool| {
+        let files = job.files.iter().filter(move |(kind, _)| is_meant(*kind));
+        files.map(|(_, path)| path.file_name().unwrap_or_default().to_owned())
+    };
+    Ok(Some(Sheet {
+        title: job.path.to_string(),
+        drawings,
+        programs: names(OutputKind::is_program).map(|name| adjusted_name(&name)).collect(),
+        values: names(|kind| kind == OutputKind::Values).next(),
+        hashes: hashes(&provenance),
+        head: [provenance.to_string(), job.title.clone()],
+        tools: tools(&programs, &means.sheets.tools),
+        starts_spindle: means.sheets.starts_spindle,
+        cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], joined),
+        length: total.length,
+        minutes: Some(total.minutes()).filter(|minutes| minutes.is_finite()),
+        rapid: Some(means.writing.options.rapid).filter(|rapid| *rapid > 0.0),
+        probes: programs.iter().flat_map(|program| probes(program)).collect(),
+        scene,
+    }))
+}
+
+/// Adds a path with the clamps in its way, in the coordinates of its program.
+fn add(
+    db: &Database,
+    scene: &mut Scene,
+    target: Target,
+    traced: &pathbuild_db::Traced,
+    writing: &Writing,
+) -> Result<Option<Arc<Program>>, Box<Diagnostic>> {
+    let Some(mut path) = program_scene(db, traced, writing)? else { return Ok(None) };
+    let [x, y] = path.zero;
+    let own = keep_outs(db, target.file(db)).iter();
+    scene.keep_outs.extend(own.map(|clamp| view::keep_out(clamp, [-x, -y])));
+    let embedded = placed_keep_outs(db, target).into_iter().filter(|clamp| clamp.occurrence > 0);
+    scene.keep_outs.extend(embedded.map(|clamp| view::keep_out(&clamp.placed, [0.0, 0.0])));
+    path.zero = [0.0, 0.0];
+    scene.paths.push(path);
+    Ok(pathbuild_db::program(db, target).clone())
+}
+
+fn file_name(db: &Database, file: SourceFile) -> String {
+    file.path(db).file_name().unwrap_or_default().to_owned()
+}
+
+/// What the machine runs in the end.
+fn adjusted_name(program: &str) -> String {
+    let clean = OutputKind::Clean.suffix();
+    match program.strip_suffix(clean) {
+        Some(stem) => format!("{stem}{}", OutputKind::Milling.suffix()),
+        None => program.to_owned(),
+    }
+}
+
+/// By what a program is known whatever version wrote it: a sheet that says the same stays the same.
+fn hashes(provenance: &Provenance) -> String {
+    format!("{}-{}", provenance.moves, provenance.options)
+}
+
+fn joined(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Option<(f64, f64)>; 3] {
+    let either = |a: Option<(f64, f64)>, b: Option<(f64, f64)>| match (a, b) {
+        (Some(a), Some(b)) => Some((a.0.min(b.0), a.1.max(b.1))),
+        (a, b) => a.or(b),
+    };
+    [either(a[0], b[0]), either(a[1], b[1]), either(a[2], b[2])]
+}
+
+/// The cutters, each once.
+fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
+    let mut tools: Vec<SheetTool> = Vec::new();
+    for program in programs {
+        let entry = table.find(&program.path, program.tool);
+        let tool = SheetTool {
+            diameter: program.tool,
+            number: entry.and_then(|entry| entry.index),
+            name: entry.map(|entry| entry.name.to_string()),
+            speed: entry.and_then(|entry| entry.speed),
+            clockwise: entry.and_then(|entry| entry.spindle).and_then(|spindle| match spindle {
+                Spindle::Clockwise => Some(true),
+                Spindle::CounterClockwise => Some(false),
+                Spindle::Off => None,
+            }),
+            paths: Vec::new(),
+        };
+        let known =
+            tools.iter_mut().find(|known| SheetTool { paths: Vec::new(), ..(*known).clone() } == tool);
+        match known {
+            Some(known) => known.paths.push(program.path.to_string()),
+            None => tools.push(SheetTool { paths: vec![program.path.to_string()], ..tool }),
+        }
+    }
+    tools
+}
+
+fn probes(program: &Program) -> impl Iterator<Item = SheetProbe> {
+    program.probes.iter().enumerate().map(|(index, probe)| SheetProbe {
+        number: native::FIRST_PARAMETER + index,
+        name: native::probe_name(probe),
+        at: [probe.at.x, probe.at.y],
+        height: probe.height,
+    })
+}

@@ -1,0 +1,92 @@
+//! Opens the page of `pathbuild watch --serve` without a console: for what was dropped on it, or for the folder in which it lies. It does
+//! nothing else: the program `pathbuild` beside it does the work, and never has to guess how it was started. (book: program/live)
+#![windows_subsystem = "windows"]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "it asks where it lies and what was dropped on it, which no result depends on"
+)]
+
+use std::env;
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::{self, Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+
+fn main() -> ExitCode {
+    let dropped: Vec<PathBuf> = env::args_os().skip(1).map(absolute).collect();
+    let own = env::current_exe().ok().and_then(|program| program.parent().map(Path::to_owned));
+    match run(&dropped, own.as_deref()) {
+        Ok(None) => ExitCode::SUCCESS,
+        Ok(Some(said)) => show(&said),
+        Err(error) => show(&format!("{MISSING}\n{error}\n")),
+    }
+}
+
+const MISSING: &str = "pathbuild-open needs the program pathbuild in its own folder.\npathbuild-open braucht das Programm pathbuild im selben Ordner.\n";
+
+/// Does the work; what there is to read where that failed without a page.
+fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
+    let mut command = Command::new(program(own));
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    without_console(&mut command);
+    match dropped {
+        [file] if !is_drawing(file) && !file.is_dir() => _ = command.arg("view").arg(file),
+        _ => _ = command.args(["watch", "--serve", "--open", "--until-closed"]),
+    }
+    match dropped {
+        [] => _ = own.map(|own| command.current_dir(own)),
+        [folder] if folder.join("pathbuild.toml").is_file() => _ = command.current_dir(folder),
+        [file] if !is_drawing(file) && !file.is_dir() => {}
+        _ => _ = command.arg("--").args(dropped),
+    }
+    let output = command.spawn()?.wait_with_output()?;
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    // A program with errors is shown with them.
+    let is_shown = said.lines().any(|line| ends_in(Path::new(line), "html"));
+    Ok(if output.status.success() || is_shown { None } else { Some(said) })
+}
+
+/// The program beside this one, else the one that the system finds.
+fn program(own: Option<&Path>) -> PathBuf {
+    let name = format!("pathbuild{}", env::consts::EXE_SUFFIX);
+    let beside = own.map(|own| own.join(&name)).filter(|beside| beside.is_file());
+    beside.unwrap_or_else(|| PathBuf::from(name))
+}
+
+/// A name alone could mean a path.
+fn absolute(argument: OsString) -> PathBuf {
+    path::absolute(&argument).unwrap_or_else(|_| argument.into())
+}
+
+fn is_drawing(file: &Path) -> bool {
+    ends_in(file, "dxf")
+}
+
+fn ends_in(file: &Path, extension: &str) -> bool {
+    file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension))
+}
+
+#[cfg(windows)]
+fn without_console(command: &mut Command) {
+    use std::os::windows::process::CommandExt;
+
+    const CREATE_NO_WINDOW: u32 = 0x0800_0000;
+    command.creation_flags(CREATE_NO_WINDOW);
+}
+
+#[cfg(not(windows))]
+fn without_console(_: &mut Command) {}
+
+/// Shows a text to somebody who has no console, as a file that the system opens; it stays among the temporary files.
+fn show(text: &str) -> ExitCode {
+    let shown = || -> io::Result<()> {
+        let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".txt").tempfile()?;
+        file.as_file().write_all(text.as_bytes())?;
+        let (_, path) = file.keep()?;
+        open::that_detached(path)
+    };
+    // Whoever started it from a console reads it there.
+    _ = io::stderr().write_all(text.as_bytes());
+    _ = shown();
+    ExitCode::FAILURE
+}

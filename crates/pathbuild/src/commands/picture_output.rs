@@ -1,0 +1,67 @@
+//! Pictures and pages: into a file, or into the browser.
+
+use camino::Utf8Path;
+use pathbuild_db::system::Written;
+use pathbuild_diagnostic::{Diagnostic, Value, shown};
+use pathbuild_workspace::files::cannot_write;
+
+use super::output_row;
+use crate::context::Context;
+
+/// Writes a file, and says so.
+///
+/// # Errors
+/// It cannot be made or written.
+pub(super) fn deliver(
+    context: &Context,
+    file: &Utf8Path,
+    bytes: Result<Vec<u8>, String>,
+) -> Result<(), Box<Diagnostic>> {
+    let written = bytes.map_err(Value::from).and_then(|bytes| context.system.write(file, &bytes));
+    let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
+    context.row_of_json(|| output_row(context, file, written));
+    let state = match written {
+        Written::Changed => context.choose("written", "geschrieben"),
+        Written::Unchanged => context.choose("unchanged", "unverändert"),
+    };
+    context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
+    Ok(())
+}
+
+/// Gives a page to the browser.
+///
+/// # Errors
+/// It cannot be made or shown.
+pub(super) fn show(context: &Context, page: Result<Vec<u8>, String>) -> Result<(), Box<Diagnostic>> {
+    let shown = page.and_then(|page| open_page(context, &page));
+    shown.map_err(|reason| Box::new(cannot_write(Utf8Path::new(BROWSER), reason)))
+}
+
+/// What is at fault where the browser cannot be shown something.
+const BROWSER: &str = "(browser)";
+
+/// The file stays, among the system's temporary files: the browser may read it at any time later.
+#[cfg(feature = "pictures")]
+fn open_page(context: &Context, page: &[u8]) -> Result<(), String> {
+    use std::io::Write;
+
+    let told = |error: std::io::Error| error.to_string();
+    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile().map_err(told)?;
+    file.as_file().write_all(page).map_err(told)?;
+    let (_, path) = file.keep().map_err(|error| error.to_string())?;
+    context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
+    let advice = context.choose(
+        "no browser could be started: open the file named above, or give -o FILE",
+        "kein Browser ließ sich starten: die oben genannte Datei öffnen oder -o DATEI angeben",
+    );
+    open::that_detached(&path).map_err(|error| format!("{advice} ({error})"))
+}
+
+#[cfg(not(feature = "pictures"))]
+fn open_page(context: &Context, _: &[u8]) -> Result<(), String> {
+    let missing = context.choose(
+        "this pathbuild was built without the feature `pictures`: give -o FILE",
+        "dieses pathbuild ist ohne das Feature `pictures` gebaut: -o DATEI angeben",
+    );
+    Err(missing.to_owned())
+}

@@ -1,0 +1,55 @@
+//! `pathbuild sheet`: a path's sheet for who stands at the machine. (book: program/sheet)
+
+use pathbuild_diagnostic::shown;
+use pathbuild_workspace::config::types::SheetFormat;
+use pathbuild_workspace::emit::{SheetMade, sheet_bytes, sheet_of};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::Session;
+
+use super::picture_output::{deliver, show};
+use crate::args::SheetArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs the command. A path with errors has no sheet.
+pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
+    let format = match &args.output {
+        None => SheetFormat::Html,
+        Some(file) => match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
+            "pdf" => SheetFormat::Pdf,
+            "html" => SheetFormat::Html,
+            "svg" => SheetFormat::Svg,
+            _ => {
+                let file = shown::line(file.as_str());
+                return context.usage(&context.phrase(
+                    "-o {}: the name must end in .pdf, .html or .svg",
+                    "-o {}: der Name muss auf .pdf, .html oder .svg enden",
+                    &file,
+                ));
+            }
+        },
+    };
+    let poster = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default()) {
+        Ok(poster) => poster,
+        Err(problems) => return context.fail(problems),
+    };
+    let mut session = Session::new(context);
+    let made = match sheet_of(&mut session, poster.as_ref(), &args.what) {
+        Ok(made) => made,
+        Err(refusal) => return context.usage(&refusal),
+    };
+    let SheetMade { sheet, diagnostics } = made;
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    let Some(sheet) = sheet else { return ExitStatus::Errors };
+    let bytes = sheet_bytes(&sheet, format, context.lang());
+    let delivered = match &args.output {
+        Some(file) => deliver(context, file, bytes),
+        None => show(context, bytes),
+    };
+    match delivered {
+        Err(problem) => context.fail(vec![*problem]),
+        Ok(()) if findings.errors() > 0 => ExitStatus::Errors,
+        Ok(()) => ExitStatus::Success,
+    }
+}

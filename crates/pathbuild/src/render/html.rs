@@ -1,0 +1,87 @@
+//! A page for people: findings by drawing, each with the cut-out of the drawing round its place. One file that asks the network for nothing.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_view::escaped;
+
+use super::{Rendered, View, place};
+use crate::report::Findings;
+
+/// The page. `pictures`: those of the findings, by their order.
+pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> Rendered {
+    let title = view.choose("Findings", "Meldungen");
+    let mut text = format!("<!doctype html>\n<html lang=\"{}\">\n{HEAD}", view.choose("en", "de"));
+    _ = writeln!(text, "<title>pathbuild: {title}</title>\n{STYLE}\n<h1>{title}</h1>");
+    _ = writeln!(text, "<p>{}</p>", summary(findings, view));
+    let mut file = None;
+    for (diagnostic, picture) in findings.diagnostics.iter().zip(pictures) {
+        if file != Some(&diagnostic.file) {
+            if file.is_some() {
+                text.push_str("</section>\n");
+            }
+            let name = view.raw_file(diagnostic);
+            let name = name.as_deref().map_or_else(|| "pathbuild".to_owned(), escaped);
+            _ = writeln!(text, "<section>\n<h2>{name}</h2>");
+            file = Some(&diagnostic.file);
+        }
+        article(&mut text, diagnostic, picture.as_deref(), view);
+    }
+    if file.is_some() {
+        text.push_str("</section>\n");
+    }
+    Rendered(text + "</html>\n")
+}
+
+fn summary(findings: &Findings, view: &View) -> String {
+    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let (error, warning) = (view.choose("errors", "Fehler"), view.choose("warnings", "Warnungen"));
+    format!("{error}: {errors} · {warning}: {warnings}")
+}
+
+/// A finding: picture, code, place, text, help.
+fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
+    let severity = place::severity(diagnostic.severity, view);
+    let class = if diagnostic.is_error() { "error" } else { "warning" };
+    let (code, name) = (diagnostic.code(), diagnostic.code().name());
+    _ = writeln!(text, "<article class=\"{class}\">");
+    if let Some(picture) = picture {
+        text.push_str(picture);
+    }
+    _ = writeln!(text, "<div>\n<h3>{severity} {code} <small>{name}</small></h3>");
+    _ = writeln!(text, "<p>{}</p>", lines(&diagnostic.text(view.lang)));
+    for line in view.help(diagnostic).iter().flat_map(|help| help.lines()) {
+        _ = writeln!(text, "<p class=\"help\">{}</p>", escaped(line));
+    }
+    if let Some(fault) = &diagnostic.text {
+        _ = writeln!(text, "<pre>{}</pre>", lines(&fault.text));
+    }
+    let location = place::location(diagnostic, view).unwrap_or_default();
+    let parts = [location, place::element(diagnostic, view)];
+    let parts: Vec<String> = parts.iter().filter(|part| !part.is_empty()).map(|part| escaped(part)).collect();
+    _ = writeln!(text, "<p class=\"place\">{}</p>", parts.join(" · "));
+    for step in &diagnostic.trace {
+        _ = writeln!(text, "<p class=\"place\">{}</p>", escaped(&place::embedding(step, view)));
+    }
+    text.push_str("</div>\n</article>\n");
+}
+
+/// Lines of a text, each escaped.
+fn lines(text: &str) -> String {
+    text.lines().map(escaped).collect::<Vec<_>>().join("<br>")
+}
+
+const HEAD: &str = "<meta charset=\"utf-8\">
+<meta name=\"viewport\" content=\"width=device-width\">
+<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">
+";
+
+const STYLE: &str = "<style>
+body { font: 15px/1.45 'DejaVu Sans', Verdana, sans-serif; color: #14202b; max-width: 1080px; margin: 24px auto; padding: 0 16px }
+h1 { font-size: 22px } h2 { font-size: 17px; border-bottom: 1px solid #b8bfc6; overflow-wrap: anywhere } h3 { font-size: 15px; margin: 0 }
+small, .place { color: #4a5a68; font-weight: normal; font-size: 13px } p { margin: 4px 0; overflow-wrap: anywhere }
+article { display: flex; flex-wrap: wrap; gap: 16px; margin: 14px 0; padding-left: 10px; border-left: 4px solid #b58900; break-inside: avoid }
+article.error { border-color: #d55e00 } article > div { flex: 1 1 320px; min-width: 0 }
+svg { border: 1px solid #d5dadf; max-width: 100%; height: auto } pre { background: #f1f4f6; padding: 4px 8px; overflow-x: auto }
+.help { padding-left: 14px; border-left: 2px solid #d5dadf }
+</style>";

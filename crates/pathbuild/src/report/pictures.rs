@@ -1,0 +1,84 @@
+//! Pictures of findings: cut-outs of the drawings that they are in. (book: reference/output)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_view::{Scene, Spot, cutout_svg};
+use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::session::Session;
+
+use super::{Findings, Fingerprint};
+use crate::context::Context;
+
+/// So many findings have pictures: nobody looks at more.
+const MOST: usize = 1000;
+
+/// The picture of each finding, in their order; none where it has no place in a drawing.
+pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
+    let mut files: Vec<&Utf8Path> = diagnostics.iter().take(MOST).filter_map(|it| drawing(it)).collect();
+    files.sort_unstable();
+    files.dedup();
+    let scenes = Session::new(&context.workspace).drawn_scenes(&files);
+    let scene = |file: &Utf8Path| -> Option<&Scene> {
+        scenes.get(files.binary_search(&file).ok()?).and_then(Option::as_ref)
+    };
+    let picture = |(index, diagnostic): (usize, &Diagnostic)| {
+        let scene = scene(drawing(diagnostic).filter(|_| index < MOST)?)?;
+        Some(cutout_svg(scene, &spot(diagnostic)?, context.lang()))
+    };
+    diagnostics.iter().enumerate().map(picture).collect()
+}
+
+/// The drawing that a finding has a place in.
+fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
+    diagnostic.place.point?;
+    let file = diagnostic.file.as_deref()?;
+    file.extension().is_some_and(|it| it.eq_ignore_ascii_case("dxf")).then_some(file)
+}
+
+/// The place, and the places that its message and its notes name.
+fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
+    let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
+    let at = pair(diagnostic.place.point?);
+    let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
+    let is_centre = |name: &str| name == "centre";
+    let own = diagnostic.arguments.iter().filter(|(name, _)| !is_centre(name));
+    let points = own.chain(notes).filter_map(|(_, value)| match value {
+        Value::Point(point) => Some(pair(*point)),
+        _ => None,
+    });
+    let mut related: Vec<[f64; 2]> = points.filter(|point| *point != at).collect();
+    related.dedup();
+    let argument = |wanted: &str| diagnostic.arguments.iter().find(|(name, _)| *name == wanted);
+    let circle = match (argument("centre"), argument("diameter")) {
+        (Some((_, Value::Point(centre))), Some((_, Value::Number(diameter)))) => {
+            Some((pair(*centre), diameter.0 / 2.0))
+        }
+        _ => None,
+    };
+    Some(Spot { at, related, circle, is_error: diagnostic.is_error() })
+}
+
+/// Writes the picture of each finding that has a place into a directory; what went wrong. The same finding has the same name in every run.
+pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
+    let directory = context.working_directory.join(directory);
+    let made = pictures(context, &findings.diagnostics);
+    let names = Fingerprint::of(&findings.diagnostics).into_iter().zip(&findings.diagnostics);
+    let mut problems = Vec::new();
+    for (picture, (fingerprint, diagnostic)) in made.into_iter().zip(names) {
+        let Some(picture) = picture else { continue };
+        let file = directory.join(name(diagnostic, fingerprint));
+        if let Err(reason) = context.system.write(&file, picture.as_bytes()) {
+            problems.push(cannot_write(&file, reason));
+            break;
+        }
+    }
+    problems
+}
+
+/// `2050.1P-PB401-3f2a9c0d.svg`
+fn name(diagnostic: &Diagnostic, fingerprint: Fingerprint) -> Utf8PathBuf {
+    let stem = diagnostic.file.as_deref().and_then(Utf8Path::file_stem).unwrap_or_default();
+    let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | ' ' | '~');
+    let stem: String = stem.chars().map(|it| if is_plain(it) { it } else { '-' }).take(80).collect();
+    format!("{stem}-{}-{}.svg", diagnostic.code(), &fingerprint.to_string()[..8]).into()
+}

@@ -1,0 +1,41 @@
+//! `watch --serve` where the program was built without it.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_workspace::watch::Listener;
+
+use crate::args::ServeArgs;
+use crate::context::Context;
+
+/// A page that is served; there can be none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Server {}
+
+impl Server {
+    /// Says what is missing.
+    pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
+        let missing = context.choose(
+            "--serve: this pathbuild was built without the feature `serve`",
+            "--serve: dieses pathbuild wurde ohne das Feature `serve` gebaut",
+        );
+        match args.serve {
+            Some(_) => Err(missing.to_owned()),
+            None => Ok(None),
+        }
+    }
+
+    pub(crate) fn page<'a>(&self, _: &'a Context) -> Box<dyn Listener + 'a> {
+        match *self {}
+    }
+
+    pub(crate) fn halt(&self, _: &[Diagnostic], _: &str) {
+        match *self {}
+    }
+
+    pub(crate) fn is_over(&self) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn waits(&self) -> bool {
+        match *self {}
+    }
+}

@@ -1,0 +1,144 @@
+//! What the thread that watches tells the page, and answers it.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{SourceFile, check_file, path_names};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
+use pathbuild_view::Shown;
+use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
+use pathbuild_workspace::posting::PostProcessor;
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::watch::{Beginning, Bell, Listener, Update};
+use serde_json::{Value, json};
+
+use super::hub::{Form, Hub, Question};
+use crate::context::Context;
+
+/// The page of a library that is watched.
+pub(super) struct Page<'a> {
+    context: &'a Context,
+    hub: Arc<Hub>,
+    library: RefCell<Library>,
+}
+
+/// What is known.
+#[derive(Default)]
+struct Library {
+    rows: BTreeMap<Utf8PathBuf, Vec<Row>>,
+    /// The drawings by the names under which they are listed.
+    by_file: HashMap<String, Utf8PathBuf>,
+}
+
+impl<'a> Page<'a> {
+    pub(super) fn new(context: &'a Context, hub: Arc<Hub>) -> Self {
+        Self { context, hub, library: RefCell::default() }
+    }
+
+    /// A path or a drawing that is listed; nothing else can be seen.
+    fn seen(&self, session: &mut Session<'_>, file: &str, path: Option<&str>, form: Form) -> Option<String> {
+        let drawing = self.library.borrow().by_file.get(file)?.clone();
+        let scene = session.settled(|session| {
+            let file = session.file(&drawing);
+            let all = path_names(session.db(), file);
+            let names: Vec<PathName> = match path {
+                None => all.to_vec(),
+                Some(path) => vec![all.iter().find(|name| name.as_str() == path)?.clone()],
+            };
+            let file_name = file.path(session.db()).as_str();
+            Some(session.scene(file, &names).judged(self.context, file_name).0)
+        })?;
+        Some(match form {
+            Form::Scene => scene.to_json(),
+            Form::Picture => pathbuild_view::svg(&scene, Shown::all(self.context.lang())),
+        })
+    }
+}
+
+impl Listener for Page<'_> {
+    fn bell(&self, bell: Bell) {
+        self.hub.begin(&bell);
+    }
+
+    fn found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
+        let db = session.db();
+        let problems = self.context.findings(problems.to_vec());
+        self.hub.publish(|state, revision| {
+            state.set_problems(&problems.diagnostics);
+            for file in drawings {
+                let drawing = file.path(db);
+                let name = self.context.file(drawing);
+                let rows = path_names(db, *file).iter().map(|path| json!({ "path": path.as_str() }));
+                state.set(drawing, &name, Some(&rows.collect::<Value>().to_string()), revision);
+                self.library.borrow_mut().by_file.insert(name, drawing.clone());
+            }
+        });
+    }
+
+    fn checked(&self, session: &mut Session<'_>, drawings: &[SourceFile], poster: Option<&PostProcessor>) {
+        let mut listed = BTreeMap::<Utf8PathBuf, Vec<Row>>::new();
+        for path in list::of_drawings(session, drawings, poster) {
+            listed.entry(path.drawing.clone()).or_default().push(Row::new(self.context, path));
+        }
+        let mut library = self.library.borrow_mut();
+        self.hub.publish(|state, revision| {
+            for file in drawings {
+                let drawing = file.path(session.db());
+                let rows = listed.remove(drawing).unwrap_or_default();
+                let name = self.context.file(drawing);
+                let whole = drawing_json(&self.context.findings(check_file(session.db(), *file).to_vec()));
+                let texts = whole.into_iter().chain(rows.iter().map(|row| path_json(&name, row)));
+                let text = texts.collect::<Value>().to_string();
+                state.set(drawing, &name, Some(&text), revision);
+                library.by_file.insert(name, drawing.clone());
+                library.rows.insert(drawing.clone(), rows);
+            }
+            state.statistics = library.statistics();
+        });
+    }
+
+    fn begun(&self, _: &Beginning) {
+        self.hub.publish(|state, _| state.is_complete = true);
+    }
+
+    fn updated(&self, Update { removed, .. }: &Update) {
+        if removed.is_empty() {
+            return;
+        }
+        let mut library = self.library.borrow_mut();
+        self.hub.publish(|state, revision| {
+            for drawing in removed {
+                let name = self.context.file(drawing);
+                state.set(drawing, &name, None, revision);
+                library.by_file.remove(&name);
+                library.rows.remove(drawing);
+            }
+            state.statistics = library.statistics();
+        });
+    }
+
+    fn rung(&self, session: &mut Session<'_>) {
+        for Question { file, path, form, answer } in self.hub.questions() {
+            // Who asked may have gone.
+            if !answer.is_closed() {
+                _ = answer.send(self.seen(session, &file, path.as_deref(), form));
+            }
+        }
+    }
+}
+
+impl Library {
+    fn statistics(&self) -> String {
+        let rows = self.rows.values().flatten();
+        stats_json(&Stats::of(rows, self.rows.len())).to_string()
+    }
+}
+
+impl Drop for Page<'_> {
+    fn drop(&mut self) {
+        self.hub.leave();
+    }
+}

@@ -1,0 +1,200 @@
+//! What the server answers, each under its name.
+
+use std::convert::Infallible;
+use std::net::TcpListener;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::{Query, Request, State};
+use axum::http::header::{CONTENT_TYPE, HeaderValue};
+use axum::http::{StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use axum::{Router, serve};
+use futures_util::stream;
+use pathbuild_diagnostic::Lang;
+use serde::Deserialize;
+use tokio::runtime;
+use tokio::sync::watch;
+use tokio::time::timeout;
+
+use super::door::{Door, random};
+use super::guard::{HEADERS, admit};
+use super::hub::{Form, Hub};
+
+/// What answers.
+pub(super) struct Routes {
+    door: Door,
+    hub: Arc<Hub>,
+    lang: Lang,
+    /// Which run this is: pages of another begin anew.
+    run: String,
+    /// How many pages are open.
+    pages: watch::Sender<usize>,
+}
+
+/// So long a page may take to come back, as it does when it is loaded again.
+const GRACE: Duration = Duration::from_secs(5);
+
+/// So long a browser may take to start.
+const START: Duration = Duration::from_secs(90);
+
+impl Routes {
+    /// Nothing is served yet.
+    ///
+    /// # Errors
+    /// The system gives no random number.
+    pub(super) fn new(door: Door, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
+        let run = random().map_err(|error| error.to_string())?;
+        Ok(Self { door, hub, lang, run, pages: watch::Sender::new(0) })
+    }
+
+    /// Serves, until the program ends.
+    pub(super) fn run(self, listener: TcpListener, until_closed: bool) {
+        let Ok(runtime) = runtime::Builder::new_current_thread().enable_all().build() else {
+            return self.hub.end();
+        };
+        let hub = Arc::clone(&self.hub);
+        let served = runtime.block_on(async {
+            let listener = tokio::net::TcpListener::from_std(listener)?;
+            tokio::spawn(end_by_key(Arc::clone(&self.hub)));
+            if until_closed {
+                tokio::spawn(end_without_pages(Arc::clone(&self.hub), self.pages.subscribe()));
+            }
+            serve(listener, router(Arc::new(self))).await
+        });
+        if served.is_err() {
+            hub.end();
+        }
+    }
+}
+
+/// Ends at Ctrl+C what is watched, and at the second one everything.
+async fn end_by_key(hub: Arc<Hub>) {
+    if tokio::signal::ctrl_c().await.is_ok() {
+        hub.end();
+        _ = tokio::signal::ctrl_c().await;
+        std::process::exit(130);
+    }
+}
+
+/// Ends once no page has been open for a while.
+async fn end_without_pages(hub: Arc<Hub>, mut pages: watch::Receiver<usize>) {
+    let mut patience = START;
+    while timeout(patience, pages.wait_for(|open| *open > 0)).await.is_ok_and(|open| open.is_ok()) {
+        patience = GRACE;
+        if pages.wait_for(|open| *open == 0).await.is_err() {
+            break;
+        }
+    }
+    hub.end();
+}
+
+fn router(routes: Arc<Routes>) -> Router {
+    Router::new()
+        .route("/", get(page))
+        .route("/page.css", get(async || file("text/css; charset=utf-8", pathbuild_view::LIVE_STYLE)))
+        .route("/page.js", get(async || file("text/javascript; charset=utf-8", pathbuild_view::SCRIPT)))
+        .route("/api/library", get(library))
+        .route("/api/scene", get(scene))
+        .route("/api/picture", get(picture))
+        .route("/api/events", get(events))
+        .layer(middleware::from_fn_with_state(Arc::clone(&routes), guarded))
+        .with_state(routes)
+}
+
+/// Lets in who may come, and tells browsers what to do with any answer.
+async fn guarded(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
+    let (parts, body) = request.into_parts();
+    let mut response = match admit(&routes.door, &parts) {
+        Ok(()) => next.run(Request::from_parts(parts, body)).await,
+        Err(StatusCode::METHOD_NOT_ALLOWED) => {
+            (StatusCode::METHOD_NOT_ALLOWED, [(header::ALLOW, "GET")]).into_response()
+        }
+        Err(status) => status.into_response(),
+    };
+    for (name, value) in HEADERS {
+        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+async fn page(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
+    ([(CONTENT_TYPE, "text/html; charset=utf-8")], pathbuild_view::live_page(routes.lang))
+}
+
+fn file(kind: &'static str, text: &'static str) -> impl IntoResponse {
+    ([(CONTENT_TYPE, kind)], text)
+}
+
+#[derive(Deserialize)]
+struct Since {
+    #[serde(default)]
+    since: u64,
+}
+
+async fn library(State(routes): State<Arc<Routes>>, Query(Since { since }): Query<Since>) -> Response {
+    ([(CONTENT_TYPE, JSON)], routes.hub.library(since)).into_response()
+}
+
+/// A path, or a whole drawing.
+#[derive(Deserialize)]
+struct Wanted {
+    file: String,
+    path: Option<String>,
+}
+
+const JSON: &str = "application/json";
+
+async fn scene(State(routes): State<Arc<Routes>>, Query(wanted): Query<Wanted>) -> Response {
+    seen(&routes, wanted, Form::Scene, JSON).await
+}
+
+async fn picture(State(routes): State<Arc<Routes>>, Query(wanted): Query<Wanted>) -> Response {
+    seen(&routes, wanted, Form::Picture, "image/svg+xml").await
+}
+
+async fn seen(routes: &Routes, Wanted { file, path }: Wanted, form: Form, kind: &'static str) -> Response {
+    match routes.hub.ask(file, path, form).await {
+        Ok(Some(text)) => ([(CONTENT_TYPE, kind)], text).into_response(),
+        Ok(None) => StatusCode::NOT_FOUND.into_response(),
+        // Who would answer has ended, or begins anew.
+        Err(_) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+    }
+}
+
+/// The number of the last change, at once and whenever there is a new one.
+async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
+    let (news, run) = (routes.hub.news(), routes.run.clone());
+    let open = Open::new(routes.pages.clone());
+    let numbers = stream::unfold((news, true, open), move |(mut news, is_first, open)| {
+        let run = run.clone();
+        async move {
+            if !is_first {
+                news.changed().await.ok()?;
+            }
+            let revision = *news.borrow_and_update();
+            let event = Event::default().data(format!("{run} {revision}"));
+            Some((Ok::<_, Infallible>(event), (news, false, open)))
+        }
+    });
+    Sse::new(numbers).keep_alive(KeepAlive::default())
+}
+
+/// A page that is open, until it is dropped.
+struct Open(watch::Sender<usize>);
+
+impl Open {
+    fn new(pages: watch::Sender<usize>) -> Self {
+        pages.send_modify(|open| *open += 1);
+        Self(pages)
+    }
+}
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        self.0.send_modify(|open| *open -= 1);
+    }
+}

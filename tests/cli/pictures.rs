@@ -1,0 +1,123 @@
+//! Pictures of findings: `--report html=FILE` and `check --pictures DIR`. (book: reference/output)
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::support::{self, Place};
+
+fn dxf(drawing: &str) -> Vec<u8> {
+    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
+}
+
+/// A gap of 1 mm.
+const GAP: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 F150\"\nmill 0,0 20,0\nmill 21,0 40,0\nend 40,0\n";
+
+fn findings(place: &Place, inputs: &str) -> Vec<Value> {
+    let rows = place.run(&format!("check {inputs} --format json --no-cache")).stdout;
+    let rows = rows.lines().map(|row| serde_json::from_str::<Value>(row).unwrap());
+    rows.filter(|row| row["type"] == "finding" || !row["code"].is_null()).collect()
+}
+
+fn pictures(place: &Place, directory: &str) -> BTreeMap<String, String> {
+    let Ok(entries) = fs::read_dir(place.path().join(directory)) else { return BTreeMap::new() };
+    let read = |entry: fs::DirEntry| {
+        let text = fs::read_to_string(entry.path()).unwrap();
+        (entry.file_name().into_string().unwrap(), text)
+    };
+    entries.map(|entry| read(entry.unwrap())).collect()
+}
+
+/// All drawings with mistakes that there are.
+fn mistakes() -> Place {
+    let folder = support::project().join("fixtures/library/mistakes");
+    let mut place = Place::new().file("pathbuild.toml", "feed = 150\nsweep-height = 20\n");
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        if entry.path().extension().is_some_and(|it| it == "dxf") {
+            place = place.file(entry.file_name().to_str().unwrap(), fs::read(entry.path()).unwrap());
+        }
+    }
+    place
+}
+
+#[test]
+fn every_finding_with_a_place_has_a_picture() {
+    let place = mistakes();
+    let found = findings(&place, ".");
+    let placed = found.iter().filter(|it| !it["x"].is_null()).count();
+    assert!(placed > 5, "{found:?}");
+    place.run("check . --pictures seen --report html=page.html --no-cache");
+    let seen = pictures(&place, "seen");
+    assert_eq!(seen.len(), placed);
+    let page = place.read("page.html");
+    assert_eq!(page.matches("<svg ").count(), placed);
+    assert_eq!(page.matches("<article").count(), found.len());
+    for it in &found {
+        assert!(page.contains(it["code"].as_str().unwrap()), "{it}");
+    }
+    // Another run, another order of threads: the same names and bytes.
+    place.run("check . --pictures again -j 1 --no-cache");
+    assert_eq!(pictures(&place, "again"), seen);
+    // They do not change when the directory does.
+    for (name, text) in seen {
+        assert!(text.starts_with("<svg ") && name.contains("-PB"), "{name}");
+    }
+}
+
+#[test]
+fn a_gap_is_circled_with_the_nearest_open_end() {
+    let place = Place::new().file("1234.1P.dxf", dxf(GAP));
+    place.run("check . --pictures seen");
+    let seen = pictures(&place, "seen");
+    let gap = seen.iter().find(|(name, _)| name.contains("PB401")).unwrap_or_else(|| panic!("{seen:?}"));
+    let finding = gap.1.split_once("id=\"finding\"").unwrap().1.split_once("</g>").unwrap().0;
+    // The place, its middle, and the end that is near.
+    assert_eq!((finding.matches("<circle").count(), finding.matches("<line").count()), (3, 1), "{finding}");
+    assert_snapshot!(gap.1);
+}
+
+#[test]
+fn a_text_that_is_nobodys_has_its_circle() {
+    let place = Place::new().file("1234.1P.dxf", dxf(&format!("{GAP}mtext 20,12 \"B1\" height 2\n")));
+    place.run("check . --pictures seen");
+    let seen = pictures(&place, "seen");
+    let text = seen.iter().find(|(name, _)| name.contains("PB107")).unwrap_or_else(|| panic!("{seen:?}")).1;
+    let finding = text.split_once("id=\"finding\"").unwrap().1.split_once("</g>").unwrap().0;
+    assert!(finding.contains("stroke-dasharray=\"3 3\"") && finding.contains("<line"), "{finding}");
+}
+
+#[test]
+fn what_a_drawing_says_is_no_markup_in_pages() {
+    let hostile = format!("{GAP}text 20,12 \"Q<script>alert(1)</script>&\"\n");
+    // Windows has no such names.
+    let (name, shown) =
+        if cfg!(windows) { ("x&b.dxf", "x&amp;b.dxf") } else { ("x&<b>.dxf", "x&amp;&lt;b&gt;.dxf") };
+    let place = Place::new().file("1234.1P.dxf", dxf(&hostile)).file(name, dxf(GAP));
+    place.run("check . --report html=page.html --pictures seen --untrusted");
+    let page = place.read("page.html");
+    assert!(page.contains("&lt;script&gt;") && !page.contains("<script") && !page.contains("<b>"), "{page}");
+    assert!(page.contains("default-src 'none'") && page.contains(shown));
+    let without_names = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(!without_names.contains("http:") && !without_names.contains("https:"));
+    for (name, text) in pictures(&place, "seen") {
+        assert!(!name.contains(['<', '&']) && !text.contains("<script"), "{name}");
+    }
+}
+
+#[test]
+fn pages_are_files_for_people_in_their_language() {
+    let place = Place::new().file("1234.1P.dxf", dxf(GAP));
+    let run = place.run("check . --format html");
+    assert!(run.status == Some(2) && run.stderr.contains("give --report html=FILE"), "{run}");
+    let run = place.run("check . --report html=page.html --lang de");
+    assert_eq!(run.status, Some(1), "{run}");
+    let page = place.read("page.html");
+    assert!(page.contains("<html lang=\"de\">") && page.contains("Fehler: "), "{page}");
+    let run_file = place.run("check . --pictures 1234.1P.dxf");
+    assert!(run_file.status == Some(1) && run_file.stderr.contains("[PB004]"), "{run_file}");
+    // Other commands have findings too.
+    place.run("emit . --report html=emitted.html");
+    assert!(place.read("emitted.html").contains("PB401"));
+}

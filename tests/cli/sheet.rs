@@ -1,0 +1,230 @@
+//! Sheets for who stands at the machine. (book: program/sheet)
+
+use std::fs;
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::support::{self, Place};
+
+const OPTIONS: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
+
+/// Four strokes round a rectangle of 40 by 20, and a hole.
+const DRAWING: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B-0.2 MAl<3>&\"\nmill 0,0 40,0\nmill 40,0 40,20\n\
+    mill 40,20 0,20\nmill 0,20 0,0\nend 0,0\n";
+
+fn dxf(drawing: &str) -> Vec<u8> {
+    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
+}
+
+fn place(options: &str) -> Place {
+    Place::new().file("pathbuild.toml", format!("{OPTIONS}{options}")).file("1234.1P.dxf", dxf(DRAWING))
+}
+
+fn library() -> Place {
+    let library = support::project().join("fixtures/library");
+    let copy = |place: Place, name: &str| place.file(name, fs::read(library.join(name)).unwrap());
+    let place = copy(Place::new(), "pathbuild.toml");
+    ["components", "projects"].into_iter().fold(place, |place, folder| {
+        let names = fs::read_dir(library.join(folder)).unwrap().map(|it| it.unwrap().file_name());
+        names.fold(place, |place, name| copy(place, &format!("{folder}/{}", name.to_str().unwrap())))
+    })
+}
+
+/// The texts of a page in their order.
+fn texts(svg: &str) -> Vec<&str> {
+    let parts = svg.split("<text ").skip(1);
+    parts.map(|part| part.split_once('>').unwrap().1.split_once("</text>").unwrap().0).collect()
+}
+
+/// The value that stands behind a name in the column of facts.
+fn fact<'s>(texts: &[&'s str], name: &str) -> &'s str {
+    let is_axis = ["X", "Y", "Z"].contains(&name);
+    let mut found = texts.iter().zip(&texts[1..]).filter(|(it, _)| **it == name);
+    found
+        .find(|(_, value)| !is_axis || value.contains(" to "))
+        .unwrap_or_else(|| panic!("no {name} in {texts:?}"))
+        .1
+}
+
+#[test]
+fn every_sheet_says_what_the_program_adds_up_to() {
+    let place = library();
+    let listed = place.run("list --format json").stdout;
+    let mut seen = 0;
+    for row in listed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()) {
+        let Some(name) = row["path"].as_str().or(row["name"].as_str()) else { continue };
+        let run = place.run(&format!("sheet {name} -o sheet.svg"));
+        if run.status != Some(0) {
+            continue;
+        }
+        seen += 1;
+        let svg = place.read("sheet.svg");
+        let texts = texts(&svg);
+        assert_eq!(fact(&texts, "length"), format!("{:.0} mm", row["length"].as_f64().unwrap()), "{name}");
+        assert_eq!(fact(&texts, "time"), format!("{:.0} min", row["minutes"].as_f64().unwrap()), "{name}");
+        for axis in ["x", "y", "z"] {
+            let ends = fact(&texts, &axis.to_uppercase()).split_once(" to ").unwrap();
+            let ends = [ends.0, ends.1].map(|end| end.parse::<f64>().unwrap());
+            let expected = &row["cutting_box"][axis];
+            for (end, index) in ends.into_iter().zip(0..) {
+                let expected = expected[index].as_f64().unwrap();
+                assert!((end - expected).abs() < 0.0006, "{name} {axis}: {end}, not {expected}");
+            }
+        }
+        let low = row["cutting_box"]["z"][0].as_f64().unwrap();
+        let deepest = fact(&texts, "deepest").strip_prefix("Z ").unwrap().parse::<f64>().unwrap();
+        assert!((deepest - low).abs() < 0.0006, "{name}: {deepest}, not {low}");
+    }
+    assert!(seen > 30, "{seen} sheets only\n{listed}");
+}
+
+#[test]
+fn a_page_has_picture_measures_checklist_and_facts() {
+    let place = library();
+    place.run("sheet 2068.1P -o sheet.svg --lang de");
+    assert_snapshot!(place.read("sheet.svg"));
+    place.run("sheet 8003.1P -o sheet.svg");
+    assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
+}
+
+#[test]
+fn what_a_drawing_says_is_no_markup() {
+    let place = place("");
+    for file in ["sheet.svg", "sheet.html"] {
+        let run = place.run(&format!("sheet 1234.1P -o {file}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let text = place.read(file);
+        assert!(text.contains("Al&lt;3&gt;&amp;") && !text.contains("<3>"), "{text}");
+    }
+    let html = place.read("sheet.html");
+    assert!(html.contains("default-src 'none'") && !html.contains("http://www.w3.org/1999/xlink"));
+}
+
+#[test]
+#[cfg(feature = "pictures")]
+fn a_pdf_has_all_pages_with_letters_and_the_same_bytes_each_time() {
+    let place = library();
+    let made = ["a.pdf", "b.pdf"].map(|file| {
+        let run = place.run(&format!("sheet 8003.1P --lang de -o {file}"));
+        assert_eq!((run.status, run.stderr.as_str()), (Some(0), &*format!("{file}: geschrieben\n")), "{run}");
+        fs::read(place.path().join(file)).unwrap()
+    });
+    assert!(made[0] == made[1], "not the same bytes");
+    let text = String::from_utf8_lossy(&made[0]);
+    assert_eq!(text.matches("/MediaBox [0 0 595.276 841.89]").count(), 2, "pages");
+    assert!(text.contains("DejaVuSans") && text.contains("/ToUnicode"));
+    assert!(text.contains("\nPath 8003.1P, drawing 8003.1P.dxf\n"));
+}
+
+#[test]
+fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
+    let scale = |width: u32| {
+        let drawing = format!(
+            "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0\"\nmill 0,0 {width},0\nmill {width},0 {width},20\nend {width},20\n"
+        );
+        let place = Place::new().file("pathbuild.toml", OPTIONS).file("1234.1P.dxf", dxf(&drawing));
+        place.run("sheet 1234.1P -o sheet.svg");
+        let svg = place.read("sheet.svg");
+        let scales = texts(&svg).into_iter().filter_map(|it| it.strip_prefix("scale "));
+        scales.map(str::to_owned).collect::<Vec<_>>()
+    };
+    // The first page holds 150 mm; a page turned by a quarter 223 mm.
+    assert_eq!(scale(40), ["2:1"]);
+    assert_eq!(scale(100), ["1:1"]);
+    assert_eq!(scale(148), ["1:1"]);
+    assert_eq!(scale(155), ["1:2", "1:1"]);
+    assert_eq!(scale(220), ["1:2", "1:1"]);
+    assert_eq!(scale(228), ["1:2"]);
+    assert_eq!(scale(700), ["1:5", "1:5"][..1]);
+}
+
+#[test]
+fn a_sheet_is_of_one_path_without_errors() {
+    let drawing = DRAWING.replace("mill 0,20 0,0\n", "");
+    let place = place("").file("1235.1P.dxf", dxf(&drawing.replace("1234.1P", "1235.1P")));
+    let run = place.run("sheet 1235.1P -o sheet.svg");
+    assert!(run.status == Some(1) && run.stderr.contains("[PB403]"), "{run}");
+    let run = place.run("sheet . -o sheet.svg");
+    assert!(run.status == Some(2) && run.stderr.contains("a sheet is of one path"), "{run}");
+    let run = place.run("sheet 1234.1P -o sheet.txt");
+    assert!(run.status == Some(2) && run.stderr.contains("must end in .pdf, .html or .svg"), "{run}");
+    assert!(!place.path().join("sheet.svg").exists());
+    let run = Place::new().file("1234.1P.dxf", dxf(DRAWING)).run("sheet 1234.1P -o sheet.svg");
+    assert!(run.status == Some(2) && run.stderr.contains("the sweep height in mm"), "{run}");
+}
+
+#[test]
+fn emit_writes_sheets_and_keeps_them_current() {
+    let place = place("lang = \"de\"\n[emit]\nsheet = \"html\"\n");
+    let emit = |rest: &str| place.run(&format!("emit . --lang en{rest}"));
+    let sheet = place.path().join("1234.1P_Sheet.html");
+    let first = emit("");
+    assert!(first.stderr.contains("1234.1P_Sheet.html: written"), "{first}");
+    // The language is that of comments in programs, whoever runs it.
+    let text = place.read("1234.1P_Sheet.html");
+    assert!(text.contains("Vor dem Start"), "{text}");
+    place.run("sheet 1234.1P -o own.html --lang de");
+    assert_eq!(place.read("own.html"), text);
+    assert!(emit("").stderr.contains("1234.1P_Sheet.html: unchanged"));
+    assert_eq!(emit(" --check").status, Some(0));
+    fs::remove_file(&sheet).unwrap();
+    let run = emit(" --check");
+    assert!(run.status == Some(1) && run.stdout.contains("1234.1P_Sheet.html: missing"), "{run}");
+    assert_eq!(emit(" --check --moves").status, Some(0));
+    assert!(emit("").stderr.contains("1234.1P_Sheet.html: written"));
+    fs::write(&sheet, text.replace("2 mm", "3 mm")).unwrap();
+    let run = emit(" --check");
+    assert!(run.status == Some(1) && run.stdout.contains("1234.1P_Sheet.html: not current"), "{run}");
+    assert!(emit("").stderr.contains("1234.1P_Sheet.html: written"));
+    assert_eq!(place.read("1234.1P_Sheet.html"), text);
+    let printed = place.run("emit 1234.1P -o -");
+    assert!(printed.status == Some(0) && !printed.stdout.contains("<svg"), "{printed}");
+}
+
+#[test]
+fn a_sheet_changes_with_its_drawing_and_is_stale_without_its_key() {
+    let place = place("[emit]\nsheet = \"svg\"\n");
+    place.run("emit .");
+    let before = place.read("1234.1P_Sheet.svg");
+    let place = place.file("1234.1P.dxf", dxf(&DRAWING.replace("B-0.2", "B-0.3")));
+    let run = place.run("emit . --check");
+    assert!(run.stdout.contains("1234.1P_Sheet.svg: not current"), "{run}");
+    place.run("emit .");
+    assert_ne!(place.read("1234.1P_Sheet.svg"), before);
+    let place = place.file("pathbuild.toml", OPTIONS);
+    for inputs in [".", "1234.1P"] {
+        let run = place.run(&format!("emit {inputs}"));
+        assert!(run.stderr.contains("PB520") && run.stderr.contains("1234.1P_Sheet.svg"), "{run}");
+    }
+    place.run("emit . --remove-stale");
+    assert!(!place.path().join("1234.1P_Sheet.svg").exists());
+}
+
+#[test]
+fn another_version_of_pathbuild_makes_no_sheet_outdated() {
+    let place = place("[emit]\nsheet = \"svg\"\n");
+    place.run("emit .");
+    let sheet = place.path().join("1234.1P_Sheet.svg");
+    let version = format!("pathbuild {}", env!("CARGO_PKG_VERSION"));
+    let older = place.read("1234.1P_Sheet.svg").replace(&version, "pathbuild 0.0.9");
+    fs::write(&sheet, &older).unwrap();
+    let run = place.run("emit . --check");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(older.contains("pathbuild 0.0.9"));
+}
+
+#[test]
+fn joined_paths_have_one_sheet_with_all_cutters() {
+    let second = DRAWING.replace("1234.1P", "1235.1P").replace("O2", "O3");
+    let tools = "spindle = \"tool\"\n[emit]\nsheet = \"svg\"\n[tool.two]\ndiameter = 2\nspindle = 12000\nnumber = 1\n[tool.three]\ndiameter = 3\nspindle = 9000\nnumber = 4\n";
+    let place = place(tools).file("1235.1P.dxf", dxf(&second));
+    let run = place.run("emit 1234.1P 1235.1P --post linuxcnc --join both");
+    assert!(run.stderr.contains("both_Sheet.svg: written"), "{run}");
+    let svg = place.read("both_Sheet.svg");
+    let texts = texts(&svg);
+    for text in ["two", "three", "12000 rpm clockwise", "9000 rpm clockwise", "1234.1P", "1235.1P"] {
+        assert!(texts.contains(&text), "{text} in {texts:?}");
+    }
+    assert!(!svg.contains("started by hand"));
+}
