@@ -102,3 +102,11 @@ fn old_cuts_are_remembered_by_the_map() {
     steps.extend([sweep(20.0, 0.0), sweep(0.0, 0.0), lift(20.0)]);
     assert_eq!(found(steps), [""; 0]);
 }
+
+#[test]
+fn each_rapid_move_into_material_is_told_however_many_there_are() {
+    for count in [16_u8, 17] {
+        let dip = |number: u8| [sweep(10.0 * f64::from(number), 10.0), lift(6.0), lift(4.9), lift(20.0)];
+        assert_eq!(found((0..count).flat_map(dip).collect()), vec!["PB741"; usize::from(count)]);
+    }
+}

@@ -1,7 +1,7 @@
 //! Rapid moves into material, looked for in every program that is about to be written. (book: program/reading)
 //!
 //! What it costs grows with the moves: only a rapid move below a surface is looked at, and is fine where the last cuts before it have made
-//! room. Where they have not, the map of the whole material decides.
+//! room. Where they have not, a map of the material near them decides.
 
 use std::cell::LazyCell;
 use std::collections::VecDeque;
@@ -20,6 +20,9 @@ use crate::read::Problems;
 /// So many cuts at most are looked at for a rapid move: the last turns of a helical circle, the end of a chain.
 const MOST_CUTS: usize = 64;
 
+/// Where more rapid moves than that are in doubt, all moves are looked at.
+const MOST_SUSPECTS: usize = 16;
+
 /// So many cells at most are visited for a rapid move.
 const MOST_CELLS: u64 = 1_000_000;
 
@@ -33,28 +36,35 @@ pub fn beyond_machine(drawn: &Drawn, machine: &Machine) -> Vec<Diagnostic> {
 /// The rapid moves of a drawing's program that go into material, by the number of its step.
 pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
-    if all_have_room(drawn, &stock) {
+    let suspects = suspects(drawn, &stock);
+    if suspects.is_empty() {
         return Vec::new();
     }
+    let places = (suspects.len() <= MOST_SUSPECTS).then(|| suspects.iter().map(sides).collect());
     let mut problems = Problems::default();
-    material::check(&Moves(drawn), &stock, &mut problems);
+    material::check(&Near { drawn, places, reach: 2.0 * stock.widest() }, &stock, &mut problems);
     problems.into_diagnostics()
 }
 
-fn all_have_room(drawn: &Drawn, stock: &Stock) -> bool {
+/// The rapid moves for which the last cuts before them have not made room.
+fn suspects(drawn: &Drawn, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
-    let mut before = None;
+    let (mut before, mut found) = (None, Vec::new());
     for (line, it) in each_move_of(drawn) {
         let last = before.replace((line, it));
         if it.pace == Pace::Rapid {
-            if last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock)) {
-                return false;
+            let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock));
+            let has_room = || {
+                let Some((piece, surface)) = low_at(line, &it, stock, &tops) else { return true };
+                is_in_circle(&it, piece.cutter, &recent)
+                    || material::has_room(line, &it, surface, &recent, stock, MOST_CELLS)
+            };
+            if is_dip || !has_room() {
+                found.push(it);
             }
-            let Some((piece, surface)) = low_at(line, &it, stock, &tops) else { continue };
-            let is_in_circle = is_in_circle(&it, piece.cutter, &recent);
-            if !is_in_circle && !material::has_room(line, &it, surface, &recent, stock, MOST_CELLS) {
-                return false;
+            if found.len() > MOST_SUSPECTS {
+                break;
             }
         } else {
             if recent.len() == MOST_CUTS {
@@ -63,7 +73,7 @@ fn all_have_room(drawn: &Drawn, stock: &Stock) -> bool {
             recent.push_back((line, it));
         }
     }
-    true
+    found
 }
 
 /// What holds for a rapid move that goes below a surface near its way, with the highest of these.
@@ -129,4 +139,38 @@ impl Program for Moves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         each_move_of(self.0).for_each(|(line, it)| take(&Step { line, action: Action::Move(it) }));
     }
+}
+
+/// The sides of a box in the plane, as lowest and highest coordinates in mm.
+type Sides = [(f64, f64); 2];
+
+/// The moves that have to do with the material at some places; nobody knows of another one whether it meets any.
+struct Near<'d> {
+    drawn: &'d Drawn,
+    /// `None`: anywhere.
+    places: Option<Vec<Sides>>,
+    /// So far beside its way, in mm, a move has to do with places: material is known within O of a cut, and what passes has a radius.
+    reach: f64,
+}
+
+impl Near<'_> {
+    fn is_near(&self, it: &Move) -> bool {
+        let own = sides(it).map(|(low, high)| (low - self.reach, high + self.reach));
+        let meets =
+            |place: &Sides| own.iter().zip(place).all(|(own, place)| own.0 <= place.1 && place.0 <= own.1);
+        self.places.as_ref().is_none_or(|places| places.iter().any(meets))
+    }
+}
+
+impl Program for Near<'_> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        let near = each_move_of(self.drawn).filter(|(_, it)| self.is_near(it));
+        near.for_each(|(line, it)| take(&Step { line, action: Action::Move(it) }));
+    }
+}
+
+/// The moves of a drawing are known in all axes.
+fn sides(it: &Move) -> Sides {
+    let [across, up, _] = it.extent();
+    [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
 }

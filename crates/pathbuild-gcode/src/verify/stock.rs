@@ -125,6 +125,11 @@ impl Stock {
         self.pieces.iter().map(|piece| piece.cutter).reduce(f64::min)
     }
 
+    /// The diameter of the widest cutter, in mm; 0 where nothing is known.
+    pub(super) fn widest(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece.cutter).fold(0.0, f64::max)
+    }
+
     /// The highest surface of all.
     pub(super) fn highest(&self) -> Option<f64> {
         self.highest

@@ -25,17 +25,20 @@ pub(super) struct Tops {
 impl Tops {
     /// Of a drawing's program.
     pub(super) fn of(drawn: &Drawn, stock: &Stock) -> Self {
+        let cuts: Vec<Cut> = cuts(drawn, stock).collect();
         let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];
-        for_each_cut(drawn, stock, |ends, _| {
+        for (ends, _) in &cuts {
             for (side, (low, high)) in sides.iter_mut().zip(ends) {
-                *side = (side.0.min(low), side.1.max(high));
+                *side = (side.0.min(*low), side.1.max(*high));
             }
-        });
+        }
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
         let cell = sides.map(|(low, high)| ((high - low) / SIDE as f64).max(f64::MIN_POSITIVE));
         let corner = sides.map(|(low, _)| low);
         let mut tops = Self { corner, cell, heights: vec![f64::NEG_INFINITY; SIDE * SIDE] };
-        for_each_cut(drawn, stock, |ends, surface| tops.raise(ends, surface));
+        for (ends, surface) in cuts {
+            tops.raise(ends, surface);
+        }
         tops
     }
 
@@ -77,14 +80,14 @@ impl Tops {
     }
 }
 
-/// The box in the plane, ends included, of the material that each cut says there is, with its surface.
-fn for_each_cut(drawn: &Drawn, stock: &Stock, mut take: impl FnMut([(f64, f64); 2], f64)) {
-    for (line, it) in each_move_of(drawn) {
-        let Some(piece) = cutting_piece(line, &it, stock) else { continue };
-        let [Some((left, right)), Some((low, high)), _] = it.extent() else { continue };
-        take(
-            [(left - piece.cutter, right + piece.cutter), (low - piece.cutter, high + piece.cutter)],
-            piece.surface,
-        );
-    }
+/// The box in the plane, ends included, of the material that a cut says there is, with its surface.
+type Cut = ([(f64, f64); 2], f64);
+
+fn cuts(drawn: &Drawn, stock: &Stock) -> impl Iterator<Item = Cut> {
+    each_move_of(drawn).filter_map(|(line, it)| {
+        let piece = cutting_piece(line, &it, stock)?;
+        let [Some((left, right)), Some((low, high)), _] = it.extent() else { return None };
+        let cutter = piece.cutter;
+        Some(([(left - cutter, right + cutter), (low - cutter, high + cutter)], piece.surface))
+    })
 }
