@@ -1,6 +1,6 @@
 //! Programs of paths that could not be written: what lies there is of an earlier state of the drawing. (PB522)
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::Utf8PathBuf;
 use pathbuild_db::system::join;
@@ -38,12 +38,42 @@ pub(super) fn programs(
             let done = jobs.iter().zip(delivered).filter(|(_, delivered)| !delivered.files.is_empty());
             let done: HashSet<Target> = done.flat_map(|(job, _)| job.targets.iter().copied()).collect();
             let open = targets.iter().filter(|target| !done.contains(target));
+            let mut listings = Listings::default();
             let older = |target: &Target| {
-                let programs = of_target(session, *target, poster).into_iter();
+                let programs = of_target(session, *target, poster, &mut listings).into_iter();
                 programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
             };
             open.flat_map(older).collect()
         }
+    }
+}
+
+/// The programs in output directories, which are listed once each.
+#[derive(Default)]
+struct Listings(HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>);
+
+impl Listings {
+    /// Those in a directory whose names begin so, in any case.
+    fn beginning(
+        &mut self,
+        (session, poster): (&Session<'_>, Option<&PostProcessor>),
+        directory: &Utf8PathBuf,
+        stem: &str,
+    ) -> impl Iterator<Item = &Utf8PathBuf> {
+        let programs = self.0.entry(directory.clone()).or_insert_with(|| {
+            let names = session.db().system().list(directory).unwrap_or_default().files;
+            let programs = names.iter().filter(|name| is_gcode(name, poster));
+            let mut programs: Vec<_> =
+                programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();
+            programs.sort_unstable();
+            programs
+        });
+        let stem = stem.to_lowercase();
+        let first = programs.partition_point(|(name, _)| *name < stem);
+        programs[first..]
+            .iter()
+            .take_while(move |(name, _)| name.starts_with(&stem))
+            .map(|(_, program)| program)
     }
 }
 
@@ -58,25 +88,26 @@ fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
 }
 
 /// Their names begin with the drawing's or the path's, whatever R was; of which path they are, they say themselves.
-fn of_target(session: &Session<'_>, target: Target, poster: Option<&PostProcessor>) -> Vec<Utf8PathBuf> {
+fn of_target(
+    session: &Session<'_>,
+    target: Target,
+    poster: Option<&PostProcessor>,
+    listings: &mut Listings,
+) -> Vec<Utf8PathBuf> {
     let (db, system) = (session.db(), session.db().system());
     let (drawing, path) = (target.file(db).path(db), &**target.name(db));
     let directory = output_directory(session, target.file(db));
-    let stems = [drawing.file_stem().unwrap_or_default(), path].map(str::to_lowercase);
+    let stems = [drawing.file_stem().unwrap_or_default(), path];
     let drawing = drawing.file_name().unwrap_or_default();
     let is_of_target = |program: &Utf8PathBuf| {
         let head = system.head(program, HEAD).unwrap_or_default();
         Provenance::of_head(&head).is_some_and(|(_, found)| native::is_title(&found, drawing, path))
     };
-    let listing = system.list(&directory).unwrap_or_default();
-    let may_be = |name: &&str| {
-        let lower = name.to_lowercase();
-        is_gcode(name, poster) && stems.iter().any(|stem| lower.starts_with(&**stem))
-    };
-    let programs = listing.files.iter().filter(may_be).map(|name| join(&directory, name));
-    let mut programs: Vec<Utf8PathBuf> = programs.filter(is_of_target).collect();
-    programs.sort_unstable();
-    programs
+    let mut programs = BTreeSet::new();
+    for stem in stems {
+        programs.extend(listings.beginning((session, poster), &directory, stem).cloned());
+    }
+    programs.into_iter().filter(is_of_target).collect()
 }
 
 /// The program that targets were joined into earlier.
