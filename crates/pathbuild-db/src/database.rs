@@ -135,6 +135,11 @@ impl Database {
         self.shared.listings.put(self.directory(path), names);
     }
 
+    /// What reads and writes files, for who works beside the queries.
+    pub fn shared_system(&self) -> Arc<dyn System> {
+        Arc::clone(&self.shared.system)
+    }
+
     /// Drops the large values that were not used lately: what was read from drawings, what was made of single paths, programs. They are made
     /// again where they are asked for again.
     pub fn drop_unused(&mut self) {

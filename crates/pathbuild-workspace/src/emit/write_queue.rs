@@ -5,7 +5,7 @@ use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, SendError, sync_channel};
 use std::thread::{self, Builder};
 
-use pathbuild_db::Db;
+use pathbuild_db::Database;
 use pathbuild_diagnostic::Diagnostic;
 
 use super::deliver::{Delivered, JobFiles, Output, OutputSettings, Task, finish, make};
@@ -19,13 +19,43 @@ pub(super) fn deliver_all(
     task: Task,
     means: &OutputSettings<'_>,
 ) -> Vec<Delivered> {
-    session.in_batches(jobs, BATCH, |session, jobs| {
-        let delivered = write_behind(session, jobs, task, means).into_iter().zip(jobs);
-        let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &&Job)| {
-            delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
+    let system = session.db().shared_system();
+    let finished = |outputs| {
+        let mut delivered = Delivered::default();
+        finish(&*system, outputs, task, means.poster, &mut delivered);
+        delivered
+    };
+    let write = |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {
+        made.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
+    };
+    let (sender, receiver) = sync_channel(BEHIND);
+    let numbered: Vec<(usize, &Job)> = jobs.iter().copied().enumerate().collect();
+    let (mut made, written) = thread::scope(|scope| {
+        let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
+        let made = |db: &Database, (index, job): &(usize, &Job)| {
+            let JobFiles { mut delivered, outputs } = make(db, job, means);
+            // Once something of a path is written, all is.
+            db.give_up_if_late();
+            // Where the system has no thread left, nobody receives it.
+            if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
+                delivered.add(finished(outputs));
+            }
+            delivered
         };
-        delivered.map(given_up).collect()
-    })
+        let made = session.in_batches(&numbered, BATCH, |session, jobs| session.guarded(jobs, made));
+        drop(sender);
+        let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        (made, written.unwrap_or_default())
+    });
+    for (index, written) in written {
+        if let Ok(made) = &mut made[index] {
+            made.add(written);
+        }
+    }
+    let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &&Job)| {
+        delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
+    };
+    made.into_iter().zip(jobs).map(given_up).collect()
 }
 
 /// So many jobs are done before the paths that they were made from are dropped.
@@ -36,44 +66,3 @@ const BEHIND: usize = 32;
 
 /// What a job becomes, by its number.
 type Numbered = (usize, Vec<Output>);
-
-fn write_behind(
-    session: &Session<'_>,
-    jobs: &[&Job],
-    task: Task,
-    means: &OutputSettings<'_>,
-) -> Vec<Result<Delivered, Box<Diagnostic>>> {
-    let system = session.db().system();
-    let finished = |outputs| {
-        let mut delivered = Delivered::default();
-        finish(system, outputs, task, means.poster, &mut delivered);
-        delivered
-    };
-    let (sender, receiver) = sync_channel(BEHIND);
-    let write = move |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {
-        made.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
-    };
-    let numbered: Vec<(usize, &Job)> = jobs.iter().copied().enumerate().collect();
-    let (mut made, written) = thread::scope(|scope| {
-        let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
-        let made = session.guarded(&numbered, |db, (index, job)| {
-            let JobFiles { mut delivered, outputs } = make(db, job, means);
-            // Once something of a path is written, all is.
-            db.give_up_if_late();
-            // Where the system has no thread left, nobody receives it.
-            if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
-                delivered.add(finished(outputs));
-            }
-            delivered
-        });
-        drop(sender);
-        let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        (made, written.unwrap_or_default())
-    });
-    for (index, written) in written {
-        if let Ok(made) = &mut made[index] {
-            made.add(written);
-        }
-    }
-    made
-}

@@ -58,6 +58,9 @@ pub struct Asking<'a> {
 /// database of its own, whose lists grow anew: shorter rows cost more than waiting does.
 const IN_A_ROW: usize = 32;
 
+/// A program takes a thousand times as long as a database of its own does.
+const ALONE: usize = 1;
+
 impl Session<'_> {
     /// A target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
@@ -137,7 +140,7 @@ impl Session<'_> {
             let _watched = watchdog.begin(db);
             db.guarded(limit, || work(db, item))
         };
-        self.spread(items, work)
+        self.spread_in_rows(items, ALONE, work)
     }
 
     /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
@@ -145,6 +148,15 @@ impl Session<'_> {
     pub(super) fn spread<T: Sync, R: Send>(
         &self,
         items: &[T],
+        work: impl Fn(&Database, &T) -> R + Sync,
+    ) -> Vec<R> {
+        self.spread_in_rows(items, IN_A_ROW, work)
+    }
+
+    fn spread_in_rows<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        most_in_a_row: usize,
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<R> {
         if items.len() <= 1 || self.context.jobs == Some(1) {
@@ -161,7 +173,7 @@ impl Session<'_> {
             progress.inspect(|progress| progress.advance());
             result
         };
-        workers.work(|| items.par_iter().with_max_len(IN_A_ROW).map_with(db, work).collect())
+        workers.work(|| items.par_iter().with_max_len(most_in_a_row).map_with(db, work).collect())
     }
 
     /// Starts the worker threads while there is something else to do before there is work for them.
