@@ -5,13 +5,17 @@ use camino::Utf8PathBuf;
 use crate::names::Names;
 use crate::stamp::Stamp;
 
-/// Results with everything that they were made from, to be kept. Files and directories that several were made from are in it once.
+/// Results with everything that they were made from, to be kept. Files, directories and questions that several were made from are in it once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Catalogue {
     /// Every file that was read.
     pub files: Vec<FileFact>,
     /// Every directory that was listed.
     pub directories: Vec<DirectoryFact>,
+    /// The directories that were asked together, by their numbers: the same ones are asked for thousands of names.
+    pub directory_lists: Vec<Vec<usize>>,
+    /// Every question.
+    pub lookups: Vec<Lookup>,
     /// The results.
     pub records: Vec<Record>,
 }
@@ -47,19 +51,19 @@ pub struct Record {
     pub of: Box<str>,
     /// The files that it was made from, by their numbers.
     pub files: Vec<usize>,
-    /// What was looked for.
-    pub lookups: Vec<Lookup>,
+    /// What was looked for, by the numbers of the questions.
+    pub lookups: Vec<usize>,
     /// The files that were written of it, by their numbers: it holds without them, but then they are to be written again.
     pub outputs: Vec<usize>,
     /// The result itself, which only its maker can read.
     pub payload: Vec<u8>,
 }
 
-/// A question to a directory: which of its names may hold this path?
+/// A question to directories: which of their names may hold this path?
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Lookup {
-    /// The directory's number.
-    pub directory: usize,
+    /// The number of the list of the directories.
+    pub directories: usize,
     /// The path's name.
     pub name: Box<str>,
 }

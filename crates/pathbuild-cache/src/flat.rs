@@ -10,12 +10,14 @@
 //! | [`RECORDS`], by what they are of | what it is of, its files, its questions, its payload, its outputs: place and number of each |
 //! | [`RECORD_FILES`] | the number of a file |
 //! | [`RECORD_LOOKUPS`] | the number of a question |
-//! | [`LOOKUPS`] | directory, name |
+//! | [`LOOKUPS`] | list of directories, name |
 //! | [`RECORD_OUTPUTS`] | the number of a file |
+//! | [`DIRECTORY_LISTS`] | the first of its directories and their number |
+//! | [`LISTED_DIRECTORIES`] | the number of a directory |
 
 use std::collections::HashMap;
 
-use crate::facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
+use crate::facts::{Catalogue, DirectoryFact, FileFact, Record};
 use crate::stamp::Stamp;
 
 /// Size of a number, and of a place with its length.
@@ -23,9 +25,19 @@ pub(crate) const WORD: usize = 4;
 const SPAN: usize = 2 * WORD;
 
 /// The size of a table's rows.
-pub(crate) const SIZES: [usize; TABLES] =
-    [SPAN + Stamp::SIZE + WORD + HASH, 3 * SPAN + WORD, SPAN, 5 * SPAN, WORD, WORD, WORD + SPAN, WORD];
-pub(crate) const TABLES: usize = 8;
+pub(crate) const SIZES: [usize; TABLES] = [
+    SPAN + Stamp::SIZE + WORD + HASH,
+    3 * SPAN + WORD,
+    SPAN,
+    5 * SPAN,
+    WORD,
+    WORD,
+    WORD + SPAN,
+    WORD,
+    SPAN,
+    WORD,
+];
+pub(crate) const TABLES: usize = 10;
 pub(crate) const HASH: usize = 32;
 
 pub(crate) const FILES: usize = 0;
@@ -36,6 +48,8 @@ pub(crate) const RECORD_FILES: usize = 4;
 pub(crate) const RECORD_LOOKUPS: usize = 5;
 pub(crate) const LOOKUPS: usize = 6;
 pub(crate) const RECORD_OUTPUTS: usize = 7;
+pub(crate) const DIRECTORY_LISTS: usize = 8;
+pub(crate) const LISTED_DIRECTORIES: usize = 9;
 
 /// What stands before the tables: how many rows each has, then the sizes of the payloads and the texts.
 pub(crate) const COUNTS: usize = TABLES + 2;
@@ -50,6 +64,15 @@ pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), To
     let numbers = flat.files(&catalogue.files)?;
     for directory in &catalogue.directories {
         flat.directory(directory)?;
+    }
+    for list in &catalogue.directory_lists {
+        let directories = flat.rows(LISTED_DIRECTORIES, list.iter().map(|directory| word(*directory)))?;
+        flat.add(DIRECTORY_LISTS, &directories);
+    }
+    for lookup in &catalogue.lookups {
+        let name = flat.text(&lookup.name)?;
+        flat.add(LOOKUPS, &[word(lookup.directories)?]);
+        flat.add(LOOKUPS, &name);
     }
     let mut records: Vec<&Record> = catalogue.records.iter().collect();
     records.sort_unstable_by(|a, b| a.of.cmp(&b.of));
@@ -67,7 +90,6 @@ struct Flat<'a> {
     texts: String,
     /// Where texts are: most files are what a result is of.
     known: HashMap<&'a str, Span>,
-    lookups: HashMap<&'a Lookup, u32>,
 }
 
 /// A place and a length, or the first and the number of some rows.
@@ -121,12 +143,10 @@ impl<'a> Flat<'a> {
 
     fn record(&mut self, record: &'a Record, numbers: &[u32]) -> Result<(), TooMuch> {
         let of = self.text(&record.of)?;
-        let renumbered = |files: &[usize]| files.iter().map(|file| numbers[*file]).collect::<Vec<u32>>();
-        let files = self.rows(RECORD_FILES, &renumbered(&record.files))?;
-        let outputs = self.rows(RECORD_OUTPUTS, &renumbered(&record.outputs))?;
-        let lookups: Vec<u32> =
-            record.lookups.iter().map(|lookup| self.lookup(lookup)).collect::<Result<_, _>>()?;
-        let lookups = self.rows(RECORD_LOOKUPS, &lookups)?;
+        let renumbered = |file: &usize| Ok(numbers[*file]);
+        let files = self.rows(RECORD_FILES, record.files.iter().map(renumbered))?;
+        let outputs = self.rows(RECORD_OUTPUTS, record.outputs.iter().map(renumbered))?;
+        let lookups = self.rows(RECORD_LOOKUPS, record.lookups.iter().map(|lookup| word(*lookup)))?;
         let payload = [word(self.payloads.len())?, word(record.payload.len())?];
         self.payloads.extend_from_slice(&record.payload);
         for span in [of, files, lookups, payload, outputs] {
@@ -136,23 +156,16 @@ impl<'a> Flat<'a> {
     }
 
     /// Adds rows of one number.
-    fn rows(&mut self, table: usize, numbers: &[u32]) -> Result<Span, TooMuch> {
+    fn rows(
+        &mut self,
+        table: usize,
+        numbers: impl ExactSizeIterator<Item = Result<u32, TooMuch>>,
+    ) -> Result<Span, TooMuch> {
         let span = [word(self.tables[table].len() / SIZES[table])?, word(numbers.len())?];
-        self.add(table, numbers);
-        Ok(span)
-    }
-
-    /// The number of a question, which thousands of records may ask.
-    fn lookup(&mut self, lookup: &'a Lookup) -> Result<u32, TooMuch> {
-        if let Some(known) = self.lookups.get(lookup) {
-            return Ok(*known);
+        for number in numbers {
+            self.add(table, &[number?]);
         }
-        let number = word(self.tables[LOOKUPS].len() / SIZES[LOOKUPS])?;
-        let name = self.text(&lookup.name)?;
-        self.add(LOOKUPS, &[word(lookup.directory)?]);
-        self.add(LOOKUPS, &name);
-        self.lookups.insert(lookup, number);
-        Ok(number)
+        Ok(span)
     }
 
     fn text(&mut self, text: &'a str) -> Result<Span, TooMuch> {

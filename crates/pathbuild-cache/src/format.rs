@@ -24,7 +24,7 @@ pub enum Unusable {
     Foreign,
 }
 
-const MAGIC: &[u8; 16] = b"pathbuild cache\x03";
+const MAGIC: &[u8; 16] = b"pathbuild cache\x04";
 
 /// The magic, the two halves of the key, the checksum.
 const HEAD: usize = 16 + 32 + 32 + CHECKSUM;

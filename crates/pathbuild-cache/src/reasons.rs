@@ -2,7 +2,6 @@
 
 use camino::Utf8PathBuf;
 
-use crate::facts::Lookup;
 use crate::snapshot::Snapshot;
 use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
 
@@ -42,8 +41,10 @@ pub fn reasons(kept: &Snapshot, verdict: &Verdict, record: usize, covers: Covers
             Reason::File { is_gone: !path.exists(), path }
         })
         .collect();
-    for lookup in record.lookups() {
-        reasons.extend(of_lookup(kept, verdict, &lookup, covers));
+    for (directories, name) in record.lookups().map(|lookup| kept.lookup(lookup)) {
+        for directory in kept.directory_list(directories) {
+            reasons.extend(of_lookup(kept, verdict, directory, name, covers));
+        }
     }
     reasons.sort();
     reasons.dedup();
@@ -62,18 +63,24 @@ impl Reason {
     }
 }
 
-fn of_lookup(kept: &Snapshot, verdict: &Verdict, lookup: &Lookup, covers: Covers<'_>) -> Vec<Reason> {
-    let (before, now) = (kept.directory(lookup.directory), &verdict.directories[lookup.directory]);
+fn of_lookup(
+    kept: &Snapshot,
+    verdict: &Verdict,
+    directory: usize,
+    path: &str,
+    covers: Covers<'_>,
+) -> Vec<Reason> {
+    let (before, now) = (kept.directory(directory), &verdict.directories[directory]);
     let directory = &now.path;
     match DirectoryChange::of(before, now) {
         DirectoryChange::None => Vec::new(),
         DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],
         DirectoryChange::Names(names) => {
             let names = names.iter().map(|name| &**name);
-            let asked = names.filter(|name| covers(name, &lookup.name));
+            let asked = names.filter(|name| covers(name, path));
             let reason = |name: &str| Reason::Name {
                 file: directory.join(name),
-                path: lookup.name.clone(),
+                path: path.into(),
                 is_gone: !now.names.iter().any(|there| there == name),
             };
             asked.map(reason).collect()

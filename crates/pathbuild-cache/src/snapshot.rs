@@ -5,10 +5,9 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 
-use crate::facts::Lookup;
 use crate::flat::{
-    COUNTS, DIRECTORIES, FILES, HASH, LOOKUPS, NAMES, RECORD_FILES, RECORD_LOOKUPS, RECORD_OUTPUTS, RECORDS,
-    SIZES, TABLES, WORD,
+    COUNTS, DIRECTORIES, DIRECTORY_LISTS, FILES, HASH, LISTED_DIRECTORIES, LOOKUPS, NAMES, RECORD_FILES,
+    RECORD_LOOKUPS, RECORD_OUTPUTS, RECORDS, SIZES, TABLES, WORD,
 };
 use crate::stamp::Stamp;
 
@@ -117,10 +116,20 @@ impl Snapshot {
         self.rows(LOOKUPS)
     }
 
-    /// A question by its number: directory and name.
+    /// A question by its number: the number of the list of directories, and a name.
     pub fn lookup(&self, number: usize) -> (usize, &str) {
         let row = self.row(LOOKUPS, number);
         (row.number(0), self.text(row, 1))
+    }
+
+    /// How many lists of directories there are.
+    pub fn directory_lists(&self) -> usize {
+        self.rows(DIRECTORY_LISTS)
+    }
+
+    /// The numbers of the directories in a list.
+    pub fn directory_list(&self, number: usize) -> impl ExactSizeIterator<Item = usize> {
+        self.numbers(LISTED_DIRECTORIES, self.row(DIRECTORY_LISTS, number).range(0))
     }
 
     fn rows(&self, table: usize) -> usize {
@@ -177,7 +186,9 @@ impl Snapshot {
             && all(RECORD_OUTPUTS, &|row| is_row(row, 0, FILES))
             && all(RECORD_FILES, &|row| is_row(row, 0, FILES))
             && all(RECORD_LOOKUPS, &|row| is_row(row, 0, LOOKUPS))
-            && all(LOOKUPS, &|row| is_row(row, 0, DIRECTORIES) && is_text(row, 1))
+            && all(LOOKUPS, &|row| is_row(row, 0, DIRECTORY_LISTS) && is_text(row, 1))
+            && all(DIRECTORY_LISTS, &|row| are_rows(row, 0, LISTED_DIRECTORIES))
+            && all(LISTED_DIRECTORIES, &|row| is_row(row, 0, DIRECTORIES))
     }
 }
 
@@ -233,16 +244,8 @@ impl<'a> KeptRecord<'a> {
     }
 
     /// The numbers of the questions that were asked.
-    pub fn lookup_numbers(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
+    pub fn lookups(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
         self.kept.numbers(RECORD_LOOKUPS, self.row.range(4))
-    }
-
-    /// Those questions.
-    pub fn lookups(self) -> impl Iterator<Item = Lookup> + use<'a> {
-        self.lookup_numbers().map(move |number| {
-            let (directory, name) = self.kept.lookup(number);
-            Lookup { directory, name: name.into() }
-        })
     }
 
     /// The numbers of the files that were written of it.

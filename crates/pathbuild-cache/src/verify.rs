@@ -95,15 +95,19 @@ enum Role {
 
 /// For each record whether no file that was looked at has changed, and every question has the same answer.
 fn sound(kept: &Snapshot, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
+    let changed =
+        |list| kept.directory_list(list).map(|number| &changes[number]).filter(|change| change.is_some());
+    let changed: Vec<Vec<&DirectoryChange>> =
+        (0..kept.directory_lists()).map(|list| changed(list).collect()).collect();
     let is_anew = |number| {
-        let (directory, name) = kept.lookup(number);
-        changes[directory].concerns(name, covers)
+        let (list, name) = kept.lookup(number);
+        changed[list].iter().any(|change| change.concerns(name, covers))
     };
     let anew: Vec<bool> = (0..kept.lookups()).map(is_anew).collect();
     let is_sound = |number| {
         let record = kept.record(number);
         record.files().all(|file| files[file] != FileState::Changed)
-            && !record.lookup_numbers().any(|lookup| anew[lookup])
+            && !record.lookups().any(|lookup| anew[lookup])
     };
     (0..kept.records()).map(is_sound).collect()
 }

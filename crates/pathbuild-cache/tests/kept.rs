@@ -33,7 +33,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     let record = Record {
         of: "a.dxf".into(),
         files: vec![0],
-        lookups: vec![Lookup { directory: 0, name: "1234.1P".into() }],
+        lookups: vec![0],
         payload: b"result".to_vec(),
         ..Record::default()
     };
@@ -41,6 +41,8 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     Catalogue {
         files: vec![FileFact { path: base.join("a.dxf"), stamp, hash }],
         directories: vec![DirectoryFact::now(base, base)],
+        directory_lists: vec![vec![0]],
+        lookups: vec![Lookup { directories: 0, name: "1234.1P".into() }],
         records: vec![record],
     }
 }
@@ -73,6 +75,10 @@ fn catalogue_of(kept: &Snapshot) -> Catalogue {
             is_doubtful: directory.is_doubtful(),
         }
     };
+    let lookup = |number| {
+        let (directories, name) = kept.lookup(number);
+        Lookup { directories, name: name.into() }
+    };
     let record = |number| {
         let record = kept.record(number);
         Record {
@@ -86,6 +92,10 @@ fn catalogue_of(kept: &Snapshot) -> Catalogue {
     Catalogue {
         files: (0..kept.files()).map(file).collect(),
         directories: (0..kept.directories()).map(directory).collect(),
+        directory_lists: (0..kept.directory_lists())
+            .map(|list| kept.directory_list(list).collect())
+            .collect(),
+        lookups: (0..kept.lookups()).map(lookup).collect(),
         records: (0..kept.records()).map(record).collect(),
     }
 }
@@ -256,8 +266,8 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
         |of: &str, file, outputs| Record { of: of.into(), files: vec![file], outputs, ..Record::default() };
     let kept = kept(&Catalogue {
         files: vec![file("a.dxf"), file("a.gcode"), file("b.dxf")],
-        directories: Vec::new(),
         records: vec![record("a", 0, vec![1]), record("b", 2, Vec::new())],
+        ..Catalogue::default()
     });
     let looking = Looking { is_asked: &|of| of == "a", ..looking(&base, &covers) };
     let states = || pathbuild_cache::verify(&kept, looking, Listings::new());
@@ -281,10 +291,11 @@ fn larger(base: &Utf8Path) -> Catalogue {
     let record = |(index, name): (usize, &&str)| Record {
         of: (*name).into(),
         files: vec![index, 0],
-        lookups: (0..index % 3).map(|directory| Lookup { directory, name: "1234.1P".into() }).collect(),
+        lookups: (0..index % 3).collect(),
         payload: vec![7; index],
         outputs: (0..index).collect(),
     };
+    let lookup = |directories, name: &str| Lookup { directories, name: name.into() };
     let directory = |path: &str, names: &[&str]| DirectoryFact {
         path: path.into(),
         names: names.iter().copied().collect(),
@@ -294,6 +305,8 @@ fn larger(base: &Utf8Path) -> Catalogue {
     Catalogue {
         files: (0..).zip(&names).map(file).collect(),
         directories: vec![directory("", &["a.dxf", "b.dxf"]), directory("c", &[])],
+        directory_lists: vec![vec![1, 0], Vec::new(), vec![1]],
+        lookups: vec![lookup(0, "1234.1P"), lookup(2, "1234.1P")],
         records: names.iter().enumerate().map(record).collect(),
     }
 }
@@ -325,7 +338,9 @@ fn what_is_kept_is_found_by_its_name() {
     for nothing in ["", "a", "a.dxf.", "z", "b.dxe"] {
         assert_eq!((kept.record_of(nothing, 0), kept.file_of(Utf8Path::new(nothing))), (None, None));
     }
-    assert_eq!(catalogue_of(&kept).directories, catalogue.directories);
+    let again = catalogue_of(&kept);
+    assert_eq!(again.directories, catalogue.directories);
+    assert_eq!((again.directory_lists, again.lookups), (catalogue.directory_lists, catalogue.lookups));
     assert_eq!(Snapshot::default().record_of("a.dxf", 0), None);
 }
 

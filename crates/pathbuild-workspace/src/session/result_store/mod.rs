@@ -2,6 +2,7 @@
 //!
 //! What is kept is what the database said; whatever the configuration makes of it afterwards (severities, a baseline, formats) is not.
 
+mod lookups;
 mod payload;
 mod question;
 mod scope;
@@ -12,8 +13,8 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Clock, FileState, Key, Listings, Looking, Lookup, Reason, Snapshot, Stamp, TreeStore, Unusable, Verdict,
-    reasons, verify,
+    Clock, FileState, Key, Listings, Looking, Reason, Snapshot, Stamp, TreeStore, Unusable, Verdict, reasons,
+    verify,
 };
 use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
@@ -101,7 +102,7 @@ pub struct Dependencies<'a> {
     /// The files.
     pub files: Vec<&'a Utf8Path>,
     /// What was looked for: directory and name.
-    pub lookups: Vec<(&'a Utf8Path, Box<str>)>,
+    pub lookups: Vec<(&'a Utf8Path, &'a str)>,
 }
 
 impl ResultStore {
@@ -159,8 +160,12 @@ impl ResultStore {
     pub fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
         let record = self.kept.record(self.record(of)?);
         let files = record.files().map(|file| self.kept.file(file).path());
-        let sought = |Lookup { directory, name }: Lookup| (self.kept.directory(directory).path(), name);
-        Some(Dependencies { files: files.collect(), lookups: record.lookups().map(sought).collect() })
+        let sought = |lookup| {
+            let (directories, name) = self.kept.lookup(lookup);
+            let list = self.kept.directory_list(directories);
+            list.map(move |directory| (self.kept.directory(directory).path(), name))
+        };
+        Some(Dependencies { files: files.collect(), lookups: record.lookups().flat_map(sought).collect() })
     }
 
     /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.

@@ -3,9 +3,10 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Lookup, Record, Stamp};
-use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
+use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Record, Stamp};
+use pathbuild_db::{Database, Db, Sought, SourceFile, content, drawing_names};
 
+use super::lookups::Lookups;
 use super::{FreshResult, MadeOutput, ResultStore};
 use crate::session::Session;
 
@@ -15,11 +16,14 @@ pub(super) struct Writing<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    files: HashMap<Utf8PathBuf, usize>,
+    /// The number of each file by its path's text: comparing paths part by part takes longer.
+    files: HashMap<Box<str>, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
-    /// The new number of each kept file and directory.
+    lookups: Lookups,
+    /// The new number of each kept file, directory and question.
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
+    kept_lookups: Vec<Option<usize>>,
     /// The drawings that this run read, with the hash of what it read and the stamp it was read under; `None` where it could not be read,
     /// or was not always the same.
     read: HashMap<Utf8PathBuf, Option<([u8; 32], Stamp)>>,
@@ -48,8 +52,10 @@ impl<'a> Writing<'a> {
             catalogue: Catalogue::default(),
             files: HashMap::new(),
             directories: HashMap::new(),
+            lookups: Lookups::default(),
             kept_files: vec![None; kept.files()],
             kept_directories: vec![None; kept.directories()],
+            kept_lookups: vec![None; kept.lookups()],
             read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
             asked: asked.map(|directory| &**directory).collect(),
             written: made.iter().flat_map(|made| &made.outputs).map(|output| &*output.path).collect(),
@@ -57,7 +63,8 @@ impl<'a> Writing<'a> {
     }
 
     pub(super) fn finish(self) -> Catalogue {
-        self.catalogue
+        let Lookups { lists, all, .. } = self.lookups;
+        Catalogue { directory_lists: lists, lookups: all, ..self.catalogue }
     }
 
     /// Takes over a record against which nothing was known, unless this run read something else in one of its drawings, or made one of
@@ -69,8 +76,7 @@ impl<'a> Writing<'a> {
             return;
         }
         let files = record.files().map(|file| self.kept_file(file)).collect();
-        let lookup = |lookup: Lookup| Lookup { directory: self.kept_directory(lookup.directory), ..lookup };
-        let lookups = record.lookups().map(lookup).collect();
+        let lookups = record.lookups().map(|lookup| self.kept_lookup(lookup)).collect();
         let outputs = record.outputs().map(|file| self.kept_file(file)).collect();
         let (of, payload) = (record.of().into(), record.payload().to_vec());
         self.catalogue.records.push(Record { of, files, lookups, outputs, payload });
@@ -88,12 +94,7 @@ impl<'a> Writing<'a> {
         let mut lookups = BTreeSet::new();
         for trace in &made.traces {
             files.extend(trace.files.iter().map(|file| self.drawing(*file)));
-            for sought in &trace.lookups {
-                for directory in &sought.directories {
-                    let directory = self.directory(directory);
-                    lookups.insert(Lookup { directory, name: sought.name.as_str().into() });
-                }
-            }
+            lookups.extend(trace.lookups.iter().map(|sought| self.lookup(sought)));
         }
         files.extend(made.further.iter().map(|file| self.further_file(file)));
         let outputs = made.outputs.iter().map(|output| self.output(output)).collect();
@@ -108,11 +109,11 @@ impl<'a> Writing<'a> {
 
     /// Whether this run read other bytes than those that are known of a file at which it did not look before.
     fn is_other(&self, number: usize) -> bool {
+        if self.result_store.verdict.files[number] != FileState::Unlooked {
+            return false;
+        }
         let file = self.result_store.kept.file(number);
-        let read = self
-            .read
-            .get(file.path())
-            .filter(|_| self.result_store.verdict.files[number] == FileState::Unlooked);
+        let read = self.read.get(file.path());
         read.is_some_and(|content| content.map(|(hash, _)| hash) != file.hash())
     }
 
@@ -177,13 +178,31 @@ impl<'a> Writing<'a> {
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
-        if let Some(known) = self.files.get(&fact.path) {
+        if let Some(known) = self.files.get(fact.path.as_str()) {
             return *known;
         }
         let number = self.catalogue.files.len();
-        self.files.insert(fact.path.clone(), number);
+        self.files.insert(fact.path.as_str().into(), number);
         self.catalogue.files.push(fact);
         number
+    }
+
+    fn kept_lookup(&mut self, number: usize) -> usize {
+        if let Some(new) = self.kept_lookups[number] {
+            return new;
+        }
+        let kept = &self.result_store.kept;
+        let (directories, name) = kept.lookup(number);
+        let list = kept.directory_list(directories).map(|directory| self.kept_directory(directory)).collect();
+        let new = self.lookups.number(list, name);
+        self.kept_lookups[number] = Some(new);
+        new
+    }
+
+    /// A question that was asked now.
+    fn lookup(&mut self, sought: &Sought) -> usize {
+        let list = sought.directories.iter().map(|directory| self.directory(directory)).collect();
+        self.lookups.number(list, sought.name.as_str())
     }
 
     fn kept_directory(&mut self, number: usize) -> usize {
