@@ -1,6 +1,6 @@
 // The page in the browser alone: node web-test.mjs PATHBUILD LIBRARY HTML [PICTURES]. Needs Debian's chromium.
 import { spawnSync } from "node:child_process";
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import assert from "node:assert/strict";
@@ -240,6 +240,60 @@ for (const [way, code] of [["own.room(-1)", "PB006"], ["for(;;);", "PB005"], ["(
   await page.locator(".item").first().click();
   await page.waitForFunction(() => document.getElementById("title").textContent === "2053.1P");
   assert.deepEqual(Object.keys(await downloaded(page, "#download")), ["2053.1P_Milling.gcode"]);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+
+/** A drawing in a code page: all pairs of bytes of which the first is not ASCII, beside others and alone; and longer ones of GBK. */
+function codePage(name) {
+  const bytes = (from) => Array.from({ length: 256 - from }, (_, index) => from + index);
+  const texts = bytes(0x80).flatMap((first) => [
+    bytes(0x20).flatMap((second) => [0x2e, first, second, 0x2e]),
+    bytes(0x20).flatMap((second) => [first, second, first, second, 0x41]),
+    [0x2e, first],
+  ]);
+  for (let first = 0x81; first < 0xff; first++) texts.push([0x30, 0x35, 0x39].flatMap((second) => [0x81, 0x9f, 0xfe].flatMap((third) => [first, second, third, second, 0x2e])));
+  const lines = (...said) => Buffer.from(said.map((line) => `${line}\n`).join(""), "latin1");
+  const text = (said) => [lines(0, "TEXT", 8, "words", 10, 0, 20, 0, 40, 2, 1), Buffer.from(said), lines("")];
+  const head = lines(0, "SECTION", 2, "HEADER", 9, "$ACADVER", 1, "AC1015", 9, "$DWGCODEPAGE", 3, name, 0, "ENDSEC", 0, "SECTION", 2, "ENTITIES");
+  return Buffer.concat([head, ...texts.flatMap(text), lines(0, "LINE", 8, "1000.1P", 6, "CONTINUOUS", 10, 0, 20, 0, 11, 9, 21, 0, 0, "ENDSEC", 0, "EOF")]);
+}
+
+/** In the page: what the compiler in it shows of each drawing. */
+async function scenesOf(drawings) {
+  const inside = (id) => document.getElementById(id).textContent;
+  const packed = Uint8Array.from(atob(inside("wasm")), (letter) => letter.charCodeAt(0));
+  const wasm = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const worker = new Worker(URL.createObjectURL(new Blob([inside("worker")], { type: "text/javascript" })));
+  const ask = (question, bytes) =>
+    new Promise((answer) => {
+      worker.onmessage = ({ data }) => answer(new TextDecoder().decode(data.bytes));
+      worker.postMessage({ head: JSON.stringify(question), bytes });
+    });
+  worker.postMessage(wasm);
+  for (const [file, bytes] of drawings) await ask({ ask: "put", file }, Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0)).buffer);
+  await ask({ ask: "open", options: {} });
+  const scenes = [];
+  for (const [file] of drawings) scenes.push(await ask({ ask: "scene", file, path: null }));
+  return scenes;
+}
+{
+  // Code pages: the browser decodes texts, and to the last character as the program does, damaged ones too.
+  const folder = join(place, "pages");
+  mkdirSync(folder);
+  writeFileSync(join(folder, "pathbuild.toml"), "");
+  const pages = ["ANSI_866", "ANSI_874", "ANSI_932", "ANSI_936", "ANSI_949", "ANSI_950", "ANSI_1250", "ANSI_1251", "ANSI_1252", "ANSI_1253", "ANSI_1254", "ANSI_1255", "ANSI_1256", "ANSI_1257", "ANSI_1258", "DOS437", "DOS850", "ISO8859-2", "ISO8859-3", "ISO8859-4", "ISO8859-5", "ISO8859-6", "ISO8859-7", "ISO8859-8", "MACINTOSH", "UTF-8"];
+  for (const name of pages) writeFileSync(join(folder, `${name}.dxf`), codePage(name));
+  const { page, faults } = await open();
+  const scenes = await page.evaluate(scenesOf, pages.map((name) => [`${name}.dxf`, readFileSync(join(folder, `${name}.dxf`), "base64")]));
+  for (const [index, name] of pages.entries()) {
+    const own = spawnSync(pathbuild, ["view", `${name}.dxf`, "-o", `${name}.json`, "--no-cache"], { cwd: folder, encoding: "utf8" });
+    assert.ok(existsSync(join(folder, `${name}.json`)), own.stderr);
+    const scene = readFileSync(join(folder, `${name}.json`), "utf8").trimEnd();
+    const texts = JSON.parse(scene).other_layers.filter((it) => it.type === "text");
+    assert.ok(texts.length >= 127 && texts.some((it) => /[^\0-\x7f\ufffd]/.test(it.text)), `${name}: ${texts.length}`);
+    assert.ok(scene === scenes[index], name);
+  }
   assert.deepEqual(faults, []);
   await page.close();
 }

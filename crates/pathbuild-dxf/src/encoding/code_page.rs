@@ -1,19 +1,19 @@
 //! `$DWGCODEPAGE`: which encoding its value names. (book: reference/dxf)
 
-use encoding_rs::{
+use oem_cp::code_table::DECODING_TABLE_CP_MAP;
+use oem_cp::code_table_type::TableType;
+use pathbuild_encoding::{
     BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5, ISO_8859_6,
     ISO_8859_7, ISO_8859_8, MACINTOSH, SHIFT_JIS, UTF_8, WINDOWS_874, WINDOWS_1250, WINDOWS_1251,
     WINDOWS_1252, WINDOWS_1253, WINDOWS_1254, WINDOWS_1255, WINDOWS_1256, WINDOWS_1257, WINDOWS_1258,
 };
-use oem_cp::code_table::DECODING_TABLE_CP_MAP;
-use oem_cp::code_table_type::TableType;
 
 /// How the bytes of texts are to be read.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CodePage {
     /// Nothing was declared, or `ANSI_1252`, which is what many programs write whatever they use.
     Usual,
-    /// One that `encoding_rs` has.
+    /// One that the standard of browsers knows.
     Standard(&'static Encoding),
     /// A page of DOS.
     Dos(&'static TableType),

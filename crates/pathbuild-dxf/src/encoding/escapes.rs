@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS};
 use memchr::memchr_iter;
+use pathbuild_encoding::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS};
 
 /// What an escape stands for that stands for nothing.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;

@@ -8,11 +8,10 @@ mod escapes;
 
 use std::borrow::Cow;
 
-use encoding_rs::mem::decode_latin1;
-use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use oem_cp::code_table_type::TableType;
 use pathbuild_diagnostic::messages::reading::{UNDECODABLE, UNKNOWN_CODE_PAGE};
 use pathbuild_diagnostic::{Diagnostic, TextFault};
+use pathbuild_encoding::{Encoding, UTF_8, WINDOWS_1252, decode_latin1};
 
 use crate::faults::shown;
 use crate::header::Header;

@@ -13,7 +13,7 @@ const SHOWN: usize = 160;
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
-        Err(_) => encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0,
+        Err(_) => pathbuild_encoding::WINDOWS_1252.decode_without_bom_handling(bytes).0,
     }
 }
 

@@ -19,11 +19,19 @@ export interface Asked {
 /** An answer, or why there is none and never will be. */
 export type Answered = { head: string; bytes: Uint8Array<ArrayBuffer> } | { trap: string };
 
+/** What the compiler asks of the browser: crates/pathbuild-encoding/src/browser.rs. */
+const imports = { browser: { decode } };
+
 let begun: Promise<Exports> | null = null;
+let memory: WebAssembly.Memory;
 
 self.addEventListener("message", async ({ data }: MessageEvent<ArrayBuffer | Asked>) => {
   if (data instanceof ArrayBuffer) {
-    begun = WebAssembly.instantiate(data, {}).then(({ instance }) => instance.exports as unknown as Exports);
+    begun = WebAssembly.instantiate(data, imports).then(({ instance }) => {
+      const exports = instance.exports as unknown as Exports;
+      memory = exports.memory;
+      return exports;
+    });
     begun.catch((error) => tell({ trap: String(error) }));
     return;
   }
@@ -49,6 +57,18 @@ function ask(exports: Exports, { head, bytes }: Asked): Answered {
   const answer = at(exports, exports.answered(), length);
   const end = answer.indexOf(10);
   return { head: new TextDecoder().decode(answer.subarray(0, end)), bytes: answer.slice(end + 1) };
+}
+
+/** Decodes a text in code page `label`; of a damaged one gives back the length's complement. */
+function decode(label: number, labelLength: number, from: number, length: number, to: number, room: number): number {
+  const bytes = (place: number, size: number) => new Uint8Array(memory.buffer, place >>> 0, size >>> 0);
+  const name = new TextDecoder().decode(bytes(label, labelLength));
+  const write = (fatal: boolean) => new TextEncoder().encodeInto(new TextDecoder(name, { fatal }).decode(bytes(from, length)), bytes(to, room)).written;
+  try {
+    return write(true);
+  } catch {
+    return ~write(false);
+  }
 }
 
 /** What a panic said. */

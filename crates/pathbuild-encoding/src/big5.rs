@@ -1,0 +1,58 @@
+//! Big5, pair by pair. Where a pair means nothing the standard replaces both bytes, and Chromium the first one alone.
+
+/// Decodes a text by what each pair of bytes stands for; `None`: it stands for nothing. Also tells whether all did stand for something.
+pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>) -> (String, bool) {
+    let (mut text, mut all_known) = (String::with_capacity(bytes.len() * 2), true);
+    while let [first, rest @ ..] = bytes {
+        bytes = rest;
+        if first.is_ascii() {
+            text.push(char::from(*first));
+            continue;
+        }
+        let known = match rest {
+            [second, others @ ..] if (0x81..=0xFE).contains(first) => {
+                let known = pair([*first, *second]);
+                // ASCII is never lost with a byte that cannot stand before it.
+                if known.is_some() || !second.is_ascii() {
+                    bytes = others;
+                }
+                known
+            }
+            _ => None,
+        };
+        all_known &= known.is_some();
+        text.push_str(known.as_deref().unwrap_or("\u{fffd}"));
+    }
+    (text, all_known)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BIG5;
+
+    fn standard(bytes: &[u8]) -> (String, bool) {
+        let (text, had_errors) = BIG5.decode_without_bom_handling(bytes);
+        (text.into_owned(), !had_errors)
+    }
+
+    fn own(bytes: &[u8]) -> (String, bool) {
+        decode(bytes, |pair| {
+            let known = BIG5.decode_without_bom_handling_and_without_replacement(&pair);
+            known.map(std::borrow::Cow::into_owned)
+        })
+    }
+
+    #[test]
+    fn all_pairs_and_what_follows_them_are_those_of_the_standard() {
+        for first in 0..=u8::MAX {
+            assert_eq!(own(&[first]), standard(&[first]), "{first:02x}");
+            for second in 0..=u8::MAX {
+                for third in [0x20, 0x41, 0x7F, 0x80, 0x81, 0xA4, 0xFE, 0xFF] {
+                    let bytes = [first, second, third];
+                    assert_eq!(own(&bytes), standard(&bytes), "{bytes:02x?}");
+                }
+            }
+        }
+    }
+}
