@@ -457,6 +457,24 @@ fn names_come_first_and_states_follow() {
     assert!(was_unchecked);
 }
 
+/// A large library is painted before all of it has come.
+#[test]
+fn a_page_gets_as_many_drawings_as_it_asks_for() {
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let asked = |query: &str| {
+        let library = served.get(&format!("/api/library{query}")).json();
+        let drawings = library["drawings"].as_array().unwrap();
+        let files: Vec<String> = drawings.iter().map(|it| it["file"].as_str().unwrap().to_owned()).collect();
+        (files, library["more"].as_bool().unwrap())
+    };
+    let (all, more) = asked("");
+    assert_eq!((all.len(), more), (3, false));
+    assert_eq!(asked("?since=0&most=2"), (all[..2].to_vec(), true));
+    assert_eq!(asked("?since=0&most=3"), (all, false));
+    assert_eq!(served.get("/api/library?most=-1").status, 400);
+}
+
 /// Programs that are written are current.
 #[test]
 fn with_emit_the_state_is_that_after_writing() {

@@ -14,8 +14,9 @@ export class Connection implements Source {
     if (token) this.headers = { Authorization: `Bearer ${token}` };
   }
 
-  async library(since: number): Promise<LibraryNews> {
-    return (await this.get(`api/library?since=${since}`)).json();
+  async library(since: number, most?: number): Promise<LibraryNews> {
+    const part = most === undefined ? "" : `&most=${most}`;
+    return (await this.get(`api/library?since=${since}${part}`)).json();
   }
 
   async scene(file: string, path: string | null): Promise<Scene> {

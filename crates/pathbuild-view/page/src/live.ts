@@ -26,6 +26,9 @@ const FILTERS: [Filter, Word][] = [
   ["warnings", "withWarnings"],
 ];
 
+/** So many drawings are fetched first: more than any window shows, and painted before a large library has come. */
+const FIRST = 200;
+
 /** The page, which asks that source. */
 export function live(source: Source): void {
   new Page(source).begin();
@@ -36,6 +39,8 @@ class Page {
   /** In order of place. */
   private files: string[] = [];
   private revision = 0;
+  /** Whether the last answer was all there was. */
+  private isWhole = true;
   private isPulling = false;
   private isBehind = false;
   private isOnline = true;
@@ -116,7 +121,8 @@ class Page {
     try {
       while (this.isBehind) {
         this.isBehind = false;
-        this.take(await this.source.library(this.revision));
+        this.take(await this.source.library(this.revision, this.isWhole && this.drawings.size === 0 ? FIRST : undefined));
+        this.isBehind ||= !this.isWhole;
       }
     } catch {
       // The events tell whether it is worth while to ask again.
@@ -134,7 +140,9 @@ class Page {
     }
     if (news.all || news.drawings.some(({ file, rows }) => !rows || !known.has(file))) this.files = inOrder(this.drawings.keys());
     const wasComplete = this.isComplete;
-    [this.revision, this.isComplete, this.halted] = [news.revision, news.complete, news.halted];
+    this.isWhole = !news.more;
+    // Who has a part knows nothing that the next answer could follow.
+    [this.revision, this.isComplete, this.halted] = [this.isWhole ? news.revision : 0, this.isWhole && news.complete, news.halted];
     [this.problems, this.statistics] = [news.problems, news.statistics];
     this.say();
     const { open } = this;
@@ -168,7 +176,7 @@ class Page {
     const pending = all.filter((row) => row.state === undefined).length;
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
-    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "onePath" : "paths", lang)}${open}`;
+    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "onePath" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
   }
 
   /** Everything that is said in words. */

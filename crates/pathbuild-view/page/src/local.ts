@@ -69,7 +69,7 @@ class Local implements Source {
   async library(): Promise<LibraryNews> {
     const { halted, problems, statistics } = this;
     const drawings = [...this.changed].map((file) => ({ file, rows: this.drawings.get(file) ?? null }));
-    const news = { revision: this.revision, all: this.isNew, complete: this.isComplete, halted, problems, statistics, drawings };
+    const news = { revision: this.revision, all: this.isNew, complete: this.isComplete, halted, problems, statistics, drawings, more: false };
     this.changed.clear();
     this.isNew = false;
     return news;

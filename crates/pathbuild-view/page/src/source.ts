@@ -45,6 +45,8 @@ export interface LibraryNews {
   statistics: Statistics | null;
   /** Without rows: it is gone. */
   drawings: { file: string; rows: LibraryRow[] | null }[];
+  /** Whether there are more drawings than were asked for. */
+  more: boolean;
 }
 
 /** An answer that is none. */
@@ -56,8 +58,8 @@ export class Refused extends Error {
 
 /** Whom the page asks: a server, or the compiler in the page itself. */
 export interface Source {
-  /** What came after a change. */
-  library(since: number): Promise<LibraryNews>;
+  /** What came after a change; of drawings so many at most, the first ones. */
+  library(since: number, most?: number): Promise<LibraryNews>;
   scene(file: string, path: string | null): Promise<Scene>;
   /** SVG. */
   picture(file: string, path: string | null): Promise<Blob>;

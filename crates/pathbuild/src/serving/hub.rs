@@ -115,9 +115,9 @@ impl Hub {
         self.news.subscribe()
     }
 
-    /// What came after a change, in JSON.
-    pub(super) fn library(&self, since: u64) -> String {
-        self.state().to_json(since)
+    /// What came after a change, in JSON; of drawings so many at most.
+    pub(super) fn library(&self, since: u64, most: usize) -> String {
+        self.state().to_json(since, most)
     }
 
     /// Asks for something to see. No answer comes where nobody is there to give one.
@@ -173,7 +173,7 @@ impl State {
         self.problems = serde_json::to_string(&problems).unwrap_or_default();
     }
 
-    fn to_json(&self, since: u64) -> String {
+    fn to_json(&self, since: u64, most: usize) -> String {
         let is_all = since < self.base || since > self.revision;
         let or = |text: &str, other: &str| if text.is_empty() { other.to_owned() } else { text.to_owned() };
         let mut text = format!(
@@ -184,12 +184,13 @@ impl State {
             or(&self.problems, "[]"),
             or(&self.statistics, "null"),
         );
-        let wanted = self.drawings.values().filter(|drawing| is_all || drawing.revision > since);
-        for (index, drawing) in wanted.enumerate() {
+        let mut wanted = self.drawings.values().filter(|drawing| is_all || drawing.revision > since);
+        for (index, drawing) in wanted.by_ref().take(most).enumerate() {
             let comma = if index == 0 { "" } else { "," };
             _ = write!(text, "{comma}{}", drawing.text);
         }
-        text.push_str("]}");
+        let is_more = wanted.next().is_some();
+        _ = write!(text, "],\"more\":{is_more}}}");
         text
     }
 }

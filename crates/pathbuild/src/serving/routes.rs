@@ -130,13 +130,16 @@ fn file(kind: &'static str, text: &'static str) -> impl IntoResponse {
 }
 
 #[derive(Deserialize)]
-struct Since {
+struct News {
+    /// What the page knows.
     #[serde(default)]
     since: u64,
+    /// How many drawings it wants; `None`: all of them.
+    most: Option<usize>,
 }
 
-async fn library(State(routes): State<Arc<Routes>>, Query(Since { since }): Query<Since>) -> Response {
-    ([(CONTENT_TYPE, JSON)], routes.hub.library(since)).into_response()
+async fn library(State(routes): State<Arc<Routes>>, Query(News { since, most }): Query<News>) -> Response {
+    ([(CONTENT_TYPE, JSON)], routes.hub.library(since, most.unwrap_or(usize::MAX))).into_response()
 }
 
 /// A path, or a whole drawing.
