@@ -1,8 +1,8 @@
 // The page in a browser: node test.mjs PATHBUILD LIBRARY [PICTURES]. Needs Debian's chromium.
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync } from "node:fs";
+import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { basename, join, resolve } from "node:path";
 import assert from "node:assert/strict";
 import { chromium } from "playwright-core";
 
@@ -15,7 +15,7 @@ const browser = await chromium.launch({
 
 /** Writes a page and opens it; errors and requests to elsewhere fail the test. */
 async function open(what, options = {}) {
-  const file = join(directory, `${what.replaceAll("/", "_")}.html`);
+  const file = join(directory, `${basename(what)}.html`);
   const run = spawnSync(pathbuild, ["view", what, "-o", file], { cwd: library, encoding: "utf8" });
   assert.ok(run.stderr.includes(".html"), run.stderr);
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
@@ -120,6 +120,34 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.keyboard.press("3");
   await page.waitForTimeout(200);
   await shot(page, "clamp");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // So many moves are kept as a picture; it is the same by whatever way a step is reached.
+  const program = ["G21 G90 G94 G17", "G00 Z5", "G00 X0 Y0", "G01 Z-1 F100"];
+  for (let move = 0; move < 30_000; move++) program.push(`G01 X${(Math.cos(move * 0.7) * (10 + move / 500)).toFixed(3)} Y${(Math.sin(move * 0.7) * (10 + move / 500)).toFixed(3)}`);
+  const file = join(directory, "long.gcode");
+  writeFileSync(file, [...program, "M30", ""].join("\n"));
+  const { page, faults } = await open(file);
+  const picture = async (...steps) => {
+    for (const step of steps) {
+      await page.locator("#slider").fill(String(step));
+      await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    }
+    return page.locator("#picture").screenshot();
+  };
+  const [early, late] = [await picture(0, 12_345), await picture(23_456)];
+  assert.ok(!early.equals(late));
+  assert.ok(late.equals(await picture(30_000, 23_456)), "backwards");
+  assert.ok(early.equals(await picture(12_345)), "far backwards");
+  assert.ok(late.equals(await picture(...Array.from({ length: 10 }, (_, turn) => 14_456 + turn * 1000))), "by steps");
+  // From elsewhere it is another.
+  await page.keyboard.press("3");
+  const above = await picture(12_345);
+  assert.ok(!above.equals(early));
+  assert.ok(above.equals(await picture(23_456, 12_345)), "in space");
+  await shot(page, "long");
   assert.deepEqual(faults, []);
   await page.close();
 }

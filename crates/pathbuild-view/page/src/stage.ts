@@ -1,5 +1,5 @@
 // The picture: one WebGL2 renderer, of which the view from above is the orthographic camera's. Buffers are uploaded once; a step changes
-// only how many of their pieces are drawn.
+// only how many of their pieces are drawn, and of very many pieces draws those alone that are new (kept.ts).
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -7,6 +7,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
+import { Kept } from "./kept.js";
 import { Model, Pieces } from "./model.js";
 import { KeepOut, Point, Scene, Shape, pointsOfShape } from "./scene.js";
 
@@ -19,6 +20,9 @@ export interface Spot {
 interface Strokes {
   object: THREE.Object3D;
   draw(count: number): void;
+  /** Does what must be done before a picture. */
+  prepare?(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void;
+  dispose?(): void;
 }
 
 /** Of more pieces thick lines are too slow without a graphics card: they become thin. */
@@ -51,6 +55,7 @@ export class Stage {
   private rapids!: Strokes;
   private arrows!: Strokes;
   private rapidArrows!: Strokes;
+  private all: Strokes[] = [];
   private other!: THREE.LineSegments;
   private tool!: THREE.Mesh;
   private mark!: LineSegments2;
@@ -103,7 +108,8 @@ export class Stage {
     const body = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 24).rotateX(Math.PI / 2).translate(0, 0, height / 2);
     this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
     this.scene.add(this.other, this.mark, this.tool);
-    for (const strokes of [this.cuts, this.rapids, this.arrows, this.rapidArrows]) this.scene.add(strokes.object);
+    this.all = [this.cuts, this.rapids, this.arrows, this.rapidArrows];
+    for (const { object } of this.all) this.scene.add(object);
     this.resize();
   }
 
@@ -124,6 +130,8 @@ export class Stage {
       object.material.dispose();
     });
     this.scene.clear();
+    this.all.forEach((strokes) => strokes.dispose?.());
+    this.all = [];
     this.materials = [];
     this.layer = 0;
   }
@@ -280,6 +288,8 @@ export class Stage {
     this.isDue = true;
     requestAnimationFrame(() => {
       this.isDue = false;
+      this.camera.updateMatrixWorld();
+      for (const strokes of this.all) if (strokes.object.visible) strokes.prepare?.(this.renderer, this.camera);
       this.renderer.render(this.scene, this.camera);
       for (const { at, node } of this.spots) {
         const [x, y] = this.project(at);
@@ -303,13 +313,9 @@ export class Stage {
       const lines = this.fat(pieces, width);
       return { object: lines, draw: (count) => (lines.geometry.instanceCount = count) };
     }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(pieces.points, 3));
-    geometry.setAttribute("color", new THREE.Float32BufferAttribute(pieces.colors, 3));
-    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true, depthTest: false, depthWrite: false }));
-    lines.frustumCulled = false;
-    lines.renderOrder = ++this.layer;
-    return { object: lines, draw: (count) => geometry.setDrawRange(0, count * 2) };
+    const kept = new Kept(pieces);
+    kept.object.renderOrder = ++this.layer;
+    return kept;
   }
 
   private fat(pieces: Pieces, width: number): LineSegments2 {
