@@ -98,6 +98,27 @@ fn a_name_that_is_none_or_is_taken_is_wrong_usage() {
     assert!(run.stderr.contains("PB503"), "{run}");
 }
 
+/// A path is found by the name of its file: a range of paths there does not cover that of the Q-project. (PB503)
+#[test]
+fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
+    let place = written();
+    let found = place.run("emit 1234.0Q");
+    assert_eq!(found.status, Some(0), "{found}");
+    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf"));
+    assert_eq!(place.run("q-project 1234.1-1234.3P.dxf").status, Some(0));
+    for (lang, note) in [
+        ("en", "note: 1234.1-1234.3P_Q.dxf defines it, though the file's name does not cover it"),
+        ("de", "1234.1-1234.3P_Q.dxf enthält ihn, obwohl der Dateiname ihn nicht abdeckt"),
+    ] {
+        let missed = place.run(&format!("emit 1234.0Q --lang {lang}"));
+        assert_eq!(missed.status, Some(1), "{missed}");
+        assert!(missed.stderr.contains(note), "{missed}");
+    }
+    let nowhere = place.run("emit 1234.9Q");
+    assert!(nowhere.stderr.contains("did you mean") && !nowhere.stderr.contains("defines it"), "{nowhere}");
+    assert_eq!(place.run("emit 1234.1-1234.3P_Q.dxf").status, Some(0));
+}
+
 /// Nothing is written of a drawing that projects could not embed.
 fn is_refused(drawing: &str, code: &str) {
     let place = Place::of(drawing);

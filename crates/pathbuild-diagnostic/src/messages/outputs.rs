@@ -69,6 +69,11 @@ messages! {
         en: "the library defines it in {near}: name that drawing",
         de: "die Bibliothek enthält ihn in {near}: diese Zeichnung nennen",
     }
+    /// Note: the drawing that defines the path, which nobody finds by the drawing's name.
+    NOT_IN_FILE_NAME: PathNotFound {
+        en: "{near} defines it, though the file's name does not cover it: name that drawing",
+        de: "{near} enthält ihn, obwohl der Dateiname ihn nicht abdeckt: diese Zeichnung nennen",
+    }
     /// A note: the path whose name is nearest.
     NEAR_PATH: PathNotFound {
         en: "did you mean {near}?",

@@ -102,28 +102,38 @@ pub enum ProgramState {
 }
 
 impl Session<'_> {
-    /// The names of all paths of the library, or below the working directory where there is none, each once, in order. Of a drawing that
-    /// the last `check` of the library knows it is not read again; drawings of a large library that it does not know are left out.
+    /// The names of all paths of the library, or below the working directory where there is none, each once, in order.
     pub fn names_of_library(&self) -> Vec<PathName> {
+        let mut names: Vec<PathName> = self.paths_of_library().into_iter().map(|(name, _)| name).collect();
+        names.dedup();
+        names
+    }
+
+    /// The same with the drawings that define them. Of a drawing that the last `check` of the library knows it is not read again; drawings of
+    /// a large library that it does not know are left out.
+    pub(crate) fn paths_of_library(&self) -> Vec<(PathName, SourceFile)> {
         let files = self.everything();
         let result_store = kept_results(self.workspace());
         let kept = |file: &SourceFile| {
             let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
             Some(DrawingResult::decode(payload).ok()?.names)
         };
-        let (mut names, mut open) = (Vec::new(), Vec::new());
+        let (mut paths, mut open) = (Vec::new(), Vec::new());
         for file in files {
             match kept(&file) {
-                Some(kept) => names.extend(kept),
+                Some(kept) => paths.extend(kept.into_iter().map(|name| (name, file))),
                 None => open.push(file),
             }
         }
         open.truncate(MOST_UNKNOWN);
         self.read_ahead(&open);
-        names.extend(open.iter().flat_map(|file| path_names(self.db(), *file).iter().cloned()));
-        names.sort_unstable();
-        names.dedup();
-        names
+        for file in open {
+            paths.extend(path_names(self.db(), file).iter().map(|name| (name.clone(), file)));
+        }
+        paths.sort_by(|(a, one), (b, other)| {
+            a.cmp(b).then_with(|| one.path(self.db()).cmp(other.path(self.db())))
+        });
+        paths
     }
 }
 

@@ -4,8 +4,8 @@ use std::cell::LazyCell;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::Db;
 use pathbuild_db::system::{EntryKind, FileKind, join};
+use pathbuild_db::{Db, SourceFile};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use pathbuild_path::PathName;
@@ -16,14 +16,14 @@ use crate::config::nearest::nearest;
 impl Session<'_> {
     /// Adds to what is not found where else it is, or which name is nearly the same.
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-        let names = LazyCell::new(|| self.known_names());
+        let known = LazyCell::new(|| self.known());
         let with_near = |diagnostic: Diagnostic| {
             let near = match (diagnostic.message, &diagnostic.file) {
                 (message, Some(file)) if *message == files::MISSING => {
                     self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))
                 }
                 (message, _) if *message == outputs::NO_SUCH_PATH || *message == outputs::NO_PATH_LIKE => {
-                    self.near_path(named(&diagnostic), &names)
+                    self.near_path(named(&diagnostic), &known)
                 }
                 _ => None,
             };
@@ -35,21 +35,25 @@ impl Session<'_> {
         self.with_elsewhere(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// The drawing that defines a path which is looked for elsewhere; else the name that is nearest.
-    fn near_path(&self, name: &str, names: &[String]) -> Option<(&'static Message, String)> {
+    /// The drawing that defines a path which is looked for elsewhere, or by the names of drawings; else the name that is nearest.
+    fn near_path(&self, name: &str, known: &Known) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
+        let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
         let defined = self.definitions(&path, &self.library_directories());
         if let Some(file) = defined.first() {
-            return Some((&outputs::DEFINED_IN, file.path(self.db()).to_string()));
+            return in_drawing(&outputs::DEFINED_IN, *file);
         }
-        let others = names.iter().map(String::as_str).filter(|other| *other != name);
+        if let Some((_, file)) = known.paths.iter().find(|(known, _)| *known == path) {
+            return in_drawing(&outputs::NOT_IN_FILE_NAME, *file);
+        }
+        let paths = known.paths.iter().map(|(name, _)| name.as_str());
+        let others = paths.chain(known.entries.iter().map(String::as_str)).filter(|other| *other != name);
         nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
     }
 
-    /// What a name without a separator may mean: paths, and directories of the working directory.
-    fn known_names(&self) -> Vec<String> {
-        let paths = self.names_of_library().into_iter().map(|name| name.as_str().to_owned());
-        paths.chain(self.entries(Utf8Path::new(""))).collect()
+    /// What a name without a separator may mean.
+    fn known(&self) -> Known {
+        Known { paths: self.paths_of_library(), entries: self.entries(Utf8Path::new("")) }
     }
 
     /// The existing drawing or directory whose name is nearest, where the first part of a path that does not exist is nearly right.
@@ -81,6 +85,14 @@ impl Session<'_> {
         names.sort_unstable();
         names
     }
+}
+
+/// What a name without a separator may mean.
+struct Known {
+    /// Paths of the library, with their drawings.
+    paths: Vec<(PathName, SourceFile)>,
+    /// Drawings and directories of the working directory.
+    entries: Vec<String>,
 }
 
 /// The name that was looked for.
