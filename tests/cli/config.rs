@@ -331,6 +331,42 @@ fn a_key_of_an_earlier_version_names_its_successor() {
     assert!(run.stderr.contains("PB003") && run.stderr.contains("`compatible = true`"), "{run}");
 }
 
+/// Tables of TOML go on to the next one: a key that is added at the end stands in the last.
+#[test]
+fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
+    let says = |text: &str, lang: &str, expected: &str| {
+        let run = Place::new().file("pathbuild.toml", text).run(&format!("config show --lang {lang}"));
+        assert_eq!(run.status, Some(2), "{run}");
+        assert!(run.stderr.contains(expected), "{text}: {run}");
+    };
+    for (text, english, german) in [
+        ("travel = [1, 1, 1]\n", "`travel` belongs into [machine]", "`travel` gehört in [machine]"),
+        ("coolant = \"off\"\n", "`coolant` belongs into [tool.NAME]", "`coolant` gehört in [tool.NAME]"),
+        (
+            "[emit]\nlibrary = []\n",
+            "`library` belongs to the top of the file",
+            "`library` gehört an den Anfang",
+        ),
+        ("[post]\ndebounce = \"1 s\"\n", "`debounce` belongs into [watch]", "`debounce` gehört in [watch]"),
+        (
+            "acelerations = [1, 1, 1]\n",
+            "did you mean `accelerations`? It belongs into",
+            "Das gehört in [machine]",
+        ),
+        (
+            "[emit]\nlibary = []\n",
+            "did you mean `library`? It belongs to the top",
+            "Das gehört an den Anfang",
+        ),
+        // What is nearly a key of its own table is that one.
+        ("[emit]\ntarget = []\n", "did you mean `targets`?\n", "ist `targets` gemeint?\n"),
+        ("[watch]\nsomething = 1\n", "known here: debounce, poll", "hier bekannt: debounce, poll"),
+    ] {
+        says(text, "en", english);
+        says(text, "de", german);
+    }
+}
+
 #[test]
 fn the_option_compatible_wins_over_the_key() {
     assert_eq!(

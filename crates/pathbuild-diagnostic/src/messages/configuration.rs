@@ -31,6 +31,34 @@ messages! {
         help_en: "known here: {known}",
         help_de: "hier bekannt: {known}",
     }
+    /// A key of another table.
+    KEY_OF_TABLE: InvalidConfiguration {
+        en: "the key `{key}` stands in the wrong place",
+        de: "der Schlüssel `{key}` steht an der falschen Stelle",
+        help_en: "`{near}` belongs into {table}",
+        help_de: "`{near}` gehört in {table}",
+    }
+    /// A key that stands before all tables, in one.
+    KEY_OF_TOP: InvalidConfiguration {
+        en: "the key `{key}` stands in the wrong place",
+        de: "der Schlüssel `{key}` steht an der falschen Stelle",
+        help_en: "`{near}` belongs to the top of the file, before the first [table]",
+        help_de: "`{near}` gehört an den Anfang der Datei, vor die erste [Tabelle]",
+    }
+    /// A key that is nearly one of another table.
+    NEAR_KEY_OF_TABLE: InvalidConfiguration {
+        en: "unknown key `{key}`",
+        de: "unbekannter Schlüssel `{key}`",
+        help_en: "did you mean `{near}`? It belongs into {table}",
+        help_de: "ist `{near}` gemeint? Das gehört in {table}",
+    }
+    /// The same, before all tables.
+    NEAR_KEY_OF_TOP: InvalidConfiguration {
+        en: "unknown key `{key}`",
+        de: "unbekannter Schlüssel `{key}`",
+        help_en: "did you mean `{near}`? It belongs to the top of the file, before the first [table]",
+        help_de: "ist `{near}` gemeint? Das gehört an den Anfang der Datei, vor die erste [Tabelle]",
+    }
     /// A key of an earlier version.
     REPLACED_KEY: InvalidConfiguration {
         en: "the key `{key}` is gone",

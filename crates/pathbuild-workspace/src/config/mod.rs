@@ -12,6 +12,7 @@
 mod arguments;
 mod concerns;
 mod discover;
+mod homes;
 mod kind;
 mod kinds;
 mod load;

@@ -20,6 +20,7 @@ pub struct Options {
 impl Options {
     /// Reads a parsed configuration; what is wrong stays with the reader.
     pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
+        reader.tell_homes();
         reader.table(root, "", |table| {
             let options = Self {
                 general: general::Options::read(table),

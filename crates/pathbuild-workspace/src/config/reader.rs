@@ -1,4 +1,5 @@
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -8,6 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::homes::{Home, Homes};
 use super::kind::ValueType;
 use super::nearest::nearest;
 use super::origin::{Origin, Sourced};
@@ -19,6 +21,8 @@ pub(super) struct TomlReader<'a> {
     directory: &'a Utf8Path,
     /// Where a stranger's configuration may lead.
     confined: Option<&'a Confined>,
+    /// Where keys belong; `None` in files with other tables.
+    homes: Option<OnceCell<Homes>>,
     key: String,
     diagnostics: Vec<Diagnostic>,
 }
@@ -26,7 +30,16 @@ pub(super) struct TomlReader<'a> {
 impl<'a> TomlReader<'a> {
     /// A reader of a file whose names of files are relative to `directory`.
     pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
-        Self { source, directory, confined, key: String::new(), diagnostics: Vec::new() }
+        Self { source, directory, confined, homes: None, key: String::new(), diagnostics: Vec::new() }
+    }
+
+    /// From here on, of a key in the wrong table it is said where it belongs in a `pathbuild.toml`.
+    pub(super) fn tell_homes(&mut self) {
+        self.homes = Some(OnceCell::new());
+    }
+
+    fn home(&self, name: &str) -> Option<Home<'_>> {
+        self.homes.as_ref()?.get_or_init(Homes::new).of(name)
     }
 
     /// Reads a table whose keys are all known to `read`; others are reported.
@@ -194,14 +207,37 @@ impl<'a> Table<'_, '_, 'a> {
                 self.reader.report(fault);
                 continue;
             }
-            let fault = match nearest(key.get_ref(), self.known.iter().copied()) {
-                Some(near) => self.reader.fault(&messages::UNKNOWN_KEY, key.span()).with("near", near),
-                None => self
-                    .reader
-                    .fault(&messages::STRANGE_KEY, key.span())
-                    .with("known", self.known.iter().collect::<Value>()),
-            };
+            let fault = self.unknown(key.get_ref(), key.span());
             self.reader.report(fault);
         }
+    }
+
+    /// A key that the table does not know: another table may, by this name or by one that is nearly the same.
+    fn unknown(&self, name: &str, span: Range<usize>) -> Diagnostic {
+        let fault = |message| self.reader.fault(message, span.clone());
+        let home = self.reader.home(name);
+        if let Some(home) = home.filter(|home| home.is_exact) {
+            return placed(fault, &home, &messages::KEY_OF_TABLE, &messages::KEY_OF_TOP);
+        }
+        if let Some(near) = nearest(name, self.known.iter().copied()) {
+            return fault(&messages::UNKNOWN_KEY).with("near", near);
+        }
+        match home {
+            Some(home) => placed(fault, &home, &messages::NEAR_KEY_OF_TABLE, &messages::NEAR_KEY_OF_TOP),
+            None => fault(&messages::STRANGE_KEY).with("known", self.known.iter().collect::<Value>()),
+        }
+    }
+}
+
+/// A fault that says where a key belongs: into a table, or before all of them.
+fn placed(
+    fault: impl Fn(&'static Message) -> Diagnostic,
+    home: &Home<'_>,
+    of_table: &'static Message,
+    of_top: &'static Message,
+) -> Diagnostic {
+    match home.header {
+        Some(header) => fault(of_table).with("near", home.key).with("table", header),
+        None => fault(of_top).with("near", home.key),
     }
 }

@@ -1,0 +1,109 @@
+//! Where a key belongs that stands in the wrong table. (PB003; book: reference/configuration)
+
+use serde_json::{Map, Value as Json};
+
+use super::nearest::nearest;
+use super::schema::schema;
+
+/// Every table of `pathbuild.toml` with its keys, as the schema has them.
+#[derive(Debug)]
+pub(super) struct Homes {
+    tables: Vec<Table>,
+}
+
+#[derive(Debug)]
+struct Table {
+    /// As it is written: `[machine]`, `[tool.NAME]`; `None`: what stands before all tables.
+    header: Option<String>,
+    keys: Vec<String>,
+}
+
+/// A key where it belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Home<'a> {
+    /// The header of its table; `None`: before all tables.
+    pub(super) header: Option<&'a str>,
+    /// As it is known there.
+    pub(super) key: &'a str,
+    /// Whether it was written so.
+    pub(super) is_exact: bool,
+}
+
+impl Homes {
+    pub(super) fn new() -> Self {
+        let schema = schema();
+        let none = Map::new();
+        let root = properties(&schema).unwrap_or(&none);
+        let mut tables = vec![Table::new(None, root)];
+        for (name, value) in root {
+            let headers = [
+                (format!("[{name}]"), properties(value)),
+                (format!("[{name}.NAME]"), properties(&value["additionalProperties"])),
+                (format!("[{name}]"), properties(&value["oneOf"][1])),
+                (format!("[[{name}]]"), properties(&value["items"])),
+            ];
+            let held = headers.into_iter().filter_map(|(header, keys)| Some(Table::new(Some(header), keys?)));
+            tables.extend(held);
+        }
+        Self { tables }
+    }
+
+    /// Where a key belongs that its own table does not know: where it is known by this name, else by one that is nearly the same.
+    pub(super) fn of(&self, name: &str) -> Option<Home<'_>> {
+        let exact = self.keys().find(|home| home.key == name);
+        exact.or_else(|| {
+            let near = nearest(name, self.keys().map(|home| home.key)).filter(|_| name.len() >= SHORTEST)?;
+            let home = self.keys().find(|home| home.key == near)?;
+            Some(Home { is_exact: false, ..home })
+        })
+    }
+
+    fn keys(&self) -> impl Iterator<Item = Home<'_>> {
+        self.tables.iter().flat_map(|table| {
+            let header = table.header.as_deref();
+            table.keys.iter().map(move |key| Home { header, key, is_exact: true })
+        })
+    }
+}
+
+/// Letters of a name for which another table may have one that is nearly the same: shorter ones resemble too many.
+const SHORTEST: usize = 5;
+
+impl Table {
+    fn new(header: Option<String>, keys: &Map<String, Json>) -> Self {
+        Self { header, keys: keys.keys().cloned().collect() }
+    }
+}
+
+fn properties(table: &Json) -> Option<&Map<String, Json>> {
+    table["properties"].as_object()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_table_has_its_keys() {
+        let homes = Homes::new();
+        for (key, header) in [
+            ("library", None),
+            ("travel", Some("[machine]")),
+            ("targets", Some("[emit]")),
+            ("coolant", Some("[tool.NAME]")),
+            ("unchecked", Some("[post]")),
+            ("files", Some("[[severity-in]]")),
+        ] {
+            assert_eq!(homes.of(key), Some(Home { header, key, is_exact: true }));
+        }
+    }
+
+    #[test]
+    fn nearly_right_names_of_five_letters_are_found() {
+        let homes = Homes::new();
+        let near = Home { header: Some("[machine]"), key: "rates", is_exact: false };
+        assert_eq!(homes.of("ratse"), Some(near));
+        assert_eq!(homes.of("rate"), None);
+        assert_eq!(homes.of("colour-of-the-bit"), None);
+    }
+}
