@@ -1,10 +1,13 @@
 //! Which segments have an end at a point.
 
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
 use crate::approx::coincide;
 use crate::geometry::Xy;
-use crate::path::{Path, Segment};
+use crate::path::Path;
 
 /// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
 #[derive(Default)]
@@ -44,28 +47,34 @@ pub(super) struct Crowd {
 const NONE: u32 = u32::MAX;
 /// Buckets for each segment: with half as many, more than a few would hold what is elsewhere.
 const BUCKETS: usize = 4;
-/// Squares in a mm.
-const SQUARES: f64 = 100.0;
-/// How far squares are shifted, in mm: people draw at round numbers, and where squares meet is looked into two of them.
-const SHIFT: f64 = 0.001_3;
-/// Around a point is looked so far, in squares: a few times the distance within which points coincide.
-const REACH: f64 = 0.01;
+/// Squares in a mm. In one there is room for few points that do not coincide: a step of the walk looks at no more.
+const SQUARES: f64 = 5000.0;
+/// How far squares are shifted, in squares: people draw at round numbers, of up to four decimals, and where squares meet is looked into two of
+/// them.
+const SHIFT: f64 = 0.25;
+/// Around a point is looked so far, in squares: somewhat farther than points coincide (0.16).
+const REACH: f64 = 0.22;
+/// The same for what may coincide with a third point that coincides with a second one: somewhat more than three times as far.
+const WIDE_REACH: f64 = 0.5;
 /// So large that a sum with it has no fraction: its last bits count whole numbers. (1.5 * 2^52)
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
     pub(super) fn new(path: &Path) -> Self {
-        let count = (BUCKETS * path.segments.len()).next_power_of_two();
+        Self::of_segments(path.segments.iter().map(|segment| path.ends(segment)))
+    }
+
+    fn of_segments(drawn: impl ExactSizeIterator<Item = [Xy; 2]>) -> Self {
+        let count = (BUCKETS * drawn.len()).next_power_of_two();
         let mut buckets = vec![NONE; count];
-        let segment = |(number, segment): (u32, &Segment)| {
-            let drawn = path.ends(segment);
+        let segment = |(number, drawn): (u32, [Xy; 2])| {
             let mut enter = |end: u32| {
                 let bucket = bucket_of(square(drawn[end as usize]), count);
                 std::mem::replace(&mut buckets[bucket], 2 * number + end)
             };
             SegmentEnds { drawn, next: [enter(0), enter(1)] }
         };
-        let segments = (0_u32..).zip(&path.segments).map(segment).collect();
+        let segments = (0_u32..).zip(drawn).map(segment).collect();
         Self { segments, buckets }
     }
 
@@ -89,7 +98,7 @@ impl Ends {
     /// The wanted segments with an end at a point; `None` where others end so close by that another point here may have others.
     pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
         let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
-        for square in Squares::around(point).each() {
+        for square in Squares::within(WIDE_REACH, point).each() {
             self.each_in(square, |segment, end| {
                 let end = self.segments[segment].drawn[end];
                 if coincide(end, point) && is_wanted(segment) {
@@ -118,7 +127,11 @@ impl Ends {
 
 impl Squares {
     pub(super) fn around(point: Xy) -> Self {
-        let (columns, rows) = (around(point.x), around(point.y));
+        Self::within(REACH, point)
+    }
+
+    fn within(reach: f64, point: Xy) -> Self {
+        let (columns, rows) = (around(point.x, reach), around(point.y, reach));
         Self { first: Square(columns.start, rows.start), end: Square(columns.end, rows.end) }
     }
 
@@ -134,16 +147,16 @@ pub(super) fn square(point: Xy) -> Square {
 }
 
 /// The columns, or rows, of what is close to a coordinate: one, or two where they meet.
-fn around(coordinate: f64) -> Range<u64> {
+fn around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
     let from_middle = place - (place + WHOLE - WHOLE);
-    let (is_first, is_last) = (from_middle < REACH - 0.5, from_middle > 0.5 - REACH);
+    let (is_first, is_last) = (from_middle < reach - 0.5, from_middle > 0.5 - reach);
     let strip = strip(place);
     strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
 }
 
 fn in_squares(coordinate: f64) -> f64 {
-    (coordinate + SHIFT) * SQUARES
+    coordinate * SQUARES + SHIFT
 }
 
 /// The column, or row, whose middle is nearest, as a number whose neighbours are one more and one less. Very far off strips are wider;

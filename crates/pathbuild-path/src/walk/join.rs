@@ -1,10 +1,11 @@
 //! Ends that do not quite meet, joined within a tolerance. (book: reference/configuration, `join-tolerance`)
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use rstar::RTree;
-use rstar::primitives::GeomWithData;
 
 use super::Walk;
 use super::ends::Ends;
@@ -13,34 +14,56 @@ use crate::element::Origin;
 use crate::geometry::Xy;
 
 /// The ends of the segments that are left, found by where they are.
-pub(super) struct OpenEnds(RTree<End>);
-
-type End = GeomWithData<[f64; 2], usize>;
+pub(super) struct OpenEnds {
+    /// Each point once: among many equal ones a tree finds the one to take out by looking at all.
+    points: RTree<[f64; 2]>,
+    /// Those that end there.
+    segments: BTreeMap<[u64; 2], BTreeSet<usize>>,
+}
 
 impl OpenEnds {
-    fn new(segments: impl Iterator<Item = usize>, ends: &Ends) -> Self {
-        Self(RTree::bulk_load(segments.flat_map(|segment| of(segment, ends)).collect()))
+    fn new(open: impl Iterator<Item = usize>, ends: &Ends) -> Self {
+        let (mut points, mut segments) = (Vec::new(), BTreeMap::<_, BTreeSet<usize>>::new());
+        for (segment, end) in open.flat_map(|segment| of(segment, ends).map(|end| (segment, end))) {
+            let at_end = segments.entry(bits(end)).or_default();
+            if at_end.is_empty() {
+                points.push(end);
+            }
+            at_end.insert(segment);
+        }
+        Self { points: RTree::bulk_load(points), segments }
     }
 
     /// Takes the ends of a segment out.
     pub(super) fn remove(&mut self, segment: usize, ends: &Ends) {
         for end in of(segment, ends) {
-            self.0.remove(&end);
+            let Some(at_end) = self.segments.get_mut(&bits(end)) else { continue };
+            at_end.remove(&segment);
+            if at_end.is_empty() {
+                self.segments.remove(&bits(end));
+                self.points.remove(&end);
+            }
         }
     }
 
     /// The segment whose end is nearest to a point, and how far that is; the first of several.
     fn nearest(&self, point: Xy) -> Option<(usize, f64)> {
-        let by_distance = self.0.nearest_neighbor_iter([point.x, point.y]);
-        let mut ends = by_distance.map(|end| (end.data, (Xy::from(*end.geom()) - point).norm()));
-        let (first, distance) = ends.next()?;
-        let others = ends.take_while(|(_, other)| *other <= distance).map(|(segment, _)| segment);
-        Some((others.fold(first, usize::min), distance))
+        let by_distance = self.points.nearest_neighbor_iter([point.x, point.y]);
+        let mut points = by_distance.map(|end| (end, (Xy::from(*end) - point).norm())).peekable();
+        let distance = points.peek()?.1;
+        let nearest = points.take_while(|(_, other)| *other <= distance);
+        let firsts = nearest.filter_map(|(end, _)| self.segments.get(&bits(*end))?.first());
+        Some((*firsts.min()?, distance))
     }
 }
 
-fn of(segment: usize, ends: &Ends) -> [End; 2] {
-    ends.of(segment).map(|end| GeomWithData::new([end.x, end.y], segment))
+/// Where a segment ends; 0 without a sign, for points are told apart by their bits.
+fn of(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
+    ends.of(segment).map(|end| [end.x + 0.0, end.y + 0.0])
+}
+
+fn bits(point: [f64; 2]) -> [u64; 2] {
+    point.map(f64::to_bits)
 }
 
 impl Walk<'_> {
