@@ -15,6 +15,7 @@ use crate::item::{Item, Shape};
 use crate::layers::LayerId;
 use crate::names::Name;
 use crate::pairs::{Pair, Pairs, Stop};
+use crate::steps::Steps;
 use crate::trouble::Trouble;
 
 /// The blocks of a file.
@@ -23,8 +24,11 @@ pub(crate) struct Blocks<'a> {
     by_name: ByName<'a, BlockId>,
     all: Vec<Block<'a>>,
     /// The wanted layers that the insertion of a block on a layer touches.
-    wanted: BTreeMap<(BlockId, LayerId), Rc<[LayerId]>>,
+    wanted: BTreeMap<Inserted, Rc<[LayerId]>>,
 }
+
+/// A block on a layer.
+type Inserted = (BlockId, LayerId);
 
 /// The number of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -119,43 +123,57 @@ impl<'a> Blocks<'a> {
         block: BlockId,
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
+        steps: &mut Steps,
     ) -> Result<Rc<[LayerId]>, Fatal> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
-        let wanted: Rc<[LayerId]> = self.look_for_wanted(block, layer, reader)?.into();
+        let (wanted, seen) = self.look_for_wanted(block, layer, reader, steps)?;
+        let wanted: Rc<[LayerId]> = wanted.into();
+        if wanted.is_empty() {
+            // Then nothing on the way is wanted.
+            self.wanted.extend(seen.into_iter().map(|seen| (seen, Rc::clone(&wanted))));
+        }
         self.wanted.insert((block, layer), Rc::clone(&wanted));
         Ok(wanted)
     }
 
-    /// Goes through a block, and those that are inserted in it, for wanted layers.
+    /// Goes through a block, and those that are inserted in it, for wanted layers; and which blocks on which layers these were.
     fn look_for_wanted(
         &mut self,
         block: BlockId,
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
-    ) -> Result<Vec<LayerId>, Fatal> {
-        let mut wanted = Vec::new();
+        steps: &mut Steps,
+    ) -> Result<(Vec<LayerId>, HashSet<Inserted>), Fatal> {
+        let (mut wanted, mut known) = (Vec::new(), HashSet::new());
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
         while let Some((block, inherited)) = ahead.pop() {
-            if let LayersOf::Known(layers) = self.layers(block, reader)? {
-                let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
-                for layer in layers.filter(|layer| reader.layers.is_kept(*layer)) {
-                    wanted.extend((!wanted.contains(&layer)).then_some(layer));
-                }
+            if let Some(layers) = self.wanted.get(&(block, inherited)) {
+                steps.take(layers.len())?;
+                wanted.extend(layers.iter().filter(|layer| known.insert(**layer)));
                 continue;
             }
-            for item in self.items(block, reader)?.iter() {
+            if let LayersOf::Known(layers) = self.layers(block, reader)? {
+                steps.take(layers.len())?;
+                let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
+                let kept = layers.filter(|layer| reader.layers.is_kept(*layer));
+                wanted.extend(kept.filter(|layer| known.insert(*layer)));
+                continue;
+            }
+            let items = self.items(block, reader)?;
+            steps.take(items.len())?;
+            for item in items.iter() {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
                 match self.inserted(item) {
                     Some(inner) => ahead.extend(seen.insert((inner, layer)).then_some((inner, layer))),
-                    None if reader.layers.is_kept(layer) && !wanted.contains(&layer) => wanted.push(layer),
+                    None if reader.layers.is_kept(layer) && known.insert(layer) => wanted.push(layer),
                     None => {}
                 }
             }
         }
-        Ok(wanted)
+        Ok((wanted, seen))
     }
 
     /// The layers of what is in it, as far as it can be wanted.

@@ -260,9 +260,15 @@ impl<'d> Collector<'d> {
 
     /// There are more entities than the limit allows.
     #[cold]
-    pub(crate) fn too_many(&self) -> Fatal {
-        Box::new(limit(&ENTITIES, self.limits.entities, "entities"))
+    fn too_many(&self) -> Fatal {
+        too_many_entities(self.limits.entities)
     }
+}
+
+/// PB005: there are more entities than this.
+#[cold]
+pub(crate) fn too_many_entities(most: usize) -> Fatal {
+    Box::new(limit(&ENTITIES, most, "entities"))
 }
 
 static ENTITIES: Word = Word { en: "the number of entities", de: "die Zahl der Elemente" };

@@ -38,6 +38,7 @@ mod placement;
 mod sections;
 mod shapes;
 mod spellings;
+mod steps;
 mod trouble;
 mod units;
 

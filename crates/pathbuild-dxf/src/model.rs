@@ -20,6 +20,7 @@ use crate::line_types::LineType;
 use crate::pairs::Pairs;
 use crate::placement::Placement;
 use crate::shapes::Insert;
+use crate::steps::Steps;
 use crate::trouble::Trouble;
 
 /// Reads a drawing's model space.
@@ -31,8 +32,7 @@ pub(crate) struct Model<'r, 'a, 'o> {
     blocks: Blocks<'a>,
     /// The blocks that are being inserted, outermost first.
     open: Vec<BlockId>,
-    /// How many more entities of blocks are looked at, wanted or not.
-    steps: usize,
+    steps: Steps,
 }
 
 /// What an entity is placed in: model space itself or an insertion.
@@ -53,9 +53,6 @@ struct Insertion {
 /// Deepest nesting of blocks.
 const DEEPEST: usize = 64;
 
-/// How many entities of blocks are looked at for each one that the limit allows.
-const STEPS_AN_ENTITY: usize = 16;
-
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// A model without entities.
     pub(crate) fn new(
@@ -63,7 +60,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         collector: Collector<'r>,
         blocks: Option<Pairs<'a>>,
     ) -> Self {
-        let steps = reader.options.max_entities.saturating_mul(STEPS_AN_ENTITY);
+        let steps = Steps::new(reader.options.max_entities);
         Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
     }
 
@@ -124,7 +121,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             };
             return self.refuse(traits, &[layer], &trouble, around);
         };
-        let wanted = self.blocks.wanted_layers(block, layer, self.reader)?;
+        let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
         if wanted.is_empty() {
             return Ok(());
         }
@@ -155,7 +152,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         for copy in copies {
             inside.placement = Some(around.placement.map_or(copy, |outer| outer.after(&copy)));
             for item in items.iter() {
-                self.steps = self.steps.checked_sub(1).ok_or_else(|| self.collector.too_many())?;
+                self.steps.take(1)?;
                 self.place(item.clone(), &inside)?;
             }
         }
