@@ -477,6 +477,20 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
+/// Nobody knows which paths are in a drawing that cannot be read just now.
+#[test]
+fn programs_of_a_drawing_that_cannot_be_read_are_not_stale() {
+    for arguments in ["", "projects ", "--out-dir all ", "projects --out-dir all "] {
+        let place = Place::of(LIBRARY);
+        assert_eq!(place.run(&format!("emit {arguments}")).status, Some(0));
+        let before: BTreeSet<String> = written(&place).into_iter().collect();
+        let place = place.file("projects/8001 a b.dxf", "cut off");
+        let run = place.run(&format!("emit {arguments}--remove-stale"));
+        assert!(run.status == Some(1) && !run.stderr.contains("stale"), "{run}");
+        assert_eq!(written(&place).into_iter().collect::<BTreeSet<String>>(), before, "{run}");
+    }
+}
+
 #[test]
 fn outputs_of_a_path_that_changed_its_name_are_stale() {
     let place = Place::of(LIBRARY);

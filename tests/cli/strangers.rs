@@ -1,6 +1,7 @@
 //! What lies in a tree of strangers and is no regular file, or has no end: it is told, not waited for. (book: reference/configuration)
 #![cfg(unix)]
 
+use std::fs;
 use std::os::unix::fs::symlink;
 use std::os::unix::net::UnixListener;
 use std::path::Path;
@@ -23,7 +24,7 @@ const KINDS: [&str; 4] = ["device", "fifo", "socket", "link to a fifo"];
 fn place(kind: &str, name: &str) -> Place {
     let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("1202.1P.dxf", dxf());
     let path = place.path().join(name);
-    _ = std::fs::remove_file(&path);
+    _ = fs::remove_file(&path);
     let fifo = |path: &Path| {
         assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
     };
@@ -168,6 +169,25 @@ fn rules_say_what_counts() {
     );
 }
 
+/// A directory whose name is too long for the system cannot be looked into: what lies in it is not passed over in silence.
+#[test]
+fn directories_too_deep_for_the_system_are_told() {
+    for (depth, status) in [(2, 0), (10, 1)] {
+        let place = Place::new().file("1202.1P.dxf", dxf());
+        let below = |levels: usize| place.path().join(vec!["d".repeat(200); levels].join("/"));
+        fs::create_dir_all(below(depth)).unwrap();
+        // The system takes no longer name at once.
+        let aside = place.path().join("aside");
+        fs::rename(below(1), &aside).unwrap();
+        fs::create_dir_all(below(15)).unwrap();
+        fs::rename(aside, below(15).join("aside")).unwrap();
+        let run = place.run("check . --format concise");
+        assert_eq!(run.status, Some(status), "{run}");
+        assert_eq!(run.stderr.contains("PB001"), status == 1, "{run}");
+        assert!(run.stderr.contains("1 path in 1 drawing"), "{run}");
+    }
+}
+
 #[test]
 fn globs_and_expressions_that_go_too_deep_are_refused() {
     for targets in [
@@ -231,11 +251,11 @@ fn what_killed_runs_left_goes_with_the_next_run() {
         .file(".other.1-12.tmp", "half")
         .file(".mine.tmp", "not ours")
         .file(".held.1-0.tmp", "half");
-    let held = std::fs::File::open(place.path().join(".held.1-0.tmp")).unwrap();
+    let held = fs::File::open(place.path().join(".held.1-0.tmp")).unwrap();
     held.lock().unwrap();
     let run = place.run("emit .");
     assert_eq!(run.status, Some(0), "{run}");
-    let mut left: Vec<String> = std::fs::read_dir(place.path())
+    let mut left: Vec<String> = fs::read_dir(place.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .filter(|name| Path::new(name).extension().is_some_and(|it| it == "tmp"))

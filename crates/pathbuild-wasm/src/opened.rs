@@ -67,12 +67,12 @@ impl Opened {
             Err(faults) => return (None, halted(faults)),
         };
         let session = Session::new(workspace);
-        let drawings: Vec<String> =
-            session.everything().iter().map(|file| file.path(session.db()).to_string()).collect();
+        let (sources, found) = session.everything();
+        let drawings: Vec<String> = sources.iter().map(|file| file.path(session.db()).to_string()).collect();
         let limit = workspace.settings.limits.seconds_per_path.value;
         let answer = json!({
             "halted": null,
-            "problems": problems(session.library_problems()),
+            "problems": problems(found),
             "drawings": drawings,
             "posts": posts,
             "seconds": limit.as_secs_f64(),
@@ -164,7 +164,7 @@ impl Opened {
     }
 
     fn statistics(&self) -> Value {
-        let drawings = self.session.everything().len();
+        let drawings = self.session.everything().0.len();
         stats_json(&Stats::of(self.rows.values(), drawings))
     }
 

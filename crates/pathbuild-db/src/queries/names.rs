@@ -2,6 +2,7 @@
 
 use pathbuild_path::{FilePattern, PathKey, RangeTable};
 
+use crate::bugs::catch_bugs;
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
@@ -46,9 +47,10 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     NameTable::new(&db.listed(directory).unwrap_or_else(list), pattern)
 }
 
-/// The names of the drawings in a directory, as its name ranges were read from them.
+/// The names of the drawings in a directory, as its name ranges were read from them; none where that shows a bug.
 pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
-    &name_table(db, directory).names
+    static NONE: Names = Names::none();
+    catch_bugs(|| &name_table(db, directory).names).unwrap_or(&NONE)
 }
 
 /// What drawings' names end in.

@@ -43,6 +43,10 @@ pub enum EntryKind {
 }
 
 impl Names {
+    pub(crate) const fn none() -> Self {
+        Self { text: String::new(), ends: Vec::new() }
+    }
+
     /// Those behind these.
     pub fn extend(&mut self, names: &Self) {
         let begin = self.text.len();

@@ -46,36 +46,39 @@ pub fn current(
     let (Some(path), Some(drawing)) = (path_of_title(&title), drawing_of_title(&title)) else {
         return Current::Unknown;
     };
-    session.settled(|session| {
-        let Some(path) = defining(session, path, &title, beside, named) else {
-            return Current::NoDrawing { drawing: drawing.into() };
-        };
-        compared(session, &path, &found)
+    session.settled(|session| match defining(session, path, &title, beside, named) {
+        Ok(Some(path)) => compared(session, &path, &found),
+        Ok(None) => Current::NoDrawing { drawing: drawing.into() },
+        Err(problem) => Current::Wrong(vec![*problem]),
     })
 }
 
 /// The path of that name in the drawing that a title means.
+///
+/// # Errors
+/// PB006 where the directory of the program shows a bug.
 fn defining(
     session: &Session<'_>,
     path: &str,
     title: &str,
     beside: &Utf8Path,
     named: Option<&Utf8Path>,
-) -> Option<WantedPath> {
+) -> Result<Option<WantedPath>, Box<Diagnostic>> {
     let db = session.db();
     let name = PathName::new(path);
     let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == FileKind::File;
     let is_meant = |file: &str| is_title(title, file, path);
-    let file = named.filter(is_there).map(|drawing| session.file(drawing)).or_else(|| {
-        let listing = db.system().list(beside).ok()?;
-        let file = listing.files.iter().find(|file| is_meant(file))?;
-        Some(session.file(&join(beside, file)))
-    });
+    let file = if let Some(drawing) = named.filter(is_there) {
+        Some(session.file(drawing))
+    } else {
+        let names = session.names_in(beside)?;
+        names.iter().find(|file| is_meant(file)).map(|file| session.file(&join(beside, file)))
+    };
     let file = file.or_else(|| {
         let files = session.definitions(&name, &session.name_directories());
         files.into_iter().find(|file| is_meant(file.path(db).file_name().unwrap_or_default()))
     });
-    file.map(|file| WantedPath { file, name })
+    Ok(file.map(|file| WantedPath { file, name }))
 }
 
 fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Current {

@@ -110,7 +110,7 @@ impl Request<'_> {
             delivered.path.clone_from(&job.path);
         }
         compatible::name(session.workspace(), self, &mut delivered);
-        let older = older::programs(session, self, &asked.targets, &jobs, &delivered);
+        let older = older::programs(session, self, &asked.targets, &jobs, &delivered, &mut diagnostics);
         let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
         diagnostics.extend(problems.cloned());
         if let Some(file) = self.deps {
@@ -119,7 +119,7 @@ impl Request<'_> {
         }
         let stale = match self.task {
             Task::Print => Vec::new(),
-            _ => stale::stale(session, &asked, &jobs, &delivered, self.poster),
+            _ => stale::stale(session, &asked, &jobs, &delivered, self.poster, &mut diagnostics),
         };
         let Dealt { removed, outdated } =
             stale::deal_with(session, stale, self.removes_stale, &mut diagnostics);

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::Utf8PathBuf;
-use pathbuild_db::system::join;
+use pathbuild_db::system::{Names, join};
 use pathbuild_db::{Db, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -25,6 +25,7 @@ pub(super) fn programs(
     targets: &[Target],
     jobs: &[Job],
     delivered: &[Delivered],
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Delivered> {
     match (request.task, request.join, request.poster) {
         (Task::Print, ..) => Vec::new(),
@@ -43,14 +44,19 @@ pub(super) fn programs(
                 let programs = of_target(session, *target, poster, &mut listings).into_iter();
                 programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
             };
-            open.flat_map(older).collect()
+            let older = open.flat_map(older).collect();
+            diagnostics.append(&mut listings.problems);
+            older
         }
     }
 }
 
 /// The programs in output directories, which are listed once each.
 #[derive(Default)]
-struct Listings(HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>);
+struct Listings {
+    programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,
+    problems: Vec<Diagnostic>,
+}
 
 impl Listings {
     /// Those in a directory whose names begin so, in any case.
@@ -60,8 +66,11 @@ impl Listings {
         directory: &Utf8PathBuf,
         stem: &str,
     ) -> impl Iterator<Item = &Utf8PathBuf> {
-        let programs = self.0.entry(directory.clone()).or_insert_with(|| {
-            let names = session.db().system().list(directory).unwrap_or_default().files;
+        let programs = self.programs.entry(directory.clone()).or_insert_with(|| {
+            let names = session.names_in(directory).unwrap_or_else(|problem| {
+                self.problems.push(*problem);
+                Names::default()
+            });
             let programs = names.iter().filter(|name| is_gcode(name, poster));
             let mut programs: Vec<_> =
                 programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();

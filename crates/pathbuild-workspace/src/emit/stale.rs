@@ -19,7 +19,7 @@ use super::deliver::Delivered;
 use super::job::Job;
 use super::targets::Selection;
 use crate::posting::PostProcessor;
-use crate::session::{OutputKind, Session};
+use crate::session::{Drawing, OutputKind, Session};
 
 /// A program that nobody should take to the machine.
 #[derive(Debug)]
@@ -101,6 +101,7 @@ pub(super) fn stale(
     jobs: &[Job],
     delivered: &[Delivered],
     poster: Option<&PostProcessor>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Stale> {
     let settings = &session.workspace().settings;
     let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
@@ -121,8 +122,13 @@ pub(super) fn stale(
         })),
         writers: LazyCell::new(Box::new(|| Writers::new(session, asked, jobs))),
     };
-    let mut stale: Vec<Stale> =
-        directories.iter().flat_map(|directory| finding.in_directory(directory)).collect();
+    let mut stale = Vec::new();
+    for directory in directories {
+        match finding.in_directory(directory) {
+            Ok(found) => stale.extend(found),
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
     stale.extend(finding.elsewhere(directories));
     stale
 }
@@ -151,9 +157,9 @@ struct Finding<'a> {
 }
 
 impl<'a> Finding<'a> {
-    fn in_directory(&self, directory: &Utf8Path) -> Vec<Stale> {
-        let listing = self.session.db().system().list(directory).unwrap_or_default();
-        let programs = listing.files.iter().filter(|name| is_gcode(name, self.poster) || is_sheet(name));
+    fn in_directory(&self, directory: &Utf8Path) -> Result<Vec<Stale>, Box<Diagnostic>> {
+        let names = self.session.names_in(directory)?;
+        let programs = names.iter().filter(|name| is_gcode(name, self.poster) || is_sheet(name));
         let programs = programs.map(|name| join(directory, name));
         let mut programs: Vec<Utf8PathBuf> =
             programs.filter(|path| !self.outputs.contains(&**path)).collect();
@@ -163,12 +169,12 @@ impl<'a> Finding<'a> {
             match self.own(&path) {
                 Some(own) if is_of(own.job, self.session, &title) => own.stale(path, &found),
                 _ => self.of_other_post(&path, &found, &title).or_else(|| {
-                    let is_left = self.writers.have_left(directory, &title, listing.files.iter());
+                    let is_left = self.writers.have_left(directory, &title, names.iter());
                     is_left.then_some(Stale { path, reason: Reason::Left })
                 }),
             }
         };
-        programs.into_iter().filter_map(stale).collect()
+        Ok(programs.into_iter().filter_map(stale).collect())
     }
 
     /// The same for paths that were named by themselves: only the names that their own files would have are looked at.
@@ -305,15 +311,20 @@ impl Writers {
             .covered
             .iter()
             .flat_map(|drawing| drawing.said.names.iter().map(|name| path(&drawing.path, name.as_str())));
-        let covered: HashSet<&Utf8Path> = asked.covered.iter().map(|drawing| &*drawing.path).collect();
+        let (broken, sound): (Vec<&Drawing>, Vec<&Drawing>) = asked
+            .covered
+            .iter()
+            .partition(|drawing| drawing.said.diagnostics.iter().any(Diagnostic::is_error));
+        let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| &*drawing.path).collect();
         let has_library = session.has_library();
-        let library = if has_library { session.library() } else { Vec::new() };
+        let (library, problems) = if has_library { session.library() } else { Default::default() };
         let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
+        let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| &*drawing.path));
         Self {
             idle: of_covered.filter(|title| !made.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
-            others: others.map(|drawing| written(drawing)).collect(),
-            knows_all: has_library || out_dir.is_none(),
+            others: others.map(written).collect(),
+            knows_all: if has_library { problems.is_empty() } else { out_dir.is_none() },
         }
     }
 

@@ -112,7 +112,7 @@ impl Session<'_> {
     /// The same with the drawings that define them. Of a drawing that the last `check` of the library knows it is not read again; drawings of
     /// a large library that it does not know are left out.
     pub(crate) fn paths_of_library(&self) -> Vec<(PathName, SourceFile)> {
-        let files = self.everything();
+        let (files, _) = self.everything();
         let result_store = kept_results(self.workspace());
         let kept = |file: &SourceFile| {
             let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
@@ -261,8 +261,9 @@ impl Asked {
     /// The drawings of directories; without any, of the library, or below the working directory where there is none.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
         if self.places.inputs.is_empty() {
-            problems.extend(session.library_problems());
-            return session.everything();
+            let (files, found) = session.everything();
+            problems.extend(found);
+            return files;
         }
         let wanted = session.wanted(&self.places);
         problems.extend_from_slice(&wanted.problems);
@@ -292,15 +293,13 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
             diagnostics.push(problem.in_file(file.path(db)).in_path(name.as_str()));
             Figures::default()
         });
-        let signature =
-            closure(db, checked.target).root.and_then(|root| summary(db, root).signature.as_ref());
         ListedPath {
             name: name.clone(),
             drawing: file.path(db).clone(),
             diagnostics,
-            material: signature.and_then(|path| path.material.as_deref()).map(Into::into),
-            thickness: signature.map(|path: &PathSignature| path.thickness),
-            tool: signature.map(|path| path.tool),
+            material: figures.material,
+            thickness: figures.thickness,
+            tool: figures.tool,
             cutting_box: figures.cutting_box,
             length: figures.length,
             minutes: figures.minutes,
@@ -310,12 +309,15 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
     checked.into_iter().zip(figures).zip(paths).map(listed).collect()
 }
 
-/// A path that was checked, and its program's figures, or why they are not known.
+/// A path that was checked, and its figures, or why they are not known.
 type Known = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
 
-/// What a program adds up to.
+/// What a path says of itself, and what its program adds up to.
 #[derive(Default)]
 struct Figures {
+    material: Option<Box<str>>,
+    thickness: Option<f64>,
+    tool: Option<f64>,
     cutting_box: Extent,
     length: Option<f64>,
     minutes: Option<f64>,
@@ -323,12 +325,21 @@ struct Figures {
 
 impl Figures {
     fn of(db: &Database, checked: &CheckedTarget, rapid: Option<f64>) -> Self {
-        let Some(program) = program(db, checked.target) else { return Self::default() };
+        let root = closure(db, checked.target).root;
+        let signature = root.and_then(|root| summary(db, root).signature.as_ref());
+        let said = Self {
+            material: signature.and_then(|path| path.material.as_deref()).map(Into::into),
+            thickness: signature.map(|path: &PathSignature| path.thickness),
+            tool: signature.map(|path| path.tool),
+            ..Self::default()
+        };
+        let Some(program) = program(db, checked.target) else { return said };
         let sum = Statistics::of(program, rapid.unwrap_or_default()).sum();
         Self {
             cutting_box: cutting_box(program),
             length: Some(sum.length),
             minutes: rapid.map(|_| sum.minutes()).filter(|minutes| minutes.is_finite()),
+            ..said
         }
     }
 }

@@ -25,6 +25,8 @@ pub struct Found {
     pub problems: Vec<Diagnostic>,
     /// Where names were looked for, if there are names.
     pub(super) name_directories: Vec<Utf8PathBuf>,
+    /// What kept the library from being looked through for them.
+    pub(super) name_problems: Vec<Diagnostic>,
 }
 
 /// What an argument may mean.
@@ -107,7 +109,7 @@ impl Session<'_> {
             return found;
         }
         if inputs.iter().any(|input| matches!(input, Input::Name(_))) {
-            found.name_directories = self.listed_name_directories(&mut found.listings);
+            (found.name_directories, found.name_problems) = self.listed_name_directories(&mut found.listings);
         }
         for input in inputs.iter() {
             let argument = match input {
@@ -128,10 +130,15 @@ impl Session<'_> {
 
     fn name(&self, name: &str, found: &mut Found) -> Argument {
         let directories = &found.name_directories;
-        let drawing = self.drawing_of_name(name, directories);
         let path = PathName::new(name);
-        let held = directories.iter().flat_map(|it| may_hold(&self.db, self.db.directory(it), &path));
-        let candidates = held.collect();
+        let mut candidates = Vec::new();
+        for directory in directories {
+            match self.of_directory(directory, |directory| may_hold(&self.db, directory, &path)) {
+                Ok(files) => candidates.extend(files),
+                Err(problem) => found.problems.push(*problem),
+            }
+        }
+        let drawing = self.drawing_of_name(name, directories);
         let place = Utf8Path::new(name);
         let directory =
             self.is_directory(place).then(|| self.walked_in(self.normal(place), &mut found.listings));
@@ -181,15 +188,18 @@ impl Session<'_> {
 
     /// Where names are looked for: the working directory, the search directories, the library and what is below it.
     pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
-        self.listed_name_directories(&mut Listings::new())
+        self.listed_name_directories(&mut Listings::new()).0
     }
 
-    fn listed_name_directories(&self, listings: &mut Listings) -> Vec<Utf8PathBuf> {
+    /// The same, and what keeps the library from being looked through.
+    fn listed_name_directories(&self, listings: &mut Listings) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let searched = self.context.settings.general.search.value.iter();
         let searched = searched.map(|directory| self.normal(directory));
-        let library = holding_drawings(&self.library_walked(listings));
+        let walked = self.library_walked(listings);
+        let library = holding_drawings(&walked);
         self.know_names(listings);
-        distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(library))
+        let directories = distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(library));
+        (directories, walked.into_iter().flat_map(|directory| directory.problems).collect())
     }
 
     /// The directories of the library that hold drawings.
@@ -197,35 +207,31 @@ impl Session<'_> {
         holding_drawings(&self.library_walked(&mut Listings::new()))
     }
 
-    /// The drawings of the configured library.
-    pub fn library(&self) -> Vec<Utf8PathBuf> {
-        let walked = self.library_walked(&mut Listings::new()).into_iter();
-        walked.flat_map(|directory| directory.drawings).collect()
+    /// The drawings of the configured library, and what keeps it from being looked through.
+    pub fn library(&self) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
+        let (mut drawings, mut problems) = (Vec::new(), Vec::new());
+        for mut directory in self.library_walked(&mut Listings::new()) {
+            drawings.append(&mut directory.drawings);
+            problems.append(&mut directory.problems);
+        }
+        (drawings, problems)
     }
 
-    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below.
-    pub fn everything(&self) -> Vec<SourceFile> {
-        let drawings = if self.has_library() {
+    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below; and what keeps
+    /// these from being looked through.
+    pub fn everything(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
+        let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
-            self.drawings_below(Utf8Path::new("")).collect()
+            let walked = self.walk().through(Utf8Path::new(""));
+            (walked.drawings, walked.problems)
         };
-        drawings.iter().map(|drawing| self.file(drawing)).collect()
+        (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
     }
 
     /// The drawings in a directory and below.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
         self.walk().through(directory).drawings.into_iter()
-    }
-
-    /// What keeps the library, or without one the working directory, from being looked through.
-    pub fn library_problems(&self) -> Vec<Diagnostic> {
-        if self.has_library() {
-            let walked = self.library_walked(&mut Listings::new()).into_iter();
-            walked.flat_map(|directory| directory.problems).collect()
-        } else {
-            self.walk().through(Utf8Path::new("")).problems
-        }
     }
 
     /// Directories that were just listed need not be listed once more for their names, if nothing about them is in doubt.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, ReadError, join};
 use pathbuild_db::{System, catch_bugs};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
@@ -106,7 +106,7 @@ impl Walk<'_> {
 }
 
 /// A directory in a system call's words.
-fn readable(directory: &Utf8Path) -> &Utf8Path {
+pub(super) fn readable(directory: &Utf8Path) -> &Utf8Path {
     if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
 }
 
@@ -167,7 +167,13 @@ impl Directory {
             });
         }
         if let Err(error) = &listed {
-            if walk.system.kind(directory) != FileKind::Directory {
+            // It is gone, or a drawing. What is there but cannot even be looked at, such as below a name that is too long, is told.
+            let is_none = match walk.system.kind(directory) {
+                FileKind::Directory => false,
+                FileKind::Missing => *error == ReadError::Missing,
+                FileKind::File => true,
+            };
+            if is_none {
                 return Ok(None);
             }
             found.problem =

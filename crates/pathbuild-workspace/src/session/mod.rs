@@ -1,5 +1,6 @@
 //! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
 
+mod caught;
 mod combinations;
 mod drawings;
 mod elsewhere;

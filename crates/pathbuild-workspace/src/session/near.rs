@@ -4,8 +4,8 @@ use std::cell::LazyCell;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{EntryKind, FileKind, join};
-use pathbuild_db::{Db, SourceFile};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
+use pathbuild_db::{Db, SourceFile, catch_bugs};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use pathbuild_path::PathName;
@@ -74,14 +74,15 @@ impl Session<'_> {
     /// The names of drawings and directories in a directory.
     fn entries(&self, directory: &Utf8Path) -> Vec<String> {
         let mut names = Vec::new();
-        // What cannot be listed has no names to offer.
-        _ = self.db().system().each_entry(directory, &mut |entry| {
+        let mut take = |entry: Entry<'_>| {
             let counts = entry.kind == EntryKind::Directory || library::is_drawing(Utf8Path::new(entry.name));
             if counts && entry.is_exact && !entry.name.starts_with('.') {
                 names.push(entry.name.to_owned());
             }
             ControlFlow::Continue(())
-        });
+        };
+        // What cannot be listed has no names to offer.
+        _ = catch_bugs(|| self.db().system().each_entry(directory, &mut take));
         names.sort_unstable();
         names
     }

@@ -14,6 +14,11 @@ impl Session<'_> {
     /// Begins to list the directories that named drawings and paths need, and reads the drawings that are most likely needed.
     /// Those of which something is known from an earlier run are likely to be as they were.
     pub fn prefetch(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
+        // A bug that this shows is left to whoever wants what is read here.
+        _ = self.db.guarded(self.limit(), || self.prefetch_likely(inputs, is_known));
+    }
+
+    fn prefetch_likely(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
         let mut known = HashSet::new();
         for input in inputs.iter() {
             let Some((file, directory)) = self.likely_drawing(input, is_known) else { continue };

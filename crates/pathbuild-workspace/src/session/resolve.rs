@@ -101,7 +101,7 @@ impl Session<'_> {
                         return Some(directory);
                     }
                     ([], None, None) => {
-                        wanted.problems.extend(self.library_problems());
+                        wanted.problems.extend(self.name_problems(found));
                         wanted.problems.push(nowhere(name, &found.name_directories));
                     }
                 }
@@ -110,10 +110,16 @@ impl Session<'_> {
         None
     }
 
-    /// The drawings in some directories that define a path, each once.
+    /// What may have kept a name from being found.
+    fn name_problems(&self, found: &Found) -> Vec<Diagnostic> {
+        if self.has_library() { found.name_problems.clone() } else { self.everything().1 }
+    }
+
+    /// The drawings in some directories that define a path, each once. A directory that shows a bug has none: of arguments it was said when they
+    /// were looked for, else nothing but a hint is wanted.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
-        let held = directories.iter().flat_map(|it| holders(&self.db, self.db.directory(it), name));
-        self.different(held)
+        let holders = |it: &Utf8PathBuf| self.of_directory(it, |it| holders(&self.db, it, name));
+        self.different(directories.iter().flat_map(holders).flatten())
     }
 
     /// Each drawing once, by whatever names it is reached.

@@ -120,7 +120,7 @@ impl Session<'_> {
         self.timings.measure(&CHECKING, || self.spread(items, work))
     }
 
-    fn limit(&self) -> Duration {
+    pub(super) fn limit(&self) -> Duration {
         self.context.settings.limits.seconds_per_path.value
     }
 
@@ -227,15 +227,19 @@ impl Asking<'_> {
 
 /// A target that nothing is known of but why it was not finished.
 fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
-    let file = target.file(db);
     CheckedTarget {
         target,
-        diagnostics: vec![problem.in_file(file.path(db)).in_path(target.name(db))],
-        files: vec![file],
+        diagnostics: vec![about(db, target, problem)],
+        files: vec![target.file(db)],
         missing_options: Vec::new(),
         emitted: None,
         trace: None,
     }
+}
+
+/// What is wrong with a target as a whole.
+pub(super) fn about(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
+    problem.in_file(target.file(db).path(db)).in_path(target.name(db))
 }
 
 fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {

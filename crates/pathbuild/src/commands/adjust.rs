@@ -1,6 +1,7 @@
 //! `pathbuild adjust`: measured heights put into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::catch_bugs;
 use pathbuild_db::system::{FileKind, Written, join};
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Diagnostic, in_prose};
@@ -28,9 +29,16 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     };
     let mut jobs: Vec<Job> = Vec::new();
     let out_dir = context.settings.general.out_dir.value.as_deref();
-    for job in args.files.iter().flat_map(|file| Job::all(context, file, out_dir)) {
-        if jobs.iter().all(|known| known.clean != job.clean) {
-            jobs.push(job);
+    for file in &args.files {
+        match Job::all(context, file, out_dir) {
+            Ok(all) => {
+                for job in all {
+                    if jobs.iter().all(|known| known.clean != job.clean) {
+                        jobs.push(job);
+                    }
+                }
+            }
+            Err(problem) => adjustment.fail(vec![*problem]),
         }
     }
     if args.log.is_some() && jobs.len() > 1 {
@@ -41,8 +49,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     }
     for job in &jobs {
         if let Err(problems) = adjustment.run(job) {
-            adjustment.has_failed = true;
-            adjustment.errors.extend(problems);
+            adjustment.fail(problems);
         }
     }
     adjustment.conclude()
@@ -74,19 +81,28 @@ pub(super) const VALUES: &str = "_Z.txt";
 impl Job {
     /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them. Their names may have more in
     /// them than the drawing's (R, or the path of a drawing of several): then their headers tell.
-    fn all(context: &Context, argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Vec<Self> {
+    ///
+    /// # Errors
+    /// PB006 where the directory of the programs shows a bug.
+    fn all(
+        context: &Context,
+        argument: &Utf8Path,
+        out_dir: Option<&Utf8Path>,
+    ) -> Result<Vec<Self>, Box<Diagnostic>> {
         let job = Self::new(argument, out_dir);
         let is_there = |job: &Self| context.system.kind(&job.clean) != FileKind::Missing;
         let Some(drawing) = drawing_of(argument).filter(|_| !is_there(&job)) else {
-            return vec![job];
+            return Ok(vec![job]);
         };
         // A program that lies elsewhere than where this configuration writes.
         let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN}")), out_dir);
         if is_there(&beside) {
-            return vec![beside];
+            return Ok(vec![beside]);
         }
         let directory = job.clean.parent().unwrap_or(Utf8Path::new("")).to_owned();
-        let Ok(listing) = context.system.list(&directory) else { return vec![job] };
+        let listed = catch_bugs(|| context.system.list(&directory));
+        let listed = listed.map_err(|bug| Box::new(bug.in_file(&directory)))?;
+        let Ok(listing) = listed else { return Ok(vec![job]) };
         let programs = listing.files.iter().filter(|name| without(name, CLEAN).is_some());
         let mut named: Vec<&str> =
             programs.filter(|name| is_of(context, &join(&directory, name), &drawing)).collect();
@@ -96,7 +112,7 @@ impl Job {
             ..Self::new(&join(&directory, name), out_dir)
         };
         let found: Vec<Self> = named.iter().map(found).collect();
-        if found.is_empty() { vec![job] } else { found }
+        Ok(if found.is_empty() { vec![job] } else { found })
     }
 
     fn new(argument: &Utf8Path, out_dir: Option<&Utf8Path>) -> Self {
@@ -151,6 +167,11 @@ impl<'a> Adjustment<'a> {
             warnings: Vec::new(),
             has_failed: false,
         })
+    }
+
+    fn fail(&mut self, problems: Vec<Diagnostic>) {
+        self.has_failed = true;
+        self.errors.extend(problems);
     }
 
     fn run(&mut self, job: &Job) -> Result<(), Vec<Diagnostic>> {

@@ -9,12 +9,19 @@ use pathbuild_path::{Bindings, PathName};
 
 use super::{Embedding, End, Graph, Node};
 use crate::session::Session;
+use crate::session::work::about;
 
 impl Session<'_> {
     /// What these targets reach.
     pub fn graph(&self, targets: &[Target]) -> Graph {
-        let parts = self.spread(targets, |db, target| part(db, *target));
         let mut merged = Merged::default();
+        let mut parts = Vec::with_capacity(targets.len());
+        for (made, target) in self.guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets) {
+            match made {
+                Ok(part) => parts.push(part),
+                Err(problem) => merged.graph.problems.push(about(&self.db, *target, *problem)),
+            }
+        }
         // First what was asked for, so that it comes first also where another target reaches it.
         for part in &parts {
             merged.asked(part);

@@ -5,7 +5,7 @@ mod collect;
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::Code;
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{Bindings, PathName};
 
 /// Paths, and which embeds which.
@@ -17,6 +17,8 @@ pub struct Graph {
     pub embeddings: Vec<Embedding>,
     /// The nodes that were asked for.
     pub roots: Vec<usize>,
+    /// Why of some targets it is not known what they reach.
+    pub problems: Vec<Diagnostic>,
 }
 
 /// A path with its values.
@@ -116,6 +118,7 @@ impl Graph {
             nodes: order.iter().map(|index| self.nodes[*index].clone()).collect(),
             embeddings: kept.iter().map(|index| renumbered(&self.embeddings[*index])).collect(),
             roots: roots.iter().map(|root| number[root]).collect(),
+            problems: self.problems.clone(),
         }
     }
 

@@ -104,8 +104,8 @@ impl GraphArguments {
 
     /// The targets that were asked for, and all that may embed them.
     fn and_everything(&mut self, session: &Session<'_>) -> Vec<Target> {
-        let files = session.everything();
-        self.problems.extend(session.library_problems());
+        let (files, problems) = session.everything();
+        self.problems.extend(problems);
         session.read_ahead(&files);
         let asked: HashSet<SourceFile> = self.files.iter().copied().collect();
         let others = files.into_iter().filter(|file| !asked.contains(file));
@@ -126,7 +126,8 @@ impl GraphArguments {
                 context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
             ));
         }
-        let findings = context.findings(self.problems);
+        let problems = self.problems.into_iter().chain(graph.problems.iter().cloned());
+        let findings = context.findings(problems.collect());
         context.show(&findings);
         if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }

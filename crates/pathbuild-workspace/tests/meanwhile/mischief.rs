@@ -1,0 +1,135 @@
+//! Files to which something happens while they are read or listed.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicI64, Ordering};
+use std::time::SystemTime;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::Stamp;
+use pathbuild_db::System;
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
+use pathbuild_diagnostic::Value;
+
+/// What happens to a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Event {
+    /// It is removed.
+    Vanish,
+    /// Other bytes are written into it.
+    Change,
+    /// Another file, as old as it, takes its name.
+    Replace,
+    /// It cannot be read, this once.
+    Fail,
+    /// Whoever reads it shows a bug.
+    Panic,
+}
+
+/// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, for the n-th time.
+#[derive(Debug)]
+pub(crate) struct Mischief {
+    pub(crate) trigger: String,
+    pub(crate) countdown: AtomicI64,
+    /// Whether it happens again each time after that.
+    pub(crate) lasts: bool,
+    pub(crate) is_before: bool,
+    pub(crate) event: Event,
+    pub(crate) victim: Utf8PathBuf,
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl Mischief {
+    /// Runs what reads a path; whether it must fail.
+    fn around<T>(
+        &self,
+        path: &Utf8Path,
+        read: impl FnOnce() -> Result<T, ReadError>,
+    ) -> Result<T, ReadError> {
+        let is_due = |countdown: i64| countdown == 1 || self.lasts && countdown < 1;
+        let is_now =
+            path.as_str().ends_with(&self.trigger) && is_due(self.countdown.fetch_sub(1, Ordering::SeqCst));
+        match (is_now, self.is_before) {
+            (false, _) => read(),
+            (true, true) => {
+                self.happen();
+                read()
+            }
+            (true, false) if self.event == Event::Fail => Err(ReadError::Other("too many open files".into())),
+            (true, false) => {
+                let result = read();
+                self.happen();
+                result
+            }
+        }
+    }
+
+    fn happen(&self) {
+        match self.event {
+            Event::Vanish => _ = fs::remove_file(&self.victim),
+            Event::Change => _ = fs::write(&self.victim, &self.bytes),
+            Event::Replace => {
+                let modified = fs::metadata(&self.victim).and_then(|data| data.modified());
+                let beside = self.victim.with_extension("new");
+                fs::write(&beside, &self.bytes).unwrap();
+                if let Ok(modified) = modified {
+                    fs::File::options().write(true).open(&beside).unwrap().set_modified(modified).unwrap();
+                }
+                fs::rename(beside, &self.victim).unwrap();
+            }
+            Event::Fail => {}
+            Event::Panic => panic!("a bug that {} shows", self.victim),
+        }
+    }
+}
+
+impl System for Mischief {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        self.around(path, || OsSystem.read(path, limit))
+    }
+
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        self.around(path, || OsSystem.read_stamped(path, limit, room))
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        OsSystem.head(path, length)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        OsSystem.modified(path)
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
+        self.around(directory, || OsSystem.list(directory))
+    }
+
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        self.around(directory, || OsSystem.each_entry(directory, take))
+    }
+
+    fn kind(&self, path: &Utf8Path) -> FileKind {
+        OsSystem.kind(path)
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        OsSystem.canonical(path)
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+        OsSystem.write(path, bytes)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
+        OsSystem.remove(path)
+    }
+}

@@ -1,0 +1,99 @@
+//! Libraries on disk, and what runs find in them.
+
+use std::fmt::Write;
+use std::fs;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::OsSystem;
+use pathbuild_testkit::Workshop;
+use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
+use tempfile::TempDir;
+
+/// A library on disk, with a place for what is kept of it.
+pub(crate) struct OnDisk {
+    directory: TempDir,
+    caches: TempDir,
+}
+
+impl OnDisk {
+    pub(crate) fn new(workshop: &Workshop) -> Self {
+        let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
+        let rules = workshop.rules();
+        let restrict: Vec<String> =
+            rules.restrict.iter().map(|(parent, child)| format!("{parent}:{child}")).collect();
+        let mut text = String::from(
+            "library = [\"lib\"]\nfeed = 100\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n",
+        );
+        writeln!(text, "search = {:?}\nrestrict = {restrict:?}", rules.search).unwrap();
+        fs::write(place.path().join("pathbuild.toml"), text).unwrap();
+        fs::create_dir_all(place.path().join("spare")).unwrap();
+        workshop.files().keys().for_each(|path| place.put(workshop, path));
+        place
+    }
+
+    pub(crate) fn path(&self) -> &Utf8Path {
+        Utf8Path::from_path(self.directory.path()).unwrap()
+    }
+
+    /// Makes a file what the library says it is.
+    pub(crate) fn put(&self, workshop: &Workshop, path: &str) {
+        let on_disk = self.path().join(path);
+        match workshop.files().get(path) {
+            Some(bytes) => {
+                fs::create_dir_all(on_disk.parent().unwrap()).unwrap();
+                fs::write(on_disk, bytes).unwrap();
+            }
+            None => _ = fs::remove_file(on_disk),
+        }
+    }
+
+    /// What a check of the library finds, each once, in order.
+    pub(crate) fn check(&self, system: Arc<dyn System>, is_kept: bool, jobs: Option<u16>) -> Vec<String> {
+        self.check_of(&[], system, is_kept, jobs)
+    }
+
+    /// The same of arguments; without any, of the library.
+    pub(crate) fn check_of(
+        &self,
+        arguments: &[&str],
+        system: Arc<dyn System>,
+        is_kept: bool,
+        jobs: Option<u16>,
+    ) -> Vec<String> {
+        let inputs = Inputs { inputs: arguments.iter().map(|it| (*it).to_owned()).collect() };
+        let workspace = Workspace { jobs, ..self.workspace(&inputs, system, is_kept) };
+        let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
+        let mut session = request.session(&workspace);
+        let checked = request.run(&mut session).unwrap();
+        let found = checked.diagnostics.iter().map(|it| format!("{it:?}"));
+        sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
+    }
+
+    /// What a run works in.
+    pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {
+        let given = Overrides { config: Some(self.path().join("pathbuild.toml")), ..Overrides::default() };
+        let (settings, faults) = config::load(&OsSystem::shared(), &given, inputs, self.path());
+        assert!(faults.is_empty(), "{faults:?}");
+        let caches = Utf8PathBuf::from_path_buf(self.caches.path().join("kept")).unwrap();
+        Workspace {
+            settings,
+            system,
+            own_lang: None,
+            working_directory: Utf8PathBuf::new(),
+            jobs: None,
+            cache: is_kept.then_some(CacheHome::Named(caches)),
+            reporter: Rc::new(Silent),
+        }
+    }
+}
+
+/// Each once, in order.
+pub(crate) fn sorted(mut found: Vec<String>) -> Vec<String> {
+    found.sort();
+    found.dedup();
+    found
+}
