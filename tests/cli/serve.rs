@@ -6,13 +6,12 @@ use std::net::{TcpListener, TcpStream};
 #[cfg(unix)]
 use std::process::Command;
 use std::process::{Child, Stdio};
-use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use pathbuild_testkit::sheet;
 use serde_json::Value;
 
-use crate::support::{Place, program};
+use crate::support::{Place, Said, program};
 
 const CONFIGURATION: &str =
     "feed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library\"]\n";
@@ -39,7 +38,7 @@ fn library() -> Place {
 struct Served<'a> {
     place: &'a Place,
     child: Child,
-    lines: Receiver<String>,
+    lines: Said,
     /// What was said until everything was checked.
     said: Vec<String>,
     link: String,
@@ -70,11 +69,7 @@ impl<'a> Served<'a> {
         let mut command = program();
         command.args(arguments.split_whitespace()).arg("--no-cache").current_dir(place.path());
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
-        let stderr = BufReader::new(child.stderr.take().unwrap());
-        let (sender, lines) = channel();
-        std::thread::spawn(move || {
-            stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
-        });
+        let lines = Said::by(&mut child);
         let mut served = Self { place, child, lines, said: Vec::new(), link: String::new(), port: 0 };
         served.said = served.until(until);
         let at = served.said.iter().find_map(|line| line.strip_prefix("served at ")).unwrap();
@@ -87,15 +82,7 @@ impl<'a> Served<'a> {
     /// The lines up to one that holds a text.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
-        let mut seen = Vec::new();
-        loop {
-            let line = self.lines.recv_timeout(Duration::from_secs(20));
-            assert!(line.is_ok(), "`{text}` was not said: {seen:#?}");
-            seen.extend(line);
-            if seen.last().is_some_and(|line| line.contains(text)) {
-                return seen;
-            }
-        }
+        self.lines.until(text)
     }
 
     fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {

@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::io::{BufRead, BufReader};
 use std::process::{Child, Stdio};
-use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use crate::support::{Place, program};
+use crate::support::{Place, Said, program};
 use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
@@ -39,7 +37,7 @@ fn library() -> Place {
 struct Watch<'a> {
     place: &'a Place,
     child: Child,
-    lines: Receiver<String>,
+    lines: Said,
     /// What was said until it watched.
     beginning: Vec<String>,
 }
@@ -49,11 +47,7 @@ impl<'a> Watch<'a> {
         let mut command = program();
         command.args(arguments.split_whitespace()).current_dir(place.path());
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-        let stderr = BufReader::new(child.stderr.take().unwrap());
-        let (sender, lines) = channel();
-        std::thread::spawn(move || {
-            stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
-        });
+        let lines = Said::by(&mut child);
         let mut watch = Self { place, child, lines, beginning: Vec::new() };
         watch.beginning = watch.until("watching ");
         watch
@@ -62,15 +56,7 @@ impl<'a> Watch<'a> {
     /// The lines up to one that holds a text.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
-        let mut seen = Vec::new();
-        loop {
-            let line = self.lines.recv_timeout(Duration::from_secs(20));
-            assert!(line.is_ok(), "`{text}` was not said: {seen:#?}");
-            seen.extend(line);
-            if seen.last().is_some_and(|line| line.contains(text)) {
-                return seen;
-            }
-        }
+        self.lines.until(text)
     }
 
     fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {

@@ -60,7 +60,9 @@ pub(crate) struct TooMuch;
 
 /// Adds a catalogue.
 pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
-    let mut flat = Flat::default();
+    let names: usize = catalogue.directories.iter().map(|directory| directory.names.len()).sum();
+    let texts = catalogue.files.len() + names + catalogue.lookups.len() + catalogue.records.len();
+    let mut flat = Flat { known: HashMap::with_capacity(texts), ..Flat::default() };
     let numbers = flat.files(&catalogue.files)?;
     for directory in &catalogue.directories {
         flat.directory(directory)?;

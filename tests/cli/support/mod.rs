@@ -2,6 +2,7 @@
 #![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub mod fixture;
+mod said;
 
 use std::fmt;
 use std::fs;
@@ -11,6 +12,7 @@ use std::process::{Command, Stdio};
 use pathbuild_testkit::Fixture;
 pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
+pub use said::Said;
 use tempfile::TempDir;
 
 /// A directory with files in it, in which the program is run.

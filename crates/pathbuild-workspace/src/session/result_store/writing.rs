@@ -16,8 +16,8 @@ pub(super) struct Writing<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// The number of each file by its path's text: comparing paths part by part takes longer.
-    files: HashMap<Box<str>, usize>,
+    /// The number of each file of which nothing was kept.
+    new_files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
     lookups: Lookups,
     /// The new number of each kept file, directory and question.
@@ -50,7 +50,7 @@ impl<'a> Writing<'a> {
             session,
             begun,
             catalogue: Catalogue::default(),
-            files: HashMap::new(),
+            new_files: HashMap::new(),
             directories: HashMap::new(),
             lookups: Lookups::default(),
             kept_files: vec![None; kept.files()],
@@ -133,9 +133,7 @@ impl<'a> Writing<'a> {
         if self.read.get(&fact.path).is_some_and(|content| content.map(|(hash, _)| hash) != fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
-        let new = self.push_file(fact);
-        self.kept_files[number] = Some(new);
-        new
+        self.add_kept_file(number, fact)
     }
 
     /// A drawing that was read now.
@@ -178,13 +176,29 @@ impl<'a> Writing<'a> {
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
-        if let Some(known) = self.files.get(fact.path.as_str()) {
+        if let Some(kept) = self.result_store.kept.file_of(&fact.path) {
+            return self.add_kept_file(kept, fact);
+        }
+        if let Some(known) = self.new_files.get(&fact.path) {
             return *known;
         }
-        let number = self.catalogue.files.len();
-        self.files.insert(fact.path.as_str().into(), number);
+        self.new_files.insert(fact.path.clone(), self.catalogue.files.len());
+        self.add_file(fact)
+    }
+
+    /// Of a file of which something was kept, what is known now; what came first holds.
+    fn add_kept_file(&mut self, number: usize, fact: FileFact) -> usize {
+        if let Some(known) = self.kept_files[number] {
+            return known;
+        }
+        let new = self.add_file(fact);
+        self.kept_files[number] = Some(new);
+        new
+    }
+
+    fn add_file(&mut self, fact: FileFact) -> usize {
         self.catalogue.files.push(fact);
-        number
+        self.catalogue.files.len() - 1
     }
 
     fn kept_lookup(&mut self, number: usize) -> usize {

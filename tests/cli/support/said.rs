@@ -1,0 +1,38 @@
+//! What a run that goes on says.
+
+use std::io::{BufRead, BufReader};
+use std::process::Child;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+/// The lines of a run's stderr, as they come.
+pub struct Said(Receiver<String>);
+
+/// A machine on which everything is built at once takes its time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+impl Said {
+    /// By this run.
+    pub fn by(child: &mut Child) -> Self {
+        let stderr = BufReader::new(child.stderr.take().unwrap());
+        let (sender, lines) = channel();
+        std::thread::spawn(move || {
+            stderr.lines().map_while(Result::ok).try_for_each(|line| sender.send(line))
+        });
+        Self(lines)
+    }
+
+    /// The lines up to one that holds a text.
+    #[track_caller]
+    pub fn until(&self, text: &str) -> Vec<String> {
+        let mut seen = Vec::new();
+        loop {
+            let line = self.0.recv_timeout(PATIENCE);
+            assert!(line.is_ok(), "`{text}` was not said: {seen:#?}");
+            seen.extend(line);
+            if seen.last().is_some_and(|line| line.contains(text)) {
+                return seen;
+            }
+        }
+    }
+}
