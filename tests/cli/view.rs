@@ -321,7 +321,7 @@ fn what_cannot_be_shown_says_so() {
 /// About where the texts of some layers of a picture stand: left, top, right, bottom in px, and what they say.
 fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     let document = roxmltree::Document::parse(svg).unwrap();
-    let layers = ["texts", "order", "ends", "probes", "embedded"];
+    let layers = ["texts", "order", "ends", "probes", "embedded", "findings", "keep-outs"];
     let is_label = |node: &roxmltree::Node<'_, '_>| {
         let layer = node.ancestors().find_map(|it| it.attribute("id")).unwrap_or_default();
         node.has_tag_name("text") && layers.contains(&layer)
@@ -344,9 +344,15 @@ fn texts_of_a_picture_are_apart() {
     let mut place = Place::new().file("pathbuild.toml", "sweep-height = 9\nfeed = 150\nrapid = 900\n");
     let everything_at_one_place = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 3,0\nprobe 0,0 \"LA\"\nmill 3,0 40,20 \"B3\"\nmill 40,20 0,20\nend 0,20\n";
     place = place.file("own/1234.1P.dxf", sheet(everything_at_one_place).unwrap().to_dxf());
-    let mut drawings = vec!["own/1234.1P.dxf".to_owned()];
-    let book = support::project().join("docs/drawings");
-    for folder in fs::read_dir(&book).unwrap().map(|entry| entry.unwrap().path()).filter(|it| it.is_dir()) {
+    place = place.file("own/1235.1P.dxf", sheet(&crowded()).unwrap().to_dxf());
+    let mut drawings = vec!["own/1234.1P.dxf".to_owned(), "own/1235.1P.dxf".to_owned()];
+    let [book, library] = ["docs/drawings", "fixtures/library"].map(|it| support::project().join(it));
+    for folder in [&book, &library]
+        .into_iter()
+        .flat_map(|it| fs::read_dir(it).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|it| it.is_dir())
+    {
         let name = folder.file_name().unwrap().to_str().unwrap();
         for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
             if file.extension().is_some_and(|it| it == "dxf") {
@@ -366,9 +372,70 @@ fn texts_of_a_picture_are_apart() {
                 let meets = a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
                 assert!(!meets, "{drawing}: {text:?} over {other:?}");
             }
+            assert!(a[0] >= 0.0 && a[2] <= 1160.0 && a[1] >= 0.0, "{drawing}: {text:?} is cut off");
         }
         pictures += usize::from(!texts.is_empty());
         fs::remove_file(place.path().join("picture.svg")).unwrap();
     }
-    assert!(pictures > 15, "{pictures}");
+    assert!(pictures > 50, "{pictures}");
+}
+
+/// Short lines in a narrow place, each with parameters of its own.
+fn crowded() -> String {
+    let mut text = "layer 1235.1P\nstart 0,0 \"T5 O0.2 I1 B4 MPlate\"\n".to_owned();
+    let corner = |number: u32| {
+        (
+            f64::from(number / 12) * 0.8,
+            f64::from([number % 12, 11 - number % 12][number as usize / 12 % 2]) * 0.8,
+        )
+    };
+    for number in 0..119 {
+        let ((x, y), (to_x, to_y)) = (corner(number), corner(number + 1));
+        text += &format!("mill {x},{y} {to_x},{to_y} \"B{} F{}\"\n", 1 + number % 3, 100 + number);
+    }
+    let (x, y) = corner(119);
+    text + &format!("end {x},{y}\n")
+}
+
+/// Of a picture whose tool is as wide as the drawing is long nothing is cut off, and a drilled hole is a disc.
+#[test]
+fn what_the_cutter_takes_is_whole_in_a_picture() {
+    let drawing = "layer 1236.1P\nstart 0,0 \"T5 O12 I1 B0 MPlate\"\nmill 0,0 30,0\nsweep 30,0 15,40\nmill circle 15,40 d 12\nsweep 15,40 30,0\nend 30,0\n";
+    let place = Place::new()
+        .file("pathbuild.toml", "sweep-height = 9\nfeed = 150\nrapid = 900\n")
+        .file("1236.1P.dxf", sheet(drawing).unwrap().to_dxf());
+    let run = place.run("view 1236.1P.dxf -o a.svg");
+    assert_eq!(run.status, Some(0), "{run}");
+    let svg = place.read("a.svg");
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let below = |id: &str, tag: &'static str| {
+        let layer = document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
+        let number =
+            |node: roxmltree::Node<'_, '_>, name: &str| node.attribute(name).unwrap_or("0").parse().unwrap();
+        let numbers = move |node| ["cx", "cy", "r", "stroke-width"].map(|name| number(node, name));
+        layer
+            .descendants()
+            .filter(move |it| it.has_tag_name(tag))
+            .map(move |it| (it.attribute("d").unwrap_or("").to_owned(), numbers(it)))
+            .collect::<Vec<(String, [f64; 4])>>()
+    };
+    let (line, [.., width]) = below("kerf", "path")[0].clone();
+    let numbers: Vec<f64> = line.split(['M', 'L', ' ']).filter_map(|number| number.parse().ok()).collect();
+    let [left, y, right, _] = numbers[..] else { panic!("{line}") };
+    assert!(left - width / 2.0 >= 0.0 && right + width / 2.0 <= 1160.0, "{line} {width}");
+    let clip = document
+        .descendants()
+        .find(|node| node.has_tag_name("clipPath"))
+        .unwrap()
+        .first_element_child()
+        .unwrap();
+    let bottom: f64 = clip.attribute("height").unwrap().parse().unwrap();
+    assert!(y + width / 2.0 <= bottom, "{line} {width}: {bottom}");
+    // As wide as the cutter, and its number beside it.
+    let [x, y, radius, _] =
+        below("cuts", "circle").into_iter().map(|it| it.1).find(|it| it[2] > 5.0).unwrap();
+    assert!((2.0 * radius - width).abs() < 0.02, "{radius} {width}");
+    let numbers = below("order", "circle");
+    assert_eq!(numbers.len(), 2);
+    assert!(numbers.iter().all(|(_, [a, b, r, _])| (a - x).hypot(b - y) >= radius + r), "{numbers:?}");
 }

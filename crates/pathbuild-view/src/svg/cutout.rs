@@ -46,9 +46,9 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     let near = near(scene, window);
     let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
     canvas.open("id=\"drawing\"");
-    things::under(&mut canvas, &near, &frame);
+    let mut room = Room::new([[0.0; 2], SIZE]);
+    things::under(&mut canvas, &near, &frame, &mut room);
     let shown = Shown { rapids: false, order: false, arrows: false, ..Shown::all(lang) };
-    let mut room = Room::default();
     for path in &near.paths {
         let place = frame.of_path(path);
         circles(&mut canvas, path, spot, &place);

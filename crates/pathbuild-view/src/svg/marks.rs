@@ -1,63 +1,61 @@
 //! Numbers of order, start and end, findings.
 
-use std::collections::BTreeSet;
-
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform};
 use super::palette::{ERROR, INK, PROBE, WARNING};
-use super::room::{Room, around};
-use crate::scene::{Element, Point, Scene, ScenePath, Shape};
-
-/// Numbers keep so many px apart; of two that are nearer only the first is shown.
-const APART: f64 = 17.0;
+use super::room::{Rectangle, Room, around};
+use crate::scene::{Element, ElementKind, Point, Scene, ScenePath, Shape};
 
 /// The radius of a number's circle in px.
 const NUMBER: f64 = 7.0;
 
-/// The numbers in which the tool comes to elements.
+/// Takes the room of symbols, which stand where they stand.
+pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut Room) {
+    for marker in markers(path).into_iter().flatten() {
+        room.take(around(place.at(marker.shape.start()), 5.0));
+    }
+    for probe in &path.probes {
+        room.take(around(place.at(probe.at), probe_radius(place)));
+    }
+}
+
+/// The markers of a path at its start and its end.
+fn markers(path: &ScenePath) -> [Option<&Element>; 2] {
+    let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
+    [marker(ElementKind::Start), marker(ElementKind::End)]
+}
+
+/// The radius of a probe's symbol in px.
+pub(super) fn probe_radius(place: &PageTransform) -> f64 {
+    (3.0 * place.scale()).clamp(5.0, 16.0)
+}
+
+/// The numbers in which the tool comes to elements, as far as there is room.
 pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     let mut numbered: Vec<(u32, &Element)> =
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
     numbered.sort_by_key(|(order, _)| *order);
-    let mut taken = Taken::default();
+    let kerf = path.tool.unwrap_or(0.0) / 2.0 * place.scale();
     canvas.open(&format!("id=\"order\" fill=\"{INK}\""));
     for (order, element) in numbered {
-        let places = places(&element.shape, place);
-        let at = places[room.choose(&places.iter().map(|at| around(*at, NUMBER)).collect::<Vec<_>>())];
-        if taken.take(at) {
-            canvas.circle(
-                at,
-                NUMBER,
-                &format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK}\" stroke-width=\"0.6\""),
-            );
-            let size = if order > 99 { 7.0 } else { 8.5 };
-            canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
-        }
+        let places = places(&element.shape, place, kerf);
+        let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
+        let Some(at) = room.find(&taken).map(|found| places[found]) else { continue };
+        canvas.circle(
+            at,
+            NUMBER,
+            &format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK}\" stroke-width=\"0.6\""),
+        );
+        let size = if order > 99 { 7.0 } else { 8.5 };
+        canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
     }
     canvas.close();
 }
 
-/// The cells of a grid that have a number.
-#[derive(Default)]
-struct Taken(BTreeSet<(i64, i64)>);
-
-impl Taken {
-    /// Takes a place unless a neighbour has it.
-    #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
-    fn take(&mut self, at: Point) -> bool {
-        let (column, row) = ((at[0] / APART).floor() as i64, (at[1] / APART).floor() as i64);
-        let near = (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y)));
-        let is_free = !near.into_iter().any(|cell| self.0.contains(&cell));
-        if is_free {
-            self.0.insert((column, row));
-        }
-        is_free
-    }
-}
-
-/// Where a shape's number may stand: in the middle, else nearer to an end; of a circle in its centre, else beside it.
-fn places(shape: &Shape, place: &PageTransform) -> Vec<Point> {
+/// Where a shape's number may stand: in the middle, else nearer to an end; of a circle in its centre, if that is seen round the number, else
+/// beside it. The cutter takes so many px away on either side.
+fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     let along =
         |point: &dyn Fn(f64) -> Point| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| place.at(point(share)));
     match shape {
@@ -66,8 +64,12 @@ fn places(shape: &Shape, place: &PageTransform) -> Vec<Point> {
         }
         Shape::Arc(arc) => along(&|share| arc.point(share)).to_vec(),
         Shape::Circle { centre, radius } => {
-            let ([x, y], out) = (place.at(*centre), radius * place.scale() + NUMBER + 2.0);
-            vec![[x, y], [x, y + out], [x, y - out], [x - out, y], [x + out, y]]
+            let ([x, y], radius) = (place.at(*centre), radius * place.scale());
+            let out = radius.max(kerf) + NUMBER + 3.0;
+            // A hole that is drilled is a disc: a number in it would make a ring of it.
+            let is_seen = radius > NUMBER + 4.0 && radius > kerf * 1.05;
+            let centre = is_seen.then_some([x, y]);
+            centre.into_iter().chain([[x + out, y], [x, y + out], [x, y - out], [x - out, y]]).collect()
         }
     }
 }
@@ -80,16 +82,12 @@ pub(super) fn ends(
     shown: Shown,
     room: &mut Room,
 ) {
-    let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
-    let [start, end] = [crate::scene::ElementKind::Start, crate::scene::ElementKind::End].map(marker);
-    for marker in [start, end].into_iter().flatten() {
-        room.take(around(place.at(marker.shape.start()), 6.0));
-    }
+    let [start, end] = markers(path);
     canvas.open("id=\"ends\"");
     if let Some(start) = start {
         let at = place.at(start.shape.start());
         canvas.circle(at, 5.0, &format!("fill=\"{PROBE}\" stroke=\"#fff\" stroke-width=\"1\""));
-        label(canvas, room, at, [-8.0, 16.0], shown.either("start X0 Y0", "Start X0 Y0"), PROBE);
+        label(canvas, room, at, [-8.0, 17.0], shown.either("start X0 Y0", "Start X0 Y0"), PROBE);
     } else if path.elements.is_empty() && !path.moves.is_empty() {
         let at = place.at([0.0, 0.0]);
         canvas.line([at[0] - 7.0, at[1]], [at[0] + 7.0, at[1]], &format!("stroke=\"{PROBE}\""));
@@ -103,7 +101,7 @@ pub(super) fn ends(
             n(x - 4.5),
             n(y - 4.5)
         ));
-        label(canvas, room, [x, y], [-8.0, -9.0], shown.either("end", "Ende"), INK);
+        label(canvas, room, [x, y], [-8.0, -11.0], shown.either("end", "Ende"), INK);
     }
     canvas.close();
 }

@@ -67,11 +67,12 @@ pub fn svg(scene: &Scene, shown: Shown) -> String {
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
-    things::under(&mut canvas, scene, &frame);
-    let mut room = Room::default();
+    let mut room = Room::new(frame.area());
+    things::under(&mut canvas, scene, &frame, &mut room);
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(&mut canvas, path, &place, &depths, shown);
+        marks::reserve(path, &place, &mut room);
         things::over(&mut canvas, path, &place, shown, &mut room);
     }
     marks::findings(&mut canvas, scene, &frame, &mut room);

@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform};
 use super::marks;
 use super::palette::{BAR, ERROR, INK, OTHER, PROBE, RAPID, TEXT};
-use super::room::Room;
+use super::room::{Rectangle, Room, width};
 use crate::scene::{Arc, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
 
 /// The path's own texts have so many px at least.
@@ -14,8 +14,11 @@ const LEAST: f64 = 7.5;
 /// Texts of fewer px are not read.
 const READABLE: f64 = 4.5;
 
+/// What makes a text legible over lines.
+const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
+
 /// Other layers and clamps.
-pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame) {
+pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
     let place = frame.of_drawing();
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
@@ -23,15 +26,24 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame) {
             OtherShape::Shape { shape: it, .. } => canvas.path(&shape(it, &place), ""),
             OtherShape::Text { text, at, height, rotation, .. } => {
                 other_text(canvas, &place, text, *at, *height, *rotation);
+                if *rotation == 0.0 {
+                    room.take(written(place.at(*at), height * place.scale(), text));
+                }
             }
         }
     }
     canvas.close();
-    keep_outs(canvas, scene, &place);
+    keep_outs(canvas, scene, &place, room);
+}
+
+/// About what a text round a point takes.
+fn written([x, y]: Point, size: f64, text: &str) -> Rectangle {
+    let half = width(text, size) / 2.0;
+    [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
 }
 
 /// Clamps, with their heights in the middle.
-fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
+fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
@@ -48,6 +60,7 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
         };
         let [x, y] = place.at([0, 1].map(|axis| f64::midpoint(low[axis], high[axis])));
         let label = format!("Z{}", n(clamp.height));
+        room.take(written([x, y], 11.0, &label));
         canvas.text([x, y + 4.0], 11.0, Anchor::Middle, &style, &label);
     }
     canvas.close();
@@ -98,11 +111,11 @@ pub(super) fn over(
     if shown.texts {
         texts(canvas, path, place, room);
     }
+    marks::ends(canvas, path, place, shown, room);
+    probes(canvas, path, place, room);
     if shown.order {
         marks::order(canvas, path, place, room);
     }
-    marks::ends(canvas, path, place, shown, room);
-    probes(canvas, path, place, room);
     embedded(canvas, path, place, room);
 }
 
@@ -150,20 +163,15 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
         if size < READABLE {
             continue;
         }
-        let mut at = place.at(label.at);
-        let half = 0.31 * size * longest as f64 + 4.0;
-        at[0] = at[0].min(Frame::WIDTH - half).max(half);
-        let ways = [0.0, 1.0, -1.0, 2.0, -2.0].map(|way| [at[0], at[1] + way * rows * size]);
-        let (across, down) = (half - 4.0, rows * size / 2.0);
-        at = ways[room.choose(&ways.map(|[x, y]| [[x - across, y - down], [x + across, y + down]]))];
+        let extent = [0.62 * size * longest as f64, rows * size];
+        let Some(at) = room.find_near(place.at(label.at), extent) else { continue };
         for element in &label.elements {
             let to = place.at(nearest(&path.elements[*element as usize].shape, label.at));
             canvas.line(at, to, &format!("stroke=\"{TEXT}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""));
         }
         for (row, line) in lines.iter().enumerate() {
             let down = (row as f64 - (rows - 1.0) / 2.0 + 0.35) * size;
-            let halo = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
-            canvas.text([at[0], at[1] + down], size, Anchor::Middle, halo, line);
+            canvas.text([at[0], at[1] + down], size, Anchor::Middle, HALO, line);
         }
     }
     canvas.close();
@@ -189,12 +197,13 @@ fn nearest(shape: &Shape, at: Point) -> Point {
     }
 }
 
-/// The names of embedded paths where they start.
+/// The names of embedded paths where they start, as far as there is room.
 fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
-        let at = room.beside(place.at(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name);
-        canvas.text(at, 9.0, Anchor::Start, "", &inner.name);
+        if let Some(at) = room.find_beside(place.at(inner.ends[0]), [6.0, -6.0], 9.0, &inner.name) {
+            canvas.text(at, 9.0, Anchor::Start, HALO, &inner.name);
+        }
     }
     canvas.close();
 }
@@ -203,7 +212,7 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &m
     canvas.open(&format!("id=\"probes\" stroke=\"{PROBE}\" fill=\"none\""));
     for probe in &path.probes {
         let at = place.at(probe.at);
-        let size = (3.0 * place.scale()).clamp(5.0, 16.0);
+        let size = marks::probe_radius(place);
         canvas.circle(at, size, "stroke-width=\"1.4\"");
         canvas.line([at[0] - size, at[1]], [at[0] + size, at[1]], "stroke-width=\"0.8\"");
         canvas.line([at[0], at[1] - size], [at[0], at[1] + size], "stroke-width=\"0.8\"");

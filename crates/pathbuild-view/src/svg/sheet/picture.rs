@@ -147,9 +147,11 @@ impl Placed {
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip("frame", clip);
-        drawing(canvas, &sheet.scene, &frame, &depths, shown);
-        canvas.close();
         axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
+        // Left and below stand measures, above the axis has its name.
+        let room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
+        drawing(canvas, &sheet.scene, &frame, &depths, shown, room);
+        canvas.close();
         if let Some(box_) = cleared(sheet) {
             measures::draw(canvas, box_, &place, [left, bottom]);
         }
@@ -195,12 +197,12 @@ impl Placed {
     }
 }
 
-fn drawing(canvas: &mut Canvas, scene: &Scene, frame: &Frame, depths: &Depths, shown: Shown) {
-    things::under(canvas, scene, frame);
-    let mut room = Room::default();
+fn drawing(canvas: &mut Canvas, scene: &Scene, frame: &Frame, depths: &Depths, shown: Shown, mut room: Room) {
+    things::under(canvas, scene, frame, &mut room);
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(canvas, path, &place, depths, shown);
+        marks::reserve(path, &place, &mut room);
         things::over(canvas, path, &place, shown, &mut room);
     }
     marks::findings(canvas, scene, frame, &mut room);
