@@ -382,6 +382,8 @@ fn texts_of_a_picture_are_apart() {
 
 /// Short lines in a narrow place, each with parameters of its own.
 fn crowded() -> String {
+    use std::fmt::Write;
+
     let mut text = "layer 1235.1P\nstart 0,0 \"T5 O0.2 I1 B4 MPlate\"\n".to_owned();
     let corner = |number: u32| {
         (
@@ -391,7 +393,8 @@ fn crowded() -> String {
     };
     for number in 0..119 {
         let ((x, y), (to_x, to_y)) = (corner(number), corner(number + 1));
-        text += &format!("mill {x},{y} {to_x},{to_y} \"B{} F{}\"\n", 1 + number % 3, 100 + number);
+        let (bottom, feed) = (1 + number % 3, 100 + number);
+        _ = writeln!(text, "mill {x},{y} {to_x},{to_y} \"B{bottom} F{feed}\"");
     }
     let (x, y) = corner(119);
     text + &format!("end {x},{y}\n")

@@ -32,12 +32,28 @@ async function shot(page, name) {
   if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
 }
 
+/** No label stands over another, and none is cut off. How many there are to be seen. */
+async function apart(page) {
+  const { boxes, picture } = await page.evaluate(() => {
+    const box = (node) => (({ left, top, right, bottom }) => ({ left, top, right, bottom, says: node.textContent }))(node.getBoundingClientRect());
+    const seen = [...document.querySelectorAll("#labels > *")].filter((node) => getComputedStyle(node).visibility === "visible");
+    return { boxes: seen.map(box), picture: box(document.getElementById("picture")) };
+  });
+  boxes.forEach((a, index) => {
+    assert.ok(a.left >= picture.left - 1 && a.right <= picture.right + 1 && a.top >= picture.top - 1 && a.bottom <= picture.bottom + 1, `${a.says} is cut off`);
+    for (const b of boxes.slice(0, index)) assert.ok(a.left >= b.right - 1 || b.left >= a.right - 1 || a.top >= b.bottom - 1 || b.top >= a.bottom - 1, `${a.says} over ${b.says}`);
+  });
+  return boxes.length;
+}
+
 const text = (page, selector) => page.locator(selector).innerText();
 
 {
   const { page, faults } = await open("8001.1P");
   const total = Number(await page.locator("#slider").getAttribute("max"));
   assert.ok(total > 300, `${total} moves`);
+  await page.waitForFunction(() => document.querySelector("#labels .order")?.style.transform);
+  assert.ok((await apart(page)) > 40);
   await shot(page, "project");
   // Single steps by keys: the G-code line follows.
   await page.keyboard.press("Home");
@@ -98,7 +114,13 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.keyboard.press("d");
   await page.keyboard.press("3");
   await page.waitForTimeout(200);
+  assert.ok((await apart(page)) > 40);
   await shot(page, "dark-space");
+  // As small as on a telephone, some labels have no room.
+  await page.setViewportSize({ width: 390, height: 800 });
+  await page.waitForFunction(() => document.querySelector("#labels .order[style*=hidden]"));
+  const left = await apart(page);
+  assert.ok(left > 5 && left < 60, `${left} labels`);
   assert.deepEqual(faults, []);
   await page.close();
 }

@@ -17,6 +17,8 @@ export interface Pieces {
 
 export interface Model {
   steps: Step[];
+  /** Discs as wide as the cutter, in triangles: three points each. */
+  holes: Pieces;
   cuts: Pieces;
   rapids: Pieces;
   arrows: Pieces;
@@ -60,6 +62,7 @@ export function model(scene: Scene, dark: boolean): Model {
   const empty = (): Pieces => ({ points: [], colors: [], until: [], step: [] });
   const made: Model = {
     steps,
+    holes: empty(),
     cuts: empty(),
     rapids: empty(),
     arrows: empty(),
@@ -96,7 +99,7 @@ export function model(scene: Scene, dark: boolean): Model {
     made.high = [10, 10, 0];
   }
   const extent = Math.max(made.high[0] - made.low[0], made.high[1] - made.low[1], 1);
-  steps.forEach(({ move }, index) => {
+  steps.forEach(({ path, move }, index) => {
     const cuts = isCut(move.kind);
     const share = shallowest > deepest ? (shallowest - (move.to[2] ?? 0)) / (shallowest - deepest) : 0.5;
     const color = cuts ? depthColor(share, dark) : RAPID;
@@ -104,9 +107,28 @@ export function model(scene: Scene, dark: boolean): Model {
     const points = flat[index];
     for (let piece = 1; piece < points.length; piece++) push(into, points[piece - 1], points[piece], color, index);
     arrow(cuts ? made.arrows : made.rapidArrows, points, color, index, extent);
-    for (const pieces of [made.cuts, made.rapids, made.arrows, made.rapidArrows]) pieces.until.push(pieces.step.length);
+    if (isHole(path, move)) disc(made.holes, points.at(-1)!, path.tool! / 2, color, index);
+    for (const pieces of [made.holes, made.cuts, made.rapids, made.arrows, made.rapidArrows]) pieces.until.push(pieces.step.length);
   });
   return made;
+}
+
+/** Whether a plunge is the whole of its element; without elements it looks like one. */
+function isHole(path: Path, { kind, element, to }: Move): boolean {
+  const isAlone = element === undefined || path.elements[element].shape.type === "circle";
+  return kind === "plunge" && path.tool !== null && to[0] !== null && to[1] !== null && isAlone;
+}
+
+/** So many triangles are a disc. */
+const SECTORS = 24;
+
+function disc(into: Pieces, [x, y, z]: number[], radius: number, color: number[], step: number): void {
+  const rim = (sector: number) => [x + radius * Math.cos((2 * Math.PI * sector) / SECTORS), y + radius * Math.sin((2 * Math.PI * sector) / SECTORS), z];
+  for (let sector = 0; sector < SECTORS; sector++) {
+    into.points.push(x, y, z, ...rim(sector), ...rim(sector + 1));
+    into.colors.push(...color, ...color, ...color);
+    into.step.push(step);
+  }
 }
 
 function push(into: Pieces, from: number[], to: number[], color: number[], step: number): void {

@@ -8,13 +8,9 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
 import { Kept } from "./kept.js";
+import { Labels, Spot } from "./labels.js";
 import { Model, Pieces } from "./model.js";
 import { KeepOut, Point, Scene, Shape, pointsOfShape } from "./scene.js";
-
-export interface Spot {
-  at: [number, number, number];
-  node: HTMLElement;
-}
 
 /** Strokes of which a number can be drawn. */
 interface Strokes {
@@ -51,6 +47,7 @@ export class Stage {
   private camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
   private controls: OrbitControls;
   private materials: LineMaterial[] = [];
+  private holes!: Strokes;
   private cuts!: Strokes;
   private rapids!: Strokes;
   private arrows!: Strokes;
@@ -59,7 +56,9 @@ export class Stage {
   private other!: THREE.LineSegments;
   private tool!: THREE.Mesh;
   private mark!: LineSegments2;
-  private spots: Spot[] = [];
+  private labels: Labels;
+  /** From where labels were put into their places, and how large the picture was; `null`: they were not. */
+  private labelled: [THREE.Matrix4, number, number] | null = null;
   private isDue = false;
   private layer = 0;
   private unit = 1;
@@ -67,9 +66,10 @@ export class Stage {
 
   constructor(
     private host: HTMLElement,
-    private labels: HTMLElement,
+    labels: HTMLElement,
     readonly isThick: boolean,
   ) {
+    this.labels = new Labels(labels);
     const canvas = document.createElement("canvas");
     const context = canvas.getContext("webgl2", { antialias: isThick });
     if (!context) throw new Error("no WebGL2");
@@ -97,6 +97,7 @@ export class Stage {
     for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), 0xd55e00));
     for (const it of scene.keep_outs) this.scene.add(clamp(it));
     this.scene.add(this.fat(bars(scene), 6));
+    this.holes = this.discs(model.holes);
     this.rapids = this.strokes(model.rapids, 1.1);
     this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
     this.cuts = this.strokes(model.cuts, 2.2);
@@ -108,7 +109,7 @@ export class Stage {
     const body = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 24).rotateX(Math.PI / 2).translate(0, 0, height / 2);
     this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
     this.scene.add(this.other, this.mark, this.tool);
-    this.all = [this.cuts, this.rapids, this.arrows, this.rapidArrows];
+    this.all = [this.holes, this.cuts, this.rapids, this.arrows, this.rapidArrows];
     for (const { object } of this.all) this.scene.add(object);
     this.resize();
   }
@@ -194,6 +195,7 @@ export class Stage {
   show(count: number): void {
     const of = (pieces: Pieces) => (count === 0 ? 0 : pieces.until[count - 1]);
     const all = [
+      [this.holes, this.model.holes],
       [this.cuts, this.model.cuts],
       [this.rapids, this.model.rapids],
       [this.arrows, this.model.arrows],
@@ -233,8 +235,8 @@ export class Stage {
   }
 
   setSpots(spots: Spot[]): void {
-    this.spots = spots;
-    this.labels.replaceChildren(...spots.map((spot) => spot.node));
+    this.labels.set(spots);
+    this.labelled = null;
     this.draw();
   }
 
@@ -291,11 +293,18 @@ export class Stage {
       this.camera.updateMatrixWorld();
       for (const strokes of this.all) if (strokes.object.visible) strokes.prepare?.(this.renderer, this.camera);
       this.renderer.render(this.scene, this.camera);
-      for (const { at, node } of this.spots) {
-        const [x, y] = this.project(at);
-        node.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-      }
+      this.label();
     });
+  }
+
+  /** Puts labels where they belong, unless they are there. */
+  private label(): void {
+    const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const [before, ...size] = this.labelled ?? [];
+    if (width === 0 || (before?.equals(view) && size[0] === width && size[1] === height)) return;
+    this.labelled = [view, width, height];
+    this.labels.place((at) => this.project(at), width, height);
   }
 
   private resize(): void {
@@ -316,6 +325,16 @@ export class Stage {
     const kept = new Kept(pieces);
     kept.object.renderOrder = ++this.layer;
     return kept;
+  }
+
+  private discs({ points, colors }: Pieces): Strokes {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+    geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors, 3));
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, depthTest: false, depthWrite: false }));
+    mesh.frustumCulled = false;
+    mesh.renderOrder = ++this.layer;
+    return { object: mesh, draw: (count) => geometry.setDrawRange(0, count * 3) };
   }
 
   private fat(pieces: Pieces, width: number): LineSegments2 {

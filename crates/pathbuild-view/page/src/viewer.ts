@@ -1,8 +1,9 @@
 // What shows a scene: the picture, its G-code, and what goes between them.
 
+import { Spot } from "./labels.js";
 import { Model, model } from "./model.js";
 import { Finding, Parameter, Scene, pointsOfShape } from "./scene.js";
-import { Stage, Spot, isThick } from "./stage.js";
+import { Stage, isThick } from "./stage.js";
 import { Lang, Word, mm, say, sayKind } from "./words.js";
 
 const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -160,7 +161,10 @@ function spots(): void {
             : shape.type === "circle"
               ? shape.centre
               : middle(shape);
-        add(place(at), 0, text("span", String(order), "order"));
+        // A number in the disc of a drilled hole would make a ring of it.
+        const reach = (path.tool ?? 0) / 2;
+        const isHole = shape.type === "circle" && shape.radius <= 1.05 * reach;
+        add(place(isHole ? [at[0] + reach, at[1]] : at), 0, text("span", String(order), isHole ? "order beside" : "order"));
       }
     }
     if (shown.texts) {

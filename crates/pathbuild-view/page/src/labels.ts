@@ -1,0 +1,92 @@
+// Labels in the picture: none stands over another, none is cut off at its edge.
+
+import { Point } from "./scene.js";
+
+/** A label and the place that it belongs to. */
+export interface Spot {
+  at: [number, number, number];
+  node: HTMLElement;
+}
+
+/** Left, top, right, bottom in px. */
+type Box = [number, number, number, number];
+
+/** Whose place comes first, by class. The first ones are shown even where there is no room. */
+const RANKS = ["finding", "cross", "zero", "probe", "clamp", "text", "order", "name"];
+const ALWAYS = 5;
+
+/** Sides of a cell in px, by which neighbours are found. */
+const CELL = 64;
+
+interface Label extends Spot {
+  rank: number;
+  /** What it takes, seen from its place. */
+  box: Box;
+}
+
+export class Labels {
+  private labels: Label[] = [];
+  private isMeasured = false;
+
+  constructor(private host: HTMLElement) {}
+
+  /** Shows these instead of what was shown before. */
+  set(spots: Spot[]): void {
+    const rank = ({ node }: Spot) => RANKS.findIndex((name) => node.classList.contains(name));
+    this.labels = spots.map((spot): Label => ({ ...spot, rank: rank(spot), box: [0, 0, 0, 0] })).sort((a, b) => a.rank - b.rank);
+    this.isMeasured = false;
+    this.host.replaceChildren(...spots.map(({ node }) => node));
+  }
+
+  /** Puts them where they belong in a picture of that size. */
+  place(project: (at: [number, number, number]) => Point, width: number, height: number): void {
+    if (!this.isMeasured) this.measure();
+    const taken = new Map<number, Box[]>();
+    for (const { at, node, rank, box } of this.labels) {
+      const [x, y] = project(at);
+      const isSeen = x >= 0 && x <= width && y >= 0 && y <= height;
+      const places = isSeen ? ways(box).map(([dx, dy]) => inside([box[0] + x + dx, box[1] + y + dy, box[2] + x + dx, box[3] + y + dy], width, height)) : [];
+      const free = places.find((place) => cells(place).every((cell) => !taken.get(cell)?.some((other) => meets(place, other))));
+      const place = free ?? (rank < ALWAYS ? places[0] : undefined);
+      node.style.visibility = place ? "" : "hidden";
+      const [left, top] = place ? [place[0] - box[0], place[1] - box[1]] : [x, y];
+      node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+      for (const cell of place ? cells(place) : []) taken.set(cell, [...(taken.get(cell) ?? []), place!]);
+    }
+  }
+
+  private measure(): void {
+    const host = this.host.getBoundingClientRect();
+    for (const label of this.labels) {
+      const { left, top, right, bottom } = label.node.getBoundingClientRect();
+      label.box = [left - host.left, top - host.top, right - host.left, bottom - host.top];
+    }
+    this.isMeasured = host.width > 0;
+  }
+}
+
+/** Steps aside, the nearest first. */
+function ways([left, top, right, bottom]: Box): Point[] {
+  const [across, down] = [(right - left) / 2 + 4, bottom - top + 1];
+  return [[0, 0], [0, down], [0, -down], [across, 0], [-across, 0], [across, down], [across, -down], [-across, down], [-across, -down], [0, 2 * down], [0, -2 * down]];
+}
+
+/** A box, moved into the picture. */
+function inside([left, top, right, bottom]: Box, width: number, height: number): Box {
+  const dx = Math.max(0, -left) - Math.max(0, right - width);
+  const dy = Math.max(0, -top) - Math.max(0, bottom - height);
+  return [left + dx, top + dy, right + dx, bottom + dy];
+}
+
+function meets(a: Box, b: Box): boolean {
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+/** The cells that a box lies in. */
+function cells([left, top, right, bottom]: Box): number[] {
+  const all: number[] = [];
+  for (let row = Math.floor(top / CELL); row * CELL < bottom; row++) {
+    for (let column = Math.floor(left / CELL); column * CELL < right; column++) all.push(row * 4096 + column);
+  }
+  return all;
+}
