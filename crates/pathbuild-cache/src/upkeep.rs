@@ -47,8 +47,9 @@ impl TreeStore {
     /// back how many files that were.
     ///
     /// # Errors
-    /// When one of them cannot be removed.
+    /// When one of them cannot be removed, or it is no cache: then nothing is.
     pub fn prune(&self, build: &Key) -> io::Result<usize> {
+        refuse_others(self.directory())?;
         let unused = self.entries(build).into_iter();
         let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED));
         let left = names(self.directory()).filter(|name| is_temporary(name));
@@ -105,6 +106,21 @@ fn is_temporary(name: &str) -> bool {
 
 /// Removes what pathbuild made in a directory, and the directory where nothing else is in it.
 fn clean(directory: &Utf8Path) -> io::Result<()> {
+    refuse_others(directory)?;
+    // What says that it is a cache goes last.
+    for name in names(directory).filter(|name| is_ours(name) && name != TAG).chain([TAG.to_owned()]) {
+        remove(&directory.join(name))?;
+    }
+    match fs::remove_dir(directory) {
+        Err(error) if !matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => {
+            Err(error)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Nothing is removed through a link, or from a directory that pathbuild has not made: names like its own may be anybody's.
+fn refuse_others(directory: &Utf8Path) -> io::Result<()> {
     if let Some(reason) = private::refusal(directory) {
         return Err(io::Error::other(reason));
     }
@@ -117,16 +133,7 @@ fn clean(directory: &Utf8Path) -> io::Result<()> {
     if !is_cache {
         return Err(io::Error::other("it has no CACHEDIR.TAG, so it is no cache"));
     }
-    // What says that it is a cache goes last.
-    for name in names(directory).filter(|name| is_ours(name) && name != TAG).chain([TAG.to_owned()]) {
-        remove(&directory.join(name))?;
-    }
-    match fs::remove_dir(directory) {
-        Err(error) if !matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => {
-            Err(error)
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 fn names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {

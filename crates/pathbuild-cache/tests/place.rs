@@ -87,6 +87,25 @@ fn a_directory_of_other_things_is_refused_and_stays() {
 }
 
 #[test]
+fn nothing_is_pruned_through_a_link_or_among_other_things() {
+    let (_directory, base) = world();
+    let build = Key::new("build", "question");
+    let place = TreeStore::of_tree(&Home::Named(base.join("link")), &base);
+    let old = base.join("one/x.results");
+    fs::write(&old, "somebody's").unwrap();
+    symlink("one", place.directory()).unwrap();
+    assert!(place.prune(&build).is_err());
+    fs::remove_file(place.directory()).unwrap();
+    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
+    fs::write(base.join("one/.bashrc"), "precious").unwrap();
+    assert!(place.prune(&build).is_err() && old.exists());
+    // Without the others it is what a killed run may leave.
+    fs::remove_file(base.join("one/.bashrc")).unwrap();
+    assert!(place.prune(&build).unwrap() == 1 && !old.exists());
+    assert_eq!(TreeStore::of_tree(&Home::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
+}
+
+#[test]
 fn links_are_neither_read_nor_written_through() {
     let (_directory, base) = world();
     let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
