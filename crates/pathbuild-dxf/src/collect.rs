@@ -12,7 +12,7 @@ use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, NOT_COMPA
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
 use smol_str::SmolStr;
 
-use crate::curves::{Tolerance, TooManyPieces};
+use crate::curves::{NoPieces, Tolerance};
 use crate::faults::Fatal;
 use crate::item::Shape;
 use crate::layers::{LayerId, UsedLayer};
@@ -130,10 +130,11 @@ impl<'d> Collector<'d> {
             Shape::Spline(spline) => spline.pieces(placement, tolerance),
             Shape::Plain(_) | Shape::Insert(_) => Ok(Vec::new()),
         };
-        let parts = parts.map_err(|TooManyPieces| self.too_many())?;
-        if !parts.iter().all(Geometry::is_sound) {
-            return self.refuse(placed, layer, &Trouble::TooLarge);
-        }
+        let parts = match parts {
+            Ok(parts) if parts.iter().all(Geometry::is_sound) => parts,
+            Ok(_) | Err(NoPieces::TooFar) => return self.refuse(placed, layer, &Trouble::TooLarge),
+            Err(NoPieces::TooMany) => return Err(self.too_many()),
+        };
         let group = Some(self.groups);
         self.groups += 1;
         parts.into_iter().try_for_each(|part| self.push(placed, layer, group, part))

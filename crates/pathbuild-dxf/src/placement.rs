@@ -1,6 +1,7 @@
 //! Similarities of the plane: object coordinates, insertions of blocks, units. (book: reference/dxf)
 
 use crate::angle::cos_sin;
+use crate::curves::Vector;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
 /// Moves, turns, scales and perhaps mirrors. A mirrored one maps (x, y) to (x, -y) first and turns then.
@@ -140,6 +141,11 @@ impl Placement {
 
 /// No coordinate and no length of a path is larger, in mm: a machine of a kilometre, and digits enough for all that is computed.
 const LARGEST: f64 = 1e6;
+
+/// Whether no coordinate is beyond [`LARGEST`].
+pub(crate) fn is_near(point: Vector) -> bool {
+    point.x.abs() <= LARGEST && point.y.abs() <= LARGEST
+}
 
 impl Geometry {
     /// Whether no coordinate and no length is beyond [`LARGEST`], and every length more than 0.

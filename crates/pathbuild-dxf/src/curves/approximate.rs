@@ -19,9 +19,13 @@ pub(crate) struct Tolerance {
     pub(crate) most_pieces: usize,
 }
 
-/// A curve would become more pieces than are allowed.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TooManyPieces;
+/// Why a curve is not approximated.
+pub(crate) enum NoPieces {
+    /// There would be more than the limit allows.
+    TooMany,
+    /// It lies or reaches farther than anything in a drawing may.
+    TooFar,
+}
 
 /// Points of the curve that are looked at in each span of two arcs.
 const SAMPLES: u32 = 24;
@@ -39,11 +43,11 @@ pub(crate) fn approximate(
     z: f64,
     tolerance: Tolerance,
     pieces: &mut Vec<Geometry>,
-) -> Result<(), TooManyPieces> {
+) -> Result<(), NoPieces> {
     let mut steps = tolerance.most_pieces.saturating_mul(2);
     let mut spans = vec![(from, to, 0)];
     while let Some((from, to, depth)) = spans.pop() {
-        steps = steps.checked_sub(1).ok_or(TooManyPieces)?;
+        steps = steps.checked_sub(1).ok_or(NoPieces::TooMany)?;
         if let Some(fitting) = fit(curve, from, to, tolerance.distance) {
             pieces.extend(fitting.iter().filter_map(|piece| piece.geometry(z)));
         } else if depth == DEEPEST {
@@ -54,7 +58,7 @@ pub(crate) fn approximate(
             spans.push((from, middle, depth + 1));
         }
     }
-    if pieces.len() > tolerance.most_pieces { Err(TooManyPieces) } else { Ok(()) }
+    if pieces.len() > tolerance.most_pieces { Err(NoPieces::TooMany) } else { Ok(()) }
 }
 
 /// The biarc with the curve's ends and directions there, if it is near enough; a line, where the curve has no directions.

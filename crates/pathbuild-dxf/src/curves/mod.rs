@@ -4,5 +4,5 @@ mod approximate;
 mod biarc;
 mod vector;
 
-pub(crate) use approximate::{Curve, Tolerance, TooManyPieces, approximate};
+pub(crate) use approximate::{Curve, NoPieces, Tolerance, approximate};
 pub(crate) use vector::Vector;

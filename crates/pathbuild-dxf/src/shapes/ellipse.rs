@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::is_mirrored;
-use crate::curves::{Curve, Tolerance, TooManyPieces, Vector, approximate};
+use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
-use crate::placement::Placement;
+use crate::placement::{Placement, is_near};
 use crate::trouble::Trouble;
 use crate::{Geometry, Point3};
 
@@ -51,8 +51,11 @@ impl Ellipse {
         &self,
         placement: &Placement,
         tolerance: Tolerance,
-    ) -> Result<Vec<Geometry>, TooManyPieces> {
+    ) -> Result<Vec<Geometry>, NoPieces> {
         let placed = self.placed(placement);
+        if !placed.is_near() {
+            return Err(NoPieces::TooFar);
+        }
         let mut pieces = Vec::new();
         let quarters = libm::ceil((self.end - self.start) / FRAC_PI_2).max(1.0);
         let width = (self.end - self.start) / quarters;
@@ -64,6 +67,12 @@ impl Ellipse {
             approximate(&placed, [from, to], placed.centre.z, tolerance, &mut pieces)?;
         }
         Ok(pieces)
+    }
+
+    /// Whether it can be part of a drawing at all.
+    fn is_near(&self) -> bool {
+        let Point3 { x, y, .. } = self.centre;
+        [Vector { x, y }, self.major, self.minor].into_iter().all(is_near)
     }
 
     fn placed(&self, placement: &Placement) -> Self {

@@ -3,9 +3,9 @@
 use pathbuild_diagnostic::messages::reading::SPLINE_NOT_UNDERSTOOD;
 
 use super::{is_mirrored, repeated_number};
-use crate::curves::{Curve, Tolerance, TooManyPieces, Vector, approximate};
+use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
-use crate::placement::Placement;
+use crate::placement::{Placement, is_near};
 use crate::trouble::Trouble;
 use crate::{Geometry, Point3};
 
@@ -62,8 +62,11 @@ impl Spline {
         &self,
         placement: &Placement,
         tolerance: Tolerance,
-    ) -> Result<Vec<Geometry>, TooManyPieces> {
+    ) -> Result<Vec<Geometry>, NoPieces> {
         let placed = self.placed(placement);
+        if !placed.is_near() {
+            return Err(NoPieces::TooFar);
+        }
         let mut pieces = Vec::new();
         for knot in self.degree..self.points.len() {
             let [from, to] = [self.knots[knot], self.knots[knot + 1]];
@@ -72,6 +75,11 @@ impl Spline {
             }
         }
         Ok(pieces)
+    }
+
+    /// Whether it can be part of a drawing at all: it lies between its control points.
+    fn is_near(&self) -> bool {
+        self.points.iter().all(|control| is_near(control.point))
     }
 
     fn placed(&self, placement: &Placement) -> Self {

@@ -191,6 +191,30 @@ fn broken_ellipses_are_faults() {
     assert_eq!(drawing.faults.len(), 1);
 }
 
+/// One that lies or reaches too far is not cut into pieces first, of which there would be too many.
+#[test]
+fn curves_out_of_bounds_are_faults() {
+    let ellipse = |length: &str| entities(&format!("0 ELLIPSE\n8 A\n10 0\n20 0\n11 {length}\n21 0\n40 1"));
+    let spline = |y: &str| {
+        let control = |x: u32, y: &str| format!("10 {x}\n20 {y}\n");
+        let points = [control(0, "0"), control(10, y), control(30, y), control(40, "0")].concat();
+        let knots = "40 0\n".repeat(4) + &"40 1\n".repeat(4);
+        entities(format!("0 SPLINE\n8 A\n70 8\n71 3\n{knots}{points}").trim_end())
+    };
+    for (drawn, is_within) in [
+        (ellipse("999000"), true),
+        (ellipse("1000000.001"), false),
+        (ellipse("-1e308"), false),
+        (spline("20"), true),
+        (spline("1000000.001"), false),
+        (spline("1e308"), false),
+    ] {
+        let drawing = approximated(&drawn, 0.01);
+        assert_eq!((drawing.entities.is_empty(), drawing.faults.len()), (!is_within, (!is_within).into()));
+        assert!(drawing.diagnostics.is_empty(), "{drawing:?}");
+    }
+}
+
 #[test]
 fn a_curve_in_a_scaled_block_is_approximated_where_it_ends_up() {
     let block = "0 BLOCK\n2 B\n0 ELLIPSE\n8 A\n10 5\n20 6\n11 30\n21 40\n40 0.4\n0 ENDBLK";
