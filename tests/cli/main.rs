@@ -60,4 +60,5 @@ mod usage;
 mod view;
 mod watch;
 mod why;
+mod windows;
 mod words;

@@ -55,6 +55,31 @@ mod tests {
     }
 
     #[test]
+    fn nothing_is_above_a_root() {
+        for (path, expected) in
+            [("/parts/../../a.dxf", "/a.dxf"), ("parts/./../a.dxf", "a.dxf"), ("../a.dxf", "../a.dxf")]
+        {
+            assert_eq!(clean(path.into()), expected);
+        }
+    }
+
+    #[cfg(windows)]
+    #[test]
+    fn drives_and_shares_are_roots() {
+        for (path, expected) in [
+            (r"C:\parts\..\..\a.dxf", "C:/a.dxf"),
+            (r"C:parts\..\a.dxf", "C:a.dxf"),
+            (r"\\server\share\parts\..\..\a.dxf", "//server/share/a.dxf"),
+            ("//server/share/parts/a.dxf", "//server/share/parts/a.dxf"),
+            (r"\\?\C:\parts\a.dxf", r"\\?\C:\parts\a.dxf"),
+        ] {
+            assert_eq!(clean(path.into()), expected);
+        }
+        assert_eq!(join("//server/share".into(), "a.dxf"), "//server/share/a.dxf");
+        assert_eq!(join(r"\\server\share\parts".into(), r"below\a.dxf"), "//server/share/parts/below/a.dxf");
+    }
+
+    #[test]
     fn where_a_backslash_is_a_letter_it_stays() {
         assert_eq!(spelt(r"a\b".into()), if cfg!(windows) { "a/b" } else { r"a\b" });
     }

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use super::{Session, library};
+use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
 
 /// What arguments may mean.
@@ -112,13 +113,33 @@ impl Session<'_> {
             (found.name_directories, found.name_problems) = self.listed_name_directories(&mut found.listings);
         }
         for input in inputs.iter() {
-            let argument = match input {
-                Input::Place(place) => self.place(place, &mut found.listings),
-                Input::Name(name) => self.name(name, &mut found),
-            };
-            found.arguments.push(argument);
+            match input {
+                Input::Place(place) => {
+                    let matching = self.matching(place);
+                    let places = if matching.is_empty() { vec![place.to_owned()] } else { matching };
+                    let argument = |place: &Utf8PathBuf| self.place(place, &mut found.listings);
+                    found.arguments.extend(places.iter().map(argument));
+                }
+                Input::Name(name) => {
+                    let argument = self.name(name, &mut found);
+                    found.arguments.push(argument);
+                }
+            }
         }
         found
+    }
+
+    /// What a pattern means that the shell has left as it is, as those of Windows do: drawings and directories whose names match the last part
+    /// of the place, unless there is something of just that name.
+    fn matching(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
+        let name = place.file_name().filter(|name| name.contains(['*', '?', '[']));
+        let Some(pattern) = name.and_then(|name| Pattern::new(name).ok()) else { return Vec::new() };
+        if self.db.system().kind(&self.normal(place)) != FileKind::Missing {
+            return Vec::new();
+        }
+        let directory = place.parent().unwrap_or(Utf8Path::new(""));
+        let entries = self.entries(&self.normal(directory)).into_iter();
+        entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
     fn place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {

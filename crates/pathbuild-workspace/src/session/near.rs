@@ -71,8 +71,8 @@ impl Session<'_> {
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
-    /// The names of drawings and directories in a directory.
-    fn entries(&self, directory: &Utf8Path) -> Vec<String> {
+    /// The names of drawings and directories in a directory, in order; without those that begin with a point.
+    pub(super) fn entries(&self, directory: &Utf8Path) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
             let counts = entry.kind == EntryKind::Directory || library::is_drawing(Utf8Path::new(entry.name));
