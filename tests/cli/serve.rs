@@ -6,7 +6,7 @@ use std::net::{TcpListener, TcpStream};
 #[cfg(unix)]
 use std::process::Command;
 use std::process::{Child, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pathbuild_testkit::sheet;
 use serde_json::Value;
@@ -460,6 +460,57 @@ fn a_page_gets_as_many_drawings_as_it_asks_for() {
     assert_eq!(asked("?since=0&most=2"), (all[..2].to_vec(), true));
     assert_eq!(asked("?since=0&most=3"), (all, false));
     assert_eq!(served.get("/api/library?most=-1").status, 400);
+}
+
+/// Who opens connections and leaves them open keeps nobody out for good.
+#[test]
+fn so_many_connections_are_answered_at_a_time() {
+    const MOST: usize = 256;
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let mut open: Vec<Events> = (0..MOST - 1).map(|_| served.events()).collect();
+    for events in &mut open {
+        events.next();
+    }
+    // The last one that is answered.
+    assert_eq!(served.get("/api/library").status, 200);
+    let mut last = served.events();
+    last.next();
+    // One more has to wait until another ends.
+    let Events(mut waiting) = served.events();
+    waiting.get_ref().set_read_timeout(Some(Duration::from_secs(2))).unwrap();
+    assert!(waiting.fill_buf().is_err(), "it is answered");
+    open.pop();
+    waiting.get_ref().set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    Events(waiting).next();
+}
+
+/// Silence ends a connection; an answer that takes its time does not.
+#[test]
+fn connections_that_say_nothing_are_closed() {
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let begun = Instant::now();
+    let mut events = served.events();
+    let (_, first) = events.next();
+    let half = format!("GET /api/library HTTP/1.1\r\nHost: localhost:{}\r\n", served.port);
+    let (mut silent, mut late) = ([served.connect(), served.connect()], served.connect());
+    silent[1].write_all(half.as_bytes()).unwrap();
+    std::thread::sleep(Duration::from_secs(7));
+    // Not too late, and then no more than the others.
+    write!(late, "{half}\r\n").unwrap();
+    let mut answered = BufReader::new(late);
+    assert!(answered.fill_buf().unwrap().starts_with(b"HTTP/1.1 200"));
+    for stream in &mut silent {
+        let mut said = String::new();
+        stream.read_to_string(&mut said).unwrap();
+        assert!(!said.contains("200 OK"), "{said}");
+    }
+    assert!((10..16).contains(&begun.elapsed().as_secs()), "{:?}", begun.elapsed());
+    answered.read_to_end(&mut Vec::new()).unwrap();
+    assert!((17..25).contains(&begun.elapsed().as_secs()), "{:?}", begun.elapsed());
+    served.write("library/1001.dxf", dxf("1001.1P", 3));
+    events.after(first);
 }
 
 /// Programs that are written are current.

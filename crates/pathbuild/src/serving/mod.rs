@@ -4,6 +4,7 @@
 //! works in a thread of its own and knows nothing but that. What is published has a number: a page hears of a new one by an event, and asks
 //! for all that came after the one that it has.
 
+mod connections;
 mod door;
 mod guard;
 mod hub;

@@ -1,10 +1,12 @@
 //! What the server answers, each under its name.
 
 use std::convert::Infallible;
+use std::io;
 use std::net::TcpListener;
 use std::sync::Arc;
 use std::time::Duration;
 
+use axum::Router;
 use axum::extract::{Query, Request, State};
 use axum::http::header::{CONTENT_TYPE, HeaderValue};
 use axum::http::{StatusCode, header};
@@ -12,7 +14,6 @@ use axum::middleware::{self, Next};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use axum::{Router, serve};
 use futures_util::stream;
 use pathbuild_diagnostic::Lang;
 use serde::Deserialize;
@@ -20,6 +21,7 @@ use tokio::runtime;
 use tokio::sync::watch;
 use tokio::time::timeout;
 
+use super::connections::answer;
 use super::door::{Door, random};
 use super::guard::{HEADERS, admit};
 use super::hub::{Form, Hub};
@@ -63,7 +65,7 @@ impl Routes {
             if until_closed {
                 tokio::spawn(end_without_pages(Arc::clone(&self.hub), self.pages.subscribe()));
             }
-            serve(listener, router(Arc::new(self))).await
+            Ok::<_, io::Error>(answer(listener, router(Arc::new(self))).await)
         });
         if served.is_err() {
             hub.end();
