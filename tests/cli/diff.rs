@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Command;
 
+use insta::assert_snapshot;
+
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
 
@@ -183,6 +185,21 @@ fn json_markdown_and_a_page() {
                 == page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count()
     );
     assert_eq!(place.run("diff old new -o d.txt").status, Some(2));
+}
+
+/// Deeper, added, gone and a hole: changes, then old and new.
+#[test]
+fn changes_are_seen() {
+    let [old, new] = [
+        ("1", "mill 0,0 20,0\nmill 20,0 30,10\nsweep 30,10 40,0"),
+        ("0.5", "mill 0,0 20,0\nsweep 20,0 30,-10\nmill circle 30,-10 d 2\nsweep 30,-10 40,0"),
+    ]
+    .map(|(depth, elements)| dxf("1001.1P", depth, elements));
+    let place = two(old, new);
+    told(&place.run("diff old new -o d.html"), 0, &[]);
+    let page = place.read("d.html");
+    let pictures = page.split("<svg").skip(1).take(3).map(|text| text.split_once("</svg>").unwrap().0);
+    assert_snapshot!(pictures.collect::<Vec<_>>().join("\n\n"));
 }
 
 #[test]

@@ -86,6 +86,17 @@ fn a_text_that_is_nobodys_has_its_circle() {
     let text = seen.iter().find(|(name, _)| name.contains("PB107")).unwrap_or_else(|| panic!("{seen:?}")).1;
     let finding = text.split_once("id=\"finding\"").unwrap().1.split_once("</g>").unwrap().0;
     assert!(finding.contains("stroke-dasharray=\"3 3\"") && finding.contains("<line"), "{finding}");
+    assert_snapshot!(text);
+}
+
+#[test]
+fn a_clamp_in_the_way_is_seen() {
+    let options = "feed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'Clamps'\n";
+    let place = mistakes().file("pathbuild.toml", options);
+    place.run("check 3011.1P.dxf --pictures seen");
+    let seen = pictures(&place, "seen");
+    let clamp = seen.iter().find(|(name, _)| name.contains("PB407")).unwrap_or_else(|| panic!("{seen:?}"));
+    assert_snapshot!(clamp.1);
 }
 
 #[test]

@@ -88,6 +88,23 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
+/// One that is turned on a page of its own, and one that is enlarged beside its true size.
+#[test]
+fn long_and_small_ones_are_seen() {
+    for (name, drawing) in [
+        ("long", "mill 0,0 200,0\nmill 200,0 200,20\nend 200,20\n"),
+        ("small", "mill 0,0 9,0\nsweep 9,0 4,5\nmill circle 4,5 d 2\nsweep 4,5 9,9\nend 9,9\n"),
+    ] {
+        let drawing = format!("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0\"\n{drawing}");
+        let place = Place::new().file("pathbuild.toml", OPTIONS).file("1234.1P.dxf", dxf(&drawing));
+        place.run("sheet 1234.1P -o sheet.svg");
+        let svg = place.read("sheet.svg");
+        let pictures =
+            svg.split("id=\"drawing\"").skip(1).map(|text| text.split_once("id=\"legend\"").unwrap().0);
+        assert_snapshot!(name, pictures.collect::<Vec<_>>().join("\n\n"));
+    }
+}
+
 #[test]
 fn what_a_drawing_says_is_no_markup() {
     let place = place("");

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use insta::assert_snapshot;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret};
 use pathbuild_gcode::summary::Summary;
@@ -243,6 +244,23 @@ fn a_program_is_seen_without_elements() {
     let arc = path["moves"].as_array().unwrap().iter().find(|it| it["arc"].is_object()).unwrap();
     assert_eq!((arc["arc"]["degrees"].as_f64(), arc["line"].as_u64()), (Some(180.0), Some(5)));
     assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
+}
+
+/// What the book has no pictures of: a drawing whose path has errors, and a program of another origin.
+#[test]
+fn without_a_program_and_without_elements() {
+    let broken = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 20,0 \"B3\"\nmark 20,0 20,10\nsweep 20,10 30,10\nbars 31,10 40,10\nprobe 5,5 \"LA\"\nturn 20,0\nend 40,10\n";
+    let program = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG2 X10 Y0 I5 J0 F200\nG3 X10 Y0 I-5 J0\nG1 X20 Y5 Z-2\nG0 Z5\nG0 X25 Y5\nG1 Z-1 F50\nG0 Z5\nM30\n";
+    let place = Place::new()
+        .file("pathbuild.toml", "sweep-height = 9\nfeed = 150\nrapid = 900\n")
+        .file("1234.1P.dxf", sheet(broken).unwrap().to_dxf())
+        .file("a.nc", program);
+    let run = place.run("view 1234.1P.dxf -o a.svg --lang de");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert_snapshot!("of_a_drawing_with_errors", place.read("a.svg"));
+    let run = place.run("view a.nc -o a.svg");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert_snapshot!("of_a_program", place.read("a.svg"));
 }
 
 #[test]

@@ -23,7 +23,7 @@ enum Kind {
 macro_rules! encodings {
     ($($name:ident: $label:literal, $kind:ident;)*) => {
         $(
-            #[doc = $label]
+            #[doc = concat!("`", $label, "`")]
             pub static $name: &Encoding = &Encoding { label: $label, kind: Kind::$kind };
         )*
     };

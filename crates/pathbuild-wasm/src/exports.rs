@@ -42,7 +42,7 @@ pub extern "C" fn answer() -> usize {
 /// Where the answer is.
 #[unsafe(no_mangle)]
 pub extern "C" fn answered() -> *const u8 {
-    ANSWER.with_borrow(|answer| answer.as_ptr())
+    ANSWER.with_borrow(Vec::as_ptr)
 }
 
 /// How many bytes a panic said, by which the call ended; 0: something else ended it.
@@ -54,7 +54,7 @@ pub extern "C" fn panicked() -> usize {
 /// Where these are.
 #[unsafe(no_mangle)]
 pub extern "C" fn panic_text() -> *const u8 {
-    PANIC.with_borrow(|panic| panic.as_ptr())
+    PANIC.with_borrow(Vec::as_ptr)
 }
 
 /// Keeps what a panic says: it ends the call, but memory can still be read.

@@ -11,7 +11,7 @@ pub(super) fn rounded(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS + 0.0
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's form")]
+#[cfg_attr(target_pointer_width = "64", expect(clippy::trivially_copy_pass_by_ref, reason = "serde's form"))]
 pub(super) fn millimetres<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_f64(rounded(*value))
 }

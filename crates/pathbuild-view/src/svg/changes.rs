@@ -102,7 +102,11 @@ fn stroke(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str, da
         return;
     }
     if matches!(it.kind, MoveKind::Plunge | MoveKind::Probe) {
-        return canvas.circle(place.at(it.to()), 2.5, &format!("stroke=\"{color}\"{dashes}"));
+        return canvas.circle(
+            place.at(it.to()),
+            2.5,
+            &format!("fill=\"{color}\" stroke=\"{color}\"{dashes}"),
+        );
     }
     let (width, dashes) =
         if it.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
