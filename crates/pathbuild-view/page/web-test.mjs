@@ -190,6 +190,25 @@ function all(folder) {
   }, files.filter(([name]) => /2051|2052|2053/.test(name)));
   await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
   await page.waitForFunction(() => /2053\.1P/.test(document.getElementById("items").textContent));
+  // As a visitor does it: a folder from the file manager, and then a drawing.
+  const client = await page.context().newCDPSession(page);
+  const drop = async (...files) => {
+    for (const type of ["dragEnter", "dragOver", "drop"]) await client.send("Input.dispatchDragEvent", { type, x: 600, y: 400, data: { items: [], files, dragOperationsMask: 1 } });
+  };
+  const rows = JSON.parse(`[${run("list", "--format", "json").stdout.trim().split("\n").join(",")}]`).filter((row) => row.type === "path");
+  assert.ok(rows.length > 20, `${rows.length} paths`);
+  await drop(library);
+  await checked(page, rows.length);
+  await page.waitForSelector("#filter-ok");
+  const programs = await downloaded(page, "#download-all");
+  run("emit");
+  for (const [name, bytes] of Object.entries(programs)) assert.ok(readFileSync(join(library, name)).equals(Buffer.from(bytes)), name);
+  assert.ok(Object.keys(programs).length >= 5, Object.keys(programs).join());
+  const again = join(place, "2052.1P.dxf");
+  writeFileSync(again, readFileSync(join(library, "components/2052.1P.dxf"), "latin1").replaceAll("2052.1P", "2052.9P"), "latin1");
+  await page.fill("#search", "205");
+  await drop(again);
+  await page.waitForFunction(() => /2052\.9P[^]*2053\.1P/.test(document.getElementById("items").textContent));
   // More than the page can hold.
   const huge = join(place, "huge");
   mkdirSync(huge);

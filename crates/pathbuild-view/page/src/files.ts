@@ -30,15 +30,37 @@ export function picked(list: FileList): Promise<Given> {
   return given(files);
 }
 
+/** What TypeScript does not know yet, and only Chromium has. */
+interface Dropped extends DataTransferItem {
+  getAsFileSystemHandle?(): Promise<Handle | null>;
+}
+
+type Handle = { kind: "file"; name: string; getFile(): Promise<File> } | { kind: "directory"; name: string; values(): AsyncIterable<Handle> };
+
 /** Of what was dropped. What was dropped can be asked for at once only. */
 export async function dropped(data: DataTransfer): Promise<Given> {
-  const all = [...data.items].map((item) => item.webkitGetAsEntry() ?? item.getAsFile());
+  const all = [...data.items].map((item: Dropped) => ({
+    file: item.getAsFile(),
+    entry: item.webkitGetAsEntry(),
+    // Chromium has others for what it takes for the system's.
+    handle: item.getAsFileSystemHandle?.().catch(() => null),
+  }));
   const files: Placed[] = [];
-  for (const one of all) {
-    if (one instanceof File) files.push([one.name, one]);
-    else if (one) await walk(one, files);
+  for (const { file, entry, handle } of all) {
+    if (entry?.isDirectory) {
+      // To a page that is a file itself Chromium reads folders by handles alone.
+      const folder = await handle;
+      await (folder ? unfold(folder, folder.name, files) : walk(entry, files));
+    } else if (file) files.push([file.name, file]);
   }
   return given(files);
+}
+
+async function unfold(handle: Handle, place: string, into: Placed[]): Promise<void> {
+  if (isHidden(place)) return;
+  if (into.length > MOST_FILES) throw new TooMuch(into.length, 0);
+  if (handle.kind === "file") into.push([place, await handle.getFile()]);
+  else for await (const inner of handle.values()) await unfold(inner, `${place}/${inner.name}`, into);
 }
 
 async function walk(entry: FileSystemEntry, into: Placed[]): Promise<void> {
