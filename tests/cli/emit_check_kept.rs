@@ -237,7 +237,7 @@ fn a_new_drawing_and_one_that_is_gone_are_noticed() {
 }
 
 #[test]
-fn an_edited_post_or_what_it_inserts_is_noticed() {
+fn an_edited_post_is_noticed() {
     let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
     let place = Place::of(&library).file("my.cbpp", post("bert"));
@@ -250,6 +250,37 @@ fn an_edited_post_or_what_it_inserts_is_noticed() {
     assert!(!is_known(&place, "--post my.cbpp"));
     let run = answer(&place, "--post my.cbpp");
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
+}
+
+/// A file that a post puts into programs is as much a part of them as the post.
+#[test]
+fn an_edited_file_that_a_post_inserts_is_noticed() {
+    let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*head.nc*'\n\
+        line = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+    let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
+    let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
+    let place = Place::of(&library).file("my.toml", post).file("head.nc", "(a)\n");
+    let run = place.run("emit --post my.toml");
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+    let place = place.file("head.nc", "(b)\n");
+    let run = answer(&place, "--post my.toml");
+    assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
+    let place = place.file("head.nc", "(a)\n");
+    assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+}
+
+/// The machine may have been busy.
+#[test]
+fn what_took_too_long_is_asked_again() {
+    let configuration = "feed = 150\nrapid = 1000\nsweep-height = 20\n[limits]\nseconds-per-path = 0.1\n";
+    let drawn = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B-2000000 MX\"\nmill 0,0 10,0\nend 10,0\n";
+    let place = Place::of(&format!("== pathbuild.toml ==\n{configuration}== 1202.1P.dxf ==\n{drawn}"));
+    for _ in 0..3 {
+        let run = place.run("emit ./1202.1P.dxf -v");
+        assert!(run.status == Some(1) && run.stderr.contains("seconds-per-path"), "{run}");
+        assert_eq!(known(&run).0, (0, 1), "{run}");
+    }
 }
 
 /// The stamps of the programs, and what is in them.

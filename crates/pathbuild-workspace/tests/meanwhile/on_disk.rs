@@ -4,11 +4,12 @@ use std::fmt::Write;
 use std::fs;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
-use pathbuild_testkit::Workshop;
+use pathbuild_testkit::{Workshop, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
 use tempfile::TempDir;
@@ -33,6 +34,34 @@ impl OnDisk {
         fs::create_dir_all(place.path().join("spare")).unwrap();
         workshop.files().keys().for_each(|path| place.put(workshop, path));
         place
+    }
+
+    /// One of these drawings, as lines of text.
+    pub(crate) fn of(drawings: &[(&str, &str)]) -> Self {
+        let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
+        fs::write(place.path().join("pathbuild.toml"), "library = [\"lib\"]\nfeed = 100\n").unwrap();
+        fs::create_dir(place.path().join("lib")).unwrap();
+        for (file, text) in drawings {
+            place.draw(file, text);
+        }
+        place
+    }
+
+    /// Draws a drawing anew.
+    pub(crate) fn draw(&self, file: &str, text: &str) {
+        fs::write(self.path().join(file), sheet(text).unwrap().to_dxf()).unwrap();
+    }
+
+    /// The files of kept results, each with when it was written and how large it is.
+    pub(crate) fn kept(&self) -> Vec<(Utf8PathBuf, SystemTime, u64)> {
+        let directory = Utf8Path::from_path(self.caches.path()).unwrap().join("kept");
+        let entries = directory.read_dir_utf8().unwrap().map(|entry| entry.unwrap().into_path());
+        let results = entries.filter(|path| path.extension() == Some("results"));
+        let known = |path: Utf8PathBuf| {
+            let data = fs::metadata(&path).unwrap();
+            (path, data.modified().unwrap(), data.len())
+        };
+        results.map(known).collect()
     }
 
     pub(crate) fn path(&self) -> &Utf8Path {
