@@ -54,6 +54,7 @@ pub fn reason(error: &Error) -> Value {
         // Somebody in the program said it.
         Some(said) => said.to_string().into(),
         None if is_held(error) => Value::Word(&HELD),
+        None if is_no_name(error) => Value::Word(&NO_FILE),
         None => by_kind(error.kind()).map_or_else(|| Value::from(of_system(error)), Value::Word),
     }
 }
@@ -77,6 +78,11 @@ fn by_kind(kind: ErrorKind) -> Option<&'static Word> {
 /// `ERROR_SHARING_VIOLATION` and `ERROR_LOCK_VIOLATION`: another program has the file open for itself alone.
 pub fn is_held(error: &Error) -> bool {
     cfg!(windows) && matches!(error.raw_os_error(), Some(32 | 33))
+}
+
+/// `ERROR_INVALID_NAME`: Windows has no file of such a name, for one of that of a pattern that nothing matches.
+fn is_no_name(error: &Error) -> bool {
+    cfg!(windows) && error.raw_os_error() == Some(123)
 }
 
 /// The system's words without the number and the full stop that follow them.
