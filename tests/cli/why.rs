@@ -1,5 +1,9 @@
 //! `pathbuild why`: what keeps the results of the last check from holding. (book: reference/commands)
 
+use std::fmt::Write;
+
+use pathbuild_testkit::sheet;
+
 use crate::support::Place;
 
 const LIBRARY: &str = r#"
@@ -84,4 +88,23 @@ fn without_a_configuration_there_is_nothing_to_ask() {
     let place = Place::of(&LIBRARY.replace("pathbuild.toml", "other.toml"));
     assert_eq!(place.run("why 8001.1P").status, Some(2));
     assert_eq!(checked().run("why 8001.1P --no-cache").status, Some(2));
+}
+
+/// The machine may have been busy: of what was given up nothing is kept.
+#[test]
+fn what_took_too_long_is_compiled_again() {
+    let mut lines = String::new();
+    for x in 0..10_000 {
+        writeln!(lines, "mill {x},{} {},{}", x % 2, x + 1, (x + 1) % 2).unwrap();
+    }
+    let drawn = format!("layer 1111.1P\nstart 0,0 \"T5 O3 I1 B0 Mx\"\n{lines}end 10000,0\n");
+    let configuration = |seconds| format!("library = [\".\"]\n[limits]\nseconds-per-path = {seconds}\n");
+    let place = Place::new().file("1111.dxf", sheet(&drawn).unwrap().to_dxf());
+    let place = place.file("pathbuild.toml", configuration("0.001"));
+    let run = place.run("check");
+    assert!(run.status == Some(1) && run.stderr.contains("seconds-per-path"), "{run}");
+    assert!(why(&place, "1111.1P").contains("no result is kept"));
+    let place = place.file("pathbuild.toml", configuration("60"));
+    assert_eq!(place.run("check").status, Some(0));
+    assert!(why(&place, "1111.1P").contains("up to date"));
 }

@@ -2,6 +2,7 @@
 //! (book: reference/configuration)
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use pathbuild_dxf::Units;
@@ -47,6 +48,8 @@ pub struct Reading {
     pub entities: usize,
     /// Longest text in bytes.
     pub text_length: usize,
+    /// Longest time of a walk along a path, of which a drawing's index knows the outcome, whoever asks for it.
+    pub walk_time: Duration,
     /// Whether drawings are hashed, for saying out of which a program was made. It takes about as long as reading them.
     pub is_hashed: bool,
     /// Whether only those entities count that PathDxf2GCode knows.
@@ -72,6 +75,7 @@ impl Default for Reading {
             file_size: 256 << 20,
             entities: 2_000_000,
             text_length: 65_536,
+            walk_time: Duration::from_mins(1),
             is_hashed: false,
             compatible: false,
         }

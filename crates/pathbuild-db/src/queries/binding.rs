@@ -1,10 +1,13 @@
 //! Binding and walking along a path, without its bugs.
 
+use std::panic::resume_unwind;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Language, Path, RawPath, Walked};
 
-use crate::bugs::catch_bugs;
+use crate::bugs::{TooLong, catch_bugs};
 use crate::db::Db;
+use crate::settings::Settings;
 
 /// A path, and what is wrong with its drawing or its values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,9 +30,17 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
     BoundPath { path, diagnostics }
 }
 
-/// Walks along a path.
+/// Walks along a path. What takes too long is PB005 here, and not only where it is watched: indexes of drawings are made before anybody asks
+/// for a target.
 pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
-    let checkpoint = || db.unwind_if_revision_cancelled();
+    let limit = Settings::get(db).reading(db).walk_time;
+    let begun = db.system().now();
+    let checkpoint = || {
+        db.unwind_if_revision_cancelled();
+        if begun.is_some_and(|begun| begun.elapsed() > limit) {
+            resume_unwind(Box::new(TooLong(limit)));
+        }
+    };
     catch_bugs(|| pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint))
         .unwrap_or_else(|bug| Walked::failed(bug.in_path(path.name.as_str())))
 }

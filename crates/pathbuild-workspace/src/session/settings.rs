@@ -28,6 +28,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         file_size: limits.file_size.value,
         entities: count(limits.entities.value),
         text_length: count(limits.text_length.value),
+        walk_time: limits.seconds_per_path.value,
         is_hashed,
         compatible: general.compatible.value,
     };
