@@ -1,4 +1,5 @@
-//! Big5, pair by pair. Where a pair means nothing the standard replaces both bytes, and Chromium the first one alone.
+//! Big5, pair by pair. Where a pair means nothing the standard replaces both bytes, and Chromium the first one alone; of the four pairs that
+//! are two characters each Chromium 156 makes half a surrogate.
 
 /// Decodes a text by what each pair of bytes stands for; `None`: it stands for nothing. Also tells whether all did stand for something.
 pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>) -> (String, bool) {
@@ -11,7 +12,7 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
         }
         let known = match rest {
             [second, others @ ..] if (0x81..=0xFE).contains(first) => {
-                let known = pair([*first, *second]);
+                let known = two_characters([*first, *second]).or_else(|| pair([*first, *second]));
                 // ASCII is never lost with a byte that cannot stand before it.
                 if known.is_some() || !second.is_ascii() {
                     bytes = others;
@@ -24,6 +25,18 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
         text.push_str(known.as_deref().unwrap_or("\u{fffd}"));
     }
     (text, all_known)
+}
+
+/// The pairs that stand for a letter with an accent that no character has.
+fn two_characters(pair: [u8; 2]) -> Option<String> {
+    let text = match pair {
+        [0x88, 0x62] => "\u{CA}\u{304}",
+        [0x88, 0x64] => "\u{CA}\u{30C}",
+        [0x88, 0xA3] => "\u{EA}\u{304}",
+        [0x88, 0xA5] => "\u{EA}\u{30C}",
+        _ => return None,
+    };
+    Some(text.to_owned())
 }
 
 #[cfg(test)]
