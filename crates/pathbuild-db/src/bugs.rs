@@ -13,7 +13,8 @@ use crate::guard::too_slow;
 /// What work unwinds with that has taken longer than this.
 pub(crate) struct TooLong(pub(crate) Duration);
 
-/// Does some work that asks no queries. Where it is given up because its result is no longer wanted, that is passed on.
+/// Does some work, mostly without queries: what a query unwinds with where a drawing changes meanwhile counts as a bug here. Where it is given
+/// up because its result is no longer wanted, that is passed on.
 ///
 /// # Errors
 /// PB006 when it panicked, PB005 when it took too long; without a place.

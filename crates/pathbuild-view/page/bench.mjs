@@ -1,10 +1,10 @@
 // How fast the pages are: node bench.mjs PATHBUILD LIBRARY. Needs Debian's chromium; what is measured stands in benches/README.md.
-import { spawn, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { createInterface } from "node:readline";
 import { chromium } from "playwright-core";
+import { serve } from "./serving.mjs";
 
 const [pathbuild, library] = process.argv.slice(2).map((argument) => resolve(argument));
 const place = mkdtempSync(join(tmpdir(), "pathbuild-bench-"));
@@ -25,18 +25,6 @@ function told(what, figures, unit) {
 
 async function fresh() {
   return (await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: "en" })).newPage();
-}
-
-/** Serves the library, from when everything is checked. */
-async function serve() {
-  const server = spawn(pathbuild, ["watch", "--serve", "127.0.0.1:0", "--no-cache", "--lang", "en"], { cwd: library, stdio: ["ignore", "ignore", "pipe"] });
-  let address;
-  for await (const line of createInterface({ input: server.stderr })) {
-    address ??= /served at (\S+)/.exec(line)?.[1];
-    if (line.startsWith("watching ")) break;
-  }
-  server.stderr.resume();
-  return { server, address };
 }
 
 /** From the address typed to the first picture with rows. */
@@ -143,7 +131,7 @@ async function run() {
   await page.context().close();
 }
 
-const { server, address } = await serve();
+const { server, address } = await serve(pathbuild, library, "127.0.0.1:0");
 await listing(address);
 await edit(address);
 server.kill();

@@ -1,27 +1,15 @@
 // The page of a library that is watched, in a browser: node live-test.mjs PATHBUILD LIBRARY [PICTURES]. Needs Debian's chromium.
-import { spawn } from "node:child_process";
 import { copyFileSync, cpSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { createInterface } from "node:readline";
 import assert from "node:assert/strict";
 import { chromium } from "playwright-core";
+import { serve } from "./serving.mjs";
 
 const [pathbuild, library, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
 const place = join(mkdtempSync(join(tmpdir(), "pathbuild-live-")), "library");
 cpSync(library, place, { recursive: true });
-
-/** Serves the library, from when everything is checked. */
-async function serve(at) {
-  const server = spawn(pathbuild, ["watch", "components", "mistakes", "projects", "--serve", at, "--no-cache", "--lang", "en"], { cwd: place, stdio: ["ignore", "ignore", "pipe"] });
-  let address;
-  for await (const line of createInterface({ input: server.stderr })) {
-    address ??= /served at (\S+)/.exec(line)?.[1];
-    if (line.startsWith("watching ")) break;
-  }
-  server.stderr.resume();
-  return { server, address };
-}
+const directories = ["components", "mistakes", "projects"];
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -55,7 +43,7 @@ function save(name, change) {
   renameSync(`${file}.new`, file);
 }
 
-const { server, address } = await serve("127.0.0.1:0");
+const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...directories);
 {
   const { page, faults } = await open(address);
   // The library: rows with their states, counted.
@@ -210,7 +198,7 @@ const { server, address } = await serve("127.0.0.1:0");
 }
 {
   // From elsewhere: the token leaves the address, and outlives loading again; without it nothing is told.
-  const { server, address } = await serve("0.0.0.0:0");
+  const { server, address } = await serve(pathbuild, place, "0.0.0.0:0", ...directories);
   const { page, faults } = await open(address);
   assert.ok(!page.url().includes("token"), page.url());
   await page.reload();

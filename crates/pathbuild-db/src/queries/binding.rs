@@ -42,5 +42,5 @@ pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
         }
     };
     catch_bugs(|| pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint))
-        .unwrap_or_else(|bug| Walked::failed(bug.in_path(path.name.as_str())))
+        .unwrap_or_else(|problem| Walked::failed(problem.in_path(path.name.as_str())))
 }

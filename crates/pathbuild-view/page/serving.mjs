@@ -1,0 +1,15 @@
+// The server that the live page's test and measurements ask.
+import { spawn } from "node:child_process";
+import { createInterface } from "node:readline";
+
+/** Serves a library, or some drawings of it, at an address, from when everything is checked. */
+export async function serve(pathbuild, library, at, ...drawings) {
+  const server = spawn(pathbuild, ["watch", ...drawings, "--serve", at, "--no-cache", "--lang", "en"], { cwd: library, stdio: ["ignore", "ignore", "pipe"] });
+  let address;
+  for await (const line of createInterface({ input: server.stderr })) {
+    address ??= /served at (\S+)/.exec(line)?.[1];
+    if (line.startsWith("watching ")) break;
+  }
+  server.stderr.resume();
+  return { server, address };
+}
