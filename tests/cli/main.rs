@@ -14,6 +14,7 @@ mod check;
 mod compat;
 mod config;
 mod conformance;
+mod depfiles;
 mod diagnostics;
 mod diff;
 mod documents;

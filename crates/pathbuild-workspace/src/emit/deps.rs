@@ -1,10 +1,11 @@
 //! What files were made from, as `make` and `ninja` read it. (book: reference/commands, `emit --deps`)
 
 use std::fmt::Write;
+use std::iter::repeat_n;
 
 use camino::Utf8Path;
 use pathbuild_db::Db;
-use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_diagnostic::Diagnostic;
 
 use super::deliver::cannot_write;
 use super::job::Job;
@@ -42,15 +43,28 @@ pub(super) fn write(
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
-/// A name in which nothing is taken for more than itself. There is no way to write a line feed; escaped it names a file that is not there.
+/// A name in which nothing is taken for more than itself, as make reads it, and Ninja where it has a way to write it. There is none to write a
+/// line feed or another control character: escaped they name a file that is not there.
 fn escaped(path: &Utf8Path) -> String {
     let mut escaped = String::with_capacity(path.as_str().len());
-    for character in shown::line(path.as_str()).chars() {
+    let mut backslashes = 0;
+    for character in path.as_str().chars() {
+        // Those in front of what is escaped would escape each other.
+        let further = match character {
+            // Behind the letter of a drive, where else Windows has none, make knows it.
+            ':' if cfg!(windows) => 0,
+            ' ' | '#' | ':' => backslashes + 1,
+            // A command would follow. Make looks for it twice.
+            ';' => 3 * (backslashes + 1),
+            _ => 0,
+        };
+        escaped.extend(repeat_n('\\', further));
         match character {
-            ' ' | '#' => escaped.extend(['\\', character]),
             '$' => escaped.push_str("$$"),
+            control if control.is_ascii_control() => escaped.extend(control.escape_default()),
             character => escaped.push(character),
         }
+        backslashes = if character == '\\' { backslashes + 1 } else { 0 };
     }
     escaped
 }

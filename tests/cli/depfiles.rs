@@ -1,0 +1,100 @@
+//! `emit --deps`: make and Ninja find the files, whatever they are called. (book: howto/build-systems)
+#![cfg(unix)]
+
+use std::fs::{self, File};
+use std::process::Command;
+use std::time::{Duration, SystemTime};
+
+use pathbuild_testkit::{sheet, skip};
+
+use crate::support::Place;
+
+const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
+const DRAWING: &str = "layer 1301.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0\n";
+
+/// What both read: a blank, what begins a comment, a variable or a rule, backslashes, also before a blank, and what is shown escaped.
+const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u{202e}ä";
+/// What only make reads.
+const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
+
+/// A drawing of that name, its program and the rule for it.
+struct Emitted {
+    place: Place,
+    drawing: String,
+    program: String,
+}
+
+impl Emitted {
+    fn new(name: &str) -> Self {
+        let drawing = format!("{name}.dxf");
+        let place = Place::new().file("pathbuild.toml", CONFIGURATION);
+        let place = place.file(&drawing, sheet(DRAWING).unwrap().to_dxf());
+        let run = place.run_with(&["emit", &drawing, "--deps", "out.d"]);
+        assert_eq!(run.status, Some(0), "{run}");
+        Self { place, drawing, program: format!("{name}_Milling.gcode") }
+    }
+
+    /// Says when the drawing was saved.
+    fn save(&self, time: SystemTime) {
+        let drawing = File::options().write(true).open(self.place.path().join(&self.drawing)).unwrap();
+        drawing.set_modified(time).unwrap();
+    }
+
+    /// Checks that a run makes nothing of an old drawing, and something of a new one.
+    fn is_found_by(&self, mut is_up_to_date: impl FnMut() -> bool) {
+        self.save(SystemTime::now() - Duration::from_hours(1));
+        assert!(is_up_to_date(), "{}", self.place.read("out.d"));
+        self.save(SystemTime::now() + Duration::from_hours(1));
+        assert!(!is_up_to_date(), "{}", self.place.read("out.d"));
+    }
+}
+
+/// A program of others, where it is there.
+fn command(name: &str) -> Option<Command> {
+    let is_there = Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
+    if !is_there {
+        skip(name, &format!("{name} is missing"));
+    }
+    is_there.then(|| Command::new(name))
+}
+
+#[test]
+fn make_finds_files_of_any_name() {
+    for name in [FOR_BOTH, FOR_MAKE] {
+        let Some(mut make) = command("make") else { return };
+        let emitted = Emitted::new(name);
+        fs::write(emitted.place.path().join("Makefile"), "include out.d\n%.gcode: ; false\n").unwrap();
+        make.args(["--question", &emitted.program]).current_dir(emitted.place.path());
+        emitted.is_found_by(|| {
+            let run = make.output().unwrap();
+            assert!(matches!(run.status.code(), Some(0 | 1)), "{run:?}");
+            run.status.success()
+        });
+    }
+}
+
+#[test]
+fn ninja_finds_files_of_any_name() {
+    let Some(mut ninja) = command("ninja") else { return };
+    let emitted = Emitted::new(FOR_BOTH);
+    let program = emitted.program.replace('$', "$$").replace(' ', "$ ").replace(':', "$:");
+    let build = format!("rule emit\n  command = true\n  depfile = out.d\nbuild {program}: emit\n");
+    fs::write(emitted.place.path().join("build.ninja"), build).unwrap();
+    ninja.current_dir(emitted.place.path());
+    let mut is_up_to_date = || {
+        let run = ninja.output().unwrap();
+        assert!(run.status.success(), "{run:?}");
+        String::from_utf8_lossy(&run.stdout).contains("no work to do")
+    };
+    // It knows nothing yet.
+    assert!(!is_up_to_date());
+    emitted.is_found_by(is_up_to_date);
+}
+
+/// Else the rest of a name would be a rule of its own.
+#[test]
+fn no_name_makes_a_line_of_its_own() {
+    let emitted = Emitted::new("a\nall: ;@echo\u{7f}\r/1301.1P");
+    let rule = "a\\nall\\:\\ \\\\\\;@echo\\u{7f}\\r/1301.1P";
+    assert_eq!(emitted.place.read("out.d"), format!("{rule}_Milling.gcode: {rule}.dxf pathbuild.toml\n"));
+}
