@@ -261,6 +261,17 @@ fn settings_that_matter_ask_another_question() {
     assert_eq!(held(&place), "5 / 5");
 }
 
+/// With its example value the path is right, with the other it is milled through the table.
+#[test]
+fn a_check_with_all_values_is_another_question() {
+    let drawn = "layer 1001.1P\nstart 0,0 \"T5 O2 I1 MPlate :B0,9\"\nmill 0,0 40,0 \"B=B\"\nend 40,0";
+    let place = Place::new().file("pathbuild.toml", "").file("1001.dxf", sheet(drawn).unwrap().to_dxf());
+    for (options, status) in [("", 0), (" --all-bindings", 1), ("", 0)] {
+        let run = place.run(&format!("check .{options}"));
+        assert_eq!(run.status, Some(status), "{run}");
+    }
+}
+
 fn results(place: &Place) -> Vec<PathBuf> {
     let listed = fs::read_dir(place.cache()).unwrap().map(|entry| entry.unwrap().path());
     let mut results: Vec<PathBuf> =

@@ -270,6 +270,36 @@ fn an_edited_file_that_a_post_inserts_is_noticed() {
     assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
 }
 
+/// The fault is kept with its place: a post of the same bytes has it in its own file.
+#[test]
+fn a_fault_of_a_post_is_in_its_own_file() {
+    let post = "<PostProcessor><PostFile>{$mops}{$nothing}</PostFile></PostProcessor>";
+    let place = Place::of(LIBRARY).file("a.cbpp", post).file("b.cbpp", post);
+    for name in ["a", "a", "b"] {
+        let run = place.run(&format!("emit 8001.1P --post {name}.cbpp --format concise"));
+        assert!(
+            run.status == Some(1) && run.stderr.contains(&format!("{name}.cbpp:1: error[PB751]")),
+            "{run}"
+        );
+    }
+}
+
+/// Results name files as they are seen from where they were asked for: a copy of a drawing has the same name in a directory below.
+#[test]
+fn results_hold_where_they_were_asked_for() {
+    let configuration =
+        "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\nout-dir = \"out\"\n";
+    let drawn = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B4 MX\"\nmill 0,0 10,0\nend 10,0\n";
+    let place = Place::of(&format!(
+        "== pathbuild.toml ==\n{configuration}== a/1202.dxf ==\n{drawn}== a/a/1202.dxf ==\n{drawn}"
+    ));
+    assert_eq!(place.run("emit a/1202.dxf").status, Some(0));
+    let check = |directory| place.run_in(directory, &["emit", "--check", "-v", "a/1202.dxf"]);
+    let (above, below) = (check("."), check("a"));
+    assert_eq!((above.status, known(&above).0), (Some(0), (1, 1)), "{above}");
+    assert_eq!((below.status, known(&below).0), (Some(0), (0, 1)), "{below}");
+}
+
 /// The machine may have been busy.
 #[test]
 fn what_took_too_long_is_asked_again() {

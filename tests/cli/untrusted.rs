@@ -241,6 +241,19 @@ fn posts_of_strangers_run_no_command() {
     }
 }
 
+/// What was read before the tree was a stranger's is not told again.
+#[test]
+fn what_is_known_of_ones_own_tree_is_not_known_of_a_strangers() {
+    let place = repository("");
+    // A file that has rested is not read again for a result to hold.
+    let drawing = crate::support::project().join("fixtures/library/components/2050.1P.dxf");
+    symlink(drawing, place.path().join("tree/work/2050.1P.dxf")).unwrap();
+    for (option, status) in [("", 0), ("", 0), (" --untrusted", 1), ("", 0)] {
+        let run = run(&place, &format!("check 2050.1P.dxf{option}"));
+        assert_eq!(run.status, Some(status), "{run}");
+    }
+}
+
 /// `[trust] roots`: trees that lie elsewhere are strangers' without being asked.
 #[test]
 fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
