@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use salsa::{CancellationToken, Cancelled, Database as _};
 
-use crate::bugs::internal_error;
+use crate::bugs::{TooLong, internal_error};
 use crate::database::Database;
 use crate::db::Db as _;
 use crate::drift::Drifted;
@@ -63,6 +63,7 @@ impl Database {
                 None if payload.is::<Drifted>() => {
                     Diagnostic::new(&messages::UNREADABLE).with("reason", "it changes while it is being read")
                 }
+                None if payload.is::<TooLong>() => too_slow(limit),
                 None => internal_error(&*payload),
             };
             return Err(Box::new(problem));

@@ -33,6 +33,12 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
 /// Walks along a path. What takes too long is PB005 here, and not only where it is watched: indexes of drawings are made before anybody asks
 /// for a target.
 pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
+    catch_bugs(|| walk_in_time(db, path, language))
+        .unwrap_or_else(|problem| Walked::failed(problem.in_path(path.name.as_str())))
+}
+
+/// The same where findings have been asked for already: unwinds with what keeps it from the end, which nobody would hear of else.
+pub(super) fn walk_in_time(db: &dyn Db, path: &Path, language: &Language) -> Walked {
     let limit = Settings::get(db).reading(db).walk_time;
     let begun = db.system().now();
     let checkpoint = || {
@@ -41,6 +47,5 @@ pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
             resume_unwind(Box::new(TooLong(limit)));
         }
     };
-    catch_bugs(|| pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint))
-        .unwrap_or_else(|problem| Walked::failed(problem.in_path(path.name.as_str())))
+    pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
 }

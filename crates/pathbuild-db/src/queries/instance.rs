@@ -2,7 +2,7 @@
 
 use pathbuild_path::{Bindings, Walked};
 
-use super::binding::{BoundPath, bind, walk};
+use super::binding::{BoundPath, bind, walk_in_time};
 use super::index::{NameKey, path_index};
 use super::nearby_ends::LayerEnds;
 use super::raw::raw_path;
@@ -50,9 +50,9 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     raw.map(|raw| bind(raw, instance.bindings(db), language)).unwrap_or_default()
 }
 
-/// Walks along a path. Empty where there is no sound path. Few are kept.
+/// Walks along a path, for its program. Empty where there is no sound path. Few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
     let language = Settings::get(db).language(db);
-    path(db, instance).path.as_ref().map(|path| walk(db, path, language)).unwrap_or_default()
+    path(db, instance).path.as_ref().map(|path| walk_in_time(db, path, language)).unwrap_or_default()
 }

@@ -9,6 +9,7 @@
 )]
 
 mod bugs;
+mod emitting;
 mod keeping;
 mod mischief;
 mod on_disk;

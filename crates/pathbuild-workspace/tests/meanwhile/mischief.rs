@@ -3,7 +3,7 @@
 use std::fs;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::time::SystemTime;
+use std::time::{Duration, Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
@@ -24,6 +24,8 @@ pub(crate) enum Event {
     Fail,
     /// Whoever reads it shows a bug.
     Panic,
+    /// Nothing happens to it, but what is begun now has taken long already.
+    Busy,
 }
 
 /// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, for the n-th time.
@@ -39,6 +41,9 @@ pub(crate) struct Mischief {
     pub(crate) bytes: Vec<u8>,
 }
 
+/// More than the limit of a path.
+const LONG: Duration = Duration::from_secs(61);
+
 impl Mischief {
     /// Runs what reads a path; whether it must fail.
     fn around<T>(
@@ -46,9 +51,7 @@ impl Mischief {
         path: &Utf8Path,
         read: impl FnOnce() -> Result<T, ReadError>,
     ) -> Result<T, ReadError> {
-        let is_due = |countdown: i64| countdown == 1 || self.lasts && countdown < 1;
-        let is_now =
-            path.as_str().ends_with(&self.trigger) && is_due(self.countdown.fetch_sub(1, Ordering::SeqCst));
+        let is_now = self.event != Event::Busy && path.as_str().ends_with(&self.trigger) && self.is_due();
         match (is_now, self.is_before) {
             (false, _) => read(),
             (true, true) => {
@@ -64,6 +67,11 @@ impl Mischief {
         }
     }
 
+    fn is_due(&self) -> bool {
+        let countdown = self.countdown.fetch_sub(1, Ordering::SeqCst);
+        countdown == 1 || self.lasts && countdown < 1
+    }
+
     fn happen(&self) {
         match self.event {
             Event::Vanish => _ = fs::remove_file(&self.victim),
@@ -77,7 +85,7 @@ impl Mischief {
                 }
                 fs::rename(beside, &self.victim).unwrap();
             }
-            Event::Fail => {}
+            Event::Fail | Event::Busy => {}
             Event::Panic => panic!("a bug that {} shows", self.victim),
         }
     }
@@ -131,5 +139,10 @@ impl System for Mischief {
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
         OsSystem.remove(path)
+    }
+
+    fn now(&self) -> Option<Instant> {
+        let is_busy = self.event == Event::Busy && self.is_due();
+        Instant::now().checked_sub(if is_busy { LONG } else { Duration::ZERO })
     }
 }

@@ -11,6 +11,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::{Workshop, sheet};
 use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::emit::{self, Emission, Task};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
 use tempfile::TempDir;
 
@@ -38,8 +39,13 @@ impl OnDisk {
 
     /// One of these drawings, as lines of text.
     pub(crate) fn of(drawings: &[(&str, &str)]) -> Self {
+        Self::configured("library = [\"lib\"]\nfeed = 100\n", drawings)
+    }
+
+    /// The same with this configuration.
+    pub(crate) fn configured(configuration: &str, drawings: &[(&str, &str)]) -> Self {
         let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
-        fs::write(place.path().join("pathbuild.toml"), "library = [\"lib\"]\nfeed = 100\n").unwrap();
+        fs::write(place.path().join("pathbuild.toml"), configuration).unwrap();
         fs::create_dir(place.path().join("lib")).unwrap();
         for (file, text) in drawings {
             place.draw(file, text);
@@ -100,6 +106,21 @@ impl OnDisk {
         let checked = request.run(&mut session).unwrap();
         let found = checked.diagnostics.iter().map(|it| format!("{it:?}"));
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
+    }
+
+    /// Writes, or compares, the programs that the configuration names.
+    pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, task: Task) -> Emission {
+        let inputs = Inputs::default();
+        let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
+        let request = emit::Request {
+            inputs: &inputs,
+            task,
+            poster: None,
+            join: None,
+            deps: None,
+            removes_stale: false,
+        };
+        request.run(&mut request.session(&workspace)).unwrap()
     }
 
     /// What a run works in.
