@@ -48,6 +48,20 @@ fn the_sweep_height_of_a_role_is_checked() {
     assert_eq!(checked("20", Role::Emitted), ["PB203"]);
 }
 
+/// With an S of its own, what H raises is held against that, whoever asks; without, only where somebody says another.
+#[test]
+fn what_h_raises_is_checked_where_a_path_embeds_nothing() {
+    let checked = |s: &str, h: &str| {
+        let drawn = format!(
+            "layer 1111.1P\nstart 0,0 \"T5 O3 I1 Mx B0 {s}\"\nmill 0,0 20,0\nprobe 10,30 \"{h}\"\nend 20,0"
+        );
+        codes(&[("lib/1111.dxf", &drawn)], "lib/1111.dxf", "1111.1P", Role::Checked)
+    };
+    assert_eq!(checked("S12", "H6.9"), [""; 0]);
+    assert_eq!(checked("S12", "H7"), ["PB203"]);
+    assert_eq!(checked("", "H7"), [""; 0]);
+}
+
 #[test]
 fn a_path_that_two_drawings_define_is_in_neither() {
     let files = [

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::Settings;
+use pathbuild_db::{Role, Settings};
 use pathbuild_path::{KeepOutPattern, Language};
 use salsa::Setter;
 
@@ -15,13 +15,19 @@ fn with_clamp(y: &str) -> String {
     format!("{}\nlayer clamps\ncircle 10,{y} d 6\ntext 8,{y} \"Z90\"", component("1111.1P", "0"))
 }
 
+/// Says which layers hold clamps; the settings before that.
+fn name_clamps(world: &mut World) -> Arc<Language> {
+    let settings = Settings::get(&world.db);
+    let before = Arc::clone(settings.language(&world.db));
+    let keep_out = KeepOutPattern::new("clamps").ok();
+    settings.set_language(&mut world.db).to(Arc::new(Language { keep_out, ..Language::clone(&before) }));
+    before
+}
+
 #[test]
 fn an_edited_clamp_reaches_what_embeds_its_path() {
     let mut world = World::new(&[("lib/1111.1P.dxf", &with_clamp("8")), ("lib/8001.1P.dxf", PROJECT)]);
-    let settings = Settings::get(&world.db);
-    let language = Language::clone(settings.language(&world.db));
-    let keep_out = KeepOutPattern::new("clamps").ok();
-    settings.set_language(&mut world.db).to(Arc::new(Language { keep_out, ..language.clone() }));
+    let language = name_clamps(&mut world);
     world.ask("component", "lib/1111.1P.dxf", "1111.1P");
     world.ask("project", "lib/8001.1P.dxf", "8001.1P");
     let right = world.outcome("project");
@@ -36,6 +42,17 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
     // What is not clear stops both; without the setting it is not looked at.
     world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
     assert_eq!(world.codes("project"), ["PB117", "PB511"]);
-    settings.set_language(&mut world.db).to(Arc::new(language));
+    Settings::get(&world.db).set_language(&mut world.db).to(language);
     assert_eq!(world.outcome("project").program, right.program);
+}
+
+/// Of clamps that are not all clear it is not said which moves come into them, also where a path embeds nothing.
+#[test]
+fn moves_into_clamps_are_looked_for_where_all_are_clear() {
+    for (label, code) in [("Z90", "PB407"), ("high", "PB117")] {
+        let drawing = format!("{}\ncircle 10,12 d 6\ntext 8,12 \"{label}\"", with_clamp("2"));
+        let mut world = World::new(&[("lib/1111.1P.dxf", &drawing)]);
+        name_clamps(&mut world);
+        assert_eq!(world.judge("path", "lib/1111.1P.dxf", "1111.1P", Role::Checked), [code]);
+    }
 }
