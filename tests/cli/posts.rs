@@ -291,6 +291,21 @@ fn current_and_stale_programs_of_posts_are_known() {
     assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
 }
 
+/// Where nobody says what the words of a post mean, its programs are compared byte for byte.
+#[test]
+fn a_program_that_cannot_be_read_is_compared_as_it_is() {
+    let post = "<PostProcessor><PostFile>(anna)\n{$mops}</PostFile></PostProcessor>";
+    let place = library("").file("my.cbpp", post);
+    assert_eq!(place.run("emit 1234.1P --post my.cbpp").status, Some(0));
+    let check = |place: &Place, dialect: &str| {
+        place.run(&format!("emit 1234.1P --post my.cbpp --check --moves{dialect}")).status
+    };
+    assert_eq!(check(&place, ""), Some(0));
+    let text = place.read("1234_Milling.nc");
+    let place = place.file("1234_Milling.nc", text.replace("(anna)", "(bert)"));
+    assert_eq!((check(&place, ""), check(&place, " --dialect linuxcnc")), (Some(1), Some(0)));
+}
+
 /// What was written for another machine is harmless while the path has the same moves, and dangerous once it has others.
 #[test]
 fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
@@ -378,6 +393,20 @@ fn the_posts_command_runs_only_when_asked() {
     assert!(place.read("a copy.nc").contains("G1 X40.0"));
     let missing = place.run("emit 1234.1P --post missing.cbpp --run-post-build");
     assert!(missing.status == Some(1) && missing.stderr.contains("PB768"), "{missing}");
+}
+
+/// What could not be written is nothing to work on.
+#[cfg(unix)]
+#[test]
+fn the_posts_command_runs_on_what_was_written_only() {
+    let post = "<PostProcessor><PostBuildCommand>/bin/touch</PostBuildCommand>\
+        <PostBuildCommandArgs>ran</PostBuildCommandArgs></PostProcessor>";
+    for (name, is_in_the_way) in [("1234_Milling.nc/other", true), ("other", false)] {
+        let place = library("").file("touch.cbpp", post).file(name, "");
+        let run = place.run("emit 1234.1P --post touch.cbpp --dialect linuxcnc --run-post-build");
+        assert_eq!(run.stderr.contains("PB004"), is_in_the_way, "{run}");
+        assert_eq!(place.path().join("ran").exists(), !is_in_the_way, "{run}");
+    }
 }
 
 #[test]
