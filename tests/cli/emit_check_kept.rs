@@ -275,8 +275,9 @@ fn an_edited_file_that_a_post_inserts_is_noticed() {
 fn a_fault_of_a_post_is_in_its_own_file() {
     let post = "<PostProcessor><PostFile>{$mops}{$nothing}</PostFile></PostProcessor>";
     let place = Place::of(LIBRARY).file("a.cbpp", post).file("b.cbpp", post);
-    for name in ["a", "a", "b"] {
-        let run = place.run(&format!("emit 8001.1P --post {name}.cbpp --format concise"));
+    for (name, is_known) in [("a", 0), ("a", 1), ("b", 0), ("b", 1)] {
+        let run = place.run(&format!("emit 8001.1P --post {name}.cbpp --format concise -v"));
+        assert_eq!(known(&run).0, (is_known, 1), "{run}");
         assert!(
             run.status == Some(1) && run.stderr.contains(&format!("{name}.cbpp:1: error[PB751]")),
             "{run}"
@@ -300,16 +301,24 @@ fn results_hold_where_they_were_asked_for() {
     assert_eq!((below.status, known(&below).0), (Some(0), (0, 1)), "{below}");
 }
 
-/// The machine may have been busy.
+/// The machine may have been busy: with a path of many passes, and with one of many lines, which already its walk takes time for.
 #[test]
 fn what_took_too_long_is_asked_again() {
-    let configuration = "feed = 150\nrapid = 1000\nsweep-height = 20\n[limits]\nseconds-per-path = 0.1\n";
-    let drawn = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B-2000000 MX\"\nmill 0,0 10,0\nend 10,0\n";
-    let place = Place::of(&format!("== pathbuild.toml ==\n{configuration}== 1202.1P.dxf ==\n{drawn}"));
-    for _ in 0..3 {
-        let run = place.run("emit ./1202.1P.dxf -v");
-        assert!(run.status == Some(1) && run.stderr.contains("seconds-per-path"), "{run}");
-        assert_eq!(known(&run).0, (0, 1), "{run}");
+    let lines: Vec<String> =
+        (0..10_000).map(|x| format!("mill {x},{} {},{}\n", x % 2, x + 1, (x + 1) % 2)).collect();
+    for (seconds, bottom, drawn) in
+        [("0.1", "-2000000", "mill 0,0 10000,0\n"), ("0.001", "0", &*lines.concat())]
+    {
+        let configuration = "feed = 150\nrapid = 1000\nsweep-height = 20\n[limits]\nseconds-per-path = ";
+        let place = Place::of(&format!(
+            "== pathbuild.toml ==\n{configuration}{seconds}\n== 1202.1P.dxf ==\n\
+             layer 1202.1P\nstart 0,0 \"T5 O2 I1 B{bottom} MX\"\n{drawn}end 10000,0\n"
+        ));
+        for _ in 0..3 {
+            let run = place.run("emit ./1202.1P.dxf -v");
+            assert!(run.status == Some(1) && run.stderr.contains("seconds-per-path"), "{run}");
+            assert_eq!(known(&run).0, (0, 1), "{run}");
+        }
     }
 }
 
