@@ -253,6 +253,26 @@ fn difference(said: &[String]) -> i64 {
     counts.collect::<BTreeMap<_, _>>().values().sum()
 }
 
+/// Nobody tells that a drawing can be read again whose link leads out of what is watched.
+#[cfg(unix)]
+#[test]
+fn what_may_have_passed_is_tried_again_with_the_next_change() {
+    let place = library().file("elsewhere/a.txt", "");
+    let link = place.path().join("library/parts/1003.dxf");
+    std::os::unix::fs::symlink("../../elsewhere/1003.dxf", link).unwrap();
+    let watch = Watch::begin(&place, "watch --format concise");
+    assert!(watch.beginning.iter().any(|line| line.contains("1003.dxf: error[PB001]")));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    watch.until("1001.dxf: changed");
+    watch.write("elsewhere/1003.dxf", dxf("1003.1P", 5, &[]));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    watch.until("1001.dxf: changed");
+    let said = watch.until("tried again");
+    let [line] = &*said else { panic!("it was tried before, and nothing came of it: {said:#?}") };
+    let expected = "[2] library/parts/1003.dxf: tried again; 1 drawing checked, 0 new findings, 1 fixed (";
+    assert!(line.starts_with(expected), "{line}");
+}
+
 #[test]
 fn what_cannot_be_watched_is_wrong_usage() {
     let run = Place::new().run("watch");

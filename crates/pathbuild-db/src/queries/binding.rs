@@ -33,8 +33,11 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
 /// Walks along a path. What takes too long is PB005 here, and not only where it is watched: indexes of drawings are made before anybody asks
 /// for a target.
 pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
-    catch_bugs(|| walk_in_time(db, path, language))
-        .unwrap_or_else(|problem| Walked::failed(problem.in_path(path.name.as_str())))
+    catch_bugs(|| walk_in_time(db, path, language)).unwrap_or_else(|problem| {
+        // Another time the machine may be less busy: whoever asks after the next change walks again.
+        db.report_untracked_read();
+        Walked::failed(problem.in_path(path.name.as_str()))
+    })
 }
 
 /// The same where findings have been asked for already: unwinds with what keeps it from the end, which nobody would hear of else.

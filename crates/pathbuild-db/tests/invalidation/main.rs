@@ -7,6 +7,7 @@ mod incremental;
 mod judged;
 mod keep_outs;
 mod library;
+mod limits;
 mod links;
 mod listing;
 mod memory;

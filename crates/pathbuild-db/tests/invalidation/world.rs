@@ -208,7 +208,8 @@ impl World {
         }
     }
 
-    fn run_again(&mut self) -> BTreeSet<String> {
+    /// Asks for everything again: the queries that ran.
+    pub(crate) fn run_again(&mut self) -> BTreeSet<String> {
         self.log.lock().unwrap().clear();
         for (_, target) in &self.targets {
             outcome(&self.db, *target);

@@ -11,7 +11,7 @@ use super::changes::Changes;
 use super::reverse::Reverse;
 use crate::Inputs;
 use crate::check::check_drawings;
-use crate::session::{Coverage, DrawingResult, Pair, Session, q_project_pairs};
+use crate::session::{Coverage, DrawingResult, Pair, Session, is_passing, q_project_pairs};
 
 /// The drawings.
 pub(super) struct Library<'a> {
@@ -40,6 +40,8 @@ pub(super) struct Batch {
     pub(super) open: usize,
     /// The drawings that are no longer there.
     pub(super) removed: BTreeSet<Utf8PathBuf>,
+    /// Drawings that are asked again though they did not change.
+    pub(super) tried_again: BTreeSet<Utf8PathBuf>,
     /// What was found in them before.
     pub(super) before: Vec<Diagnostic>,
     /// What is found in them now.
@@ -113,6 +115,24 @@ impl<'a> Library<'a> {
         update.changed = files;
         update.changed.append(&mut self.late);
         update
+    }
+
+    /// Drawings in which something was found that may pass by itself are to be asked again, but for those that just were. `further`: those of
+    /// which a program was.
+    pub(super) fn try_again(&mut self, further: &BTreeSet<Utf8PathBuf>, asked: &[SourceFile]) -> Batch {
+        let db = self.session.db();
+        let found = self.drawings.values().flat_map(|result| &result.diagnostics);
+        let found = found.filter(|found| is_passing(found)).filter_map(|found| found.file.as_ref());
+        let files: BTreeSet<Utf8PathBuf> = found.chain(further).cloned().collect();
+        let concerned = files.iter().flat_map(|path| self.reverse.of_file(db.file(path)));
+        let open = concerned.filter(|drawing| !asked.contains(drawing));
+        self.open = open.map(|drawing| (drawing.path(db).clone(), drawing)).collect();
+        if self.is_behind() {
+            for path in &files {
+                self.session.touch_file(path);
+            }
+        }
+        Batch { tried_again: self.open.keys().cloned().collect(), ..Batch::default() }
     }
 
     /// Whether something is still to be asked.

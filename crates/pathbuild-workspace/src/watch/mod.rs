@@ -74,7 +74,7 @@ pub struct Beginning {
 }
 
 /// What came of a batch of changes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Update {
     /// The number of the batch, from 1.
     pub revision: u64,
@@ -82,6 +82,8 @@ pub struct Update {
     pub changed: BTreeSet<Utf8PathBuf>,
     /// Those of them that are no longer there.
     pub removed: BTreeSet<Utf8PathBuf>,
+    /// Drawings that did not change, and were asked again because what was found in them may pass by itself.
+    pub tried_again: BTreeSet<Utf8PathBuf>,
     /// How many drawings were checked.
     pub checked: usize,
     /// How many are still to be checked, because more changes came.
@@ -186,12 +188,24 @@ impl Watching<'_> {
     }
 
     fn update(&mut self, changes: &changes::Changes) {
-        let begun = Instant::now();
-        let mut found = self.library.take_over(changes);
+        let found = self.library.take_over(changes);
         if !self.library.is_behind() && found.removed.is_empty() {
             return;
         }
         self.revision += 1;
+        let asked = self.work_on(found);
+        // It may take as long as it is allowed to: whoever changed something does not wait for it.
+        if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
+            let again = self.library.try_again(self.writer.passing(), &asked);
+            if self.library.is_behind() {
+                self.work_on(again);
+            }
+        }
+    }
+
+    /// Asks what is open, writes its programs, and tells what came of it; which drawings were asked.
+    fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
+        let begun = Instant::now();
         self.writer.release(self.library.session(), self.library.open(), &found.removed);
         let mut written = Vec::new();
         while self.library.is_behind() {
@@ -205,18 +219,20 @@ impl Watching<'_> {
         }
         self.library.leave(&mut found);
         let time = begun.elapsed();
-        let library::Batch { changed, asked, open, removed, before, now } = found;
+        let library::Batch { changed, asked, open, removed, tried_again, before, now } = found;
         let session = self.library.session();
         self.listener.updated(&Update {
             revision: self.revision,
             changed,
             removed,
+            tried_again,
             checked: asked.len(),
             open,
             before: session.with_hints(before),
             now: session.with_hints([now, written].concat()),
             time,
         });
+        asked
     }
 
     /// Tells what was checked, and hears who rang meanwhile.

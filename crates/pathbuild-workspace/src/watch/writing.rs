@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Diagnostic;
 use super::{Listener, Request};
 use crate::emit::{self, Configured, Owners};
 use crate::posting::{PostArguments, PostProcessor};
-use crate::session::Session;
+use crate::session::{Session, is_passing};
 use crate::workspace::Workspace;
 
 /// Writes programs, if it is to.
@@ -19,6 +19,8 @@ pub(super) struct Writer<'a> {
     is_on: bool,
     poster: Option<PostProcessor>,
     owners: Owners,
+    /// The drawings in whose programs something was found that may pass by itself.
+    passing: BTreeSet<Utf8PathBuf>,
 }
 
 impl<'a> Writer<'a> {
@@ -34,7 +36,8 @@ impl<'a> Writer<'a> {
         let is_needed = request.emits || request.lists;
         let poster =
             if is_needed { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
-        Ok(Self { workspace, listener, is_on: request.emits, poster, owners: Owners::default() })
+        let (owners, passing) = (Owners::default(), BTreeSet::new());
+        Ok(Self { workspace, listener, is_on: request.emits, poster, owners, passing })
     }
 
     /// The post that programs are written through; `None`: natively, or nobody asks.
@@ -54,6 +57,11 @@ impl<'a> Writer<'a> {
     /// The files that the post is read from.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
         self.poster.as_ref().map(PostProcessor::sources).unwrap_or_default()
+    }
+
+    /// The drawings in whose programs something was found that may pass by itself.
+    pub(super) fn passing(&self) -> &BTreeSet<Utf8PathBuf> {
+        &self.passing
     }
 
     /// What the paths of drawings that are asked again, or gone, were written to is free again.
@@ -93,12 +101,15 @@ impl<'a> Writer<'a> {
         }
         let mut targets = Vec::new();
         for file in files {
+            self.passing.remove(file.path(session.db()));
             let names = path_names(session.db(), *file).iter().filter(|name| configured.means(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
         match emit::write(session, self.poster.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
                 self.listener.written(&emission.delivered);
+                let passing = emission.diagnostics.iter().filter(|found| is_passing(found));
+                self.passing.extend(passing.filter_map(|found| found.file.clone()));
                 emission.diagnostics
             }
             Err(refusal) => {

@@ -15,6 +15,9 @@ use pathbuild_workspace::emit::{self, Emission, Task};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
 use tempfile::TempDir;
 
+/// A library of which programs are written.
+pub(crate) const EMITTING: &str = "library = [\"lib\"]\nfeed = 100\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n[emit]\ntargets = [\"8*\"]\n";
+
 /// A library on disk, with a place for what is kept of it.
 pub(crate) struct OnDisk {
     directory: TempDir,
@@ -139,6 +142,12 @@ impl OnDisk {
             reporter: Rc::new(Silent),
         }
     }
+}
+
+/// A path of so many segments that the walk along it looks at the clock.
+pub(crate) fn long(name: &str) -> String {
+    let segments: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
+    format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\n{}end 300,0", segments.concat())
 }
 
 /// Each once, in order.

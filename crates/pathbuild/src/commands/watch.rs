@@ -141,16 +141,18 @@ impl Listener for Shown<'_> {
             ["drawing checked", "drawings checked"],
             ["Zeichnung geprüft", "Zeichnungen geprüft"],
         );
+        let has_news = !new.is_empty() || gone > 0;
         let new =
             self.counted(new.len(), ["new finding", "new findings"], ["neue Meldung", "neue Meldungen"]);
         let time = in_prose(format!("{milliseconds:.1}"), context.lang());
         let tail = format!("{checked}{open}, {new}, {gone} {} ({time} ms)", phrase("fixed", "behoben"));
-        for path in &update.changed {
-            let what = if update.removed.contains(path) {
-                phrase("removed", "entfernt")
-            } else {
-                phrase("changed", "geändert")
-            };
+        let changed = update.changed.iter().map(|path| {
+            let is_gone = update.removed.contains(path);
+            (path, if is_gone { phrase("removed", "entfernt") } else { phrase("changed", "geändert") })
+        });
+        let tried_again = update.tried_again.iter().filter(|_| has_news);
+        let tried_again = tried_again.map(|path| (path, phrase("tried again", "noch einmal versucht")));
+        for (path, what) in changed.chain(tried_again) {
             context.printer.status(format_args!("[{revision}] {path}: {what}; {tail}"));
         }
     }

@@ -1,0 +1,156 @@
+//! What was found while a library is watched and may pass by itself is tried again after the next change, whatever that is of.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
+use pathbuild_workspace::{Inputs, Workspace};
+
+use crate::mischief::{Event, Mischief};
+use crate::on_disk::{EMITTING, OnDisk, long};
+
+const OTHER: (&str, &str) =
+    ("lib/1001.1P.dxf", "layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
+const VICTIM: &str = "lib/8001.1P.dxf";
+
+/// Where something is found at the beginning, changes a drawing, and another when that was tried again; ends soon after, or when it takes too long.
+struct Editor {
+    /// What changes, and whether what happened does not any more.
+    edit: (&'static str, String),
+    passes: bool,
+    place: OnDisk,
+    mischief: Arc<Mischief>,
+    bell: RefCell<Option<Bell>>,
+    found: RefCell<Vec<Code>>,
+    is_written: Cell<bool>,
+    told: RefCell<Vec<Update>>,
+}
+
+impl Editor {
+    fn end_after(&self, time: Duration) {
+        let bell = self.bell.borrow().clone().unwrap();
+        thread::spawn(move || {
+            thread::sleep(time);
+            bell.end();
+        });
+    }
+
+    fn has_program(&self) -> bool {
+        self.place.path().join("lib/8001.1P_Milling.gcode").exists()
+    }
+}
+
+impl Listener for Editor {
+    fn bell(&self, bell: Bell) {
+        self.bell.replace(Some(bell));
+        self.end_after(Duration::from_secs(20));
+    }
+
+    fn begun(&self, beginning: &Beginning) {
+        self.found.replace(beginning.diagnostics.iter().map(Diagnostic::code).collect());
+        self.is_written.set(self.has_program());
+        if beginning.diagnostics.is_empty() {
+            self.end_after(Duration::ZERO);
+        }
+        if self.passes {
+            self.mischief.countdown.store(i64::MAX, Ordering::SeqCst);
+        }
+        self.place.draw(self.edit.0, &self.edit.1);
+    }
+
+    fn updated(&self, update: &Update) {
+        self.told.borrow_mut().push(update.clone());
+        match self.told.borrow().len() {
+            1 if self.passes => {}
+            2 => self.place.draw(OTHER.0, OTHER.1),
+            // By then it would have been tried again.
+            _ => self.end_after(Duration::from_secs(1)),
+        }
+    }
+}
+
+/// Watches while something happens the n-th time, or from then on, until another drawing changes.
+fn watch(event: Event, time: i64, lasts: bool, emits: bool) -> Editor {
+    watch_edit(event, time, lasts, emits, (OTHER.0, OTHER.1.replace("B0", "B1")), true)
+}
+
+fn watch_edit(
+    event: Event,
+    time: i64,
+    lasts: bool,
+    emits: bool,
+    edit: (&'static str, String),
+    passes: bool,
+) -> Editor {
+    let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, &long("8001.1P"))]);
+    let mischief = Arc::new(Mischief {
+        trigger: VICTIM.to_owned(),
+        countdown: AtomicI64::new(time),
+        lasts,
+        is_before: false,
+        event,
+        victim: place.path().join(VICTIM),
+        bytes: Vec::new(),
+    });
+    let (bell, found, is_written, told) = Default::default();
+    let editor = Editor { edit, passes, place, mischief, bell, found, is_written, told };
+    let inputs = Inputs::default();
+    let workspace = editor.place.workspace(&inputs, Arc::<Mischief>::clone(&editor.mischief), false);
+    let workspace = Workspace { jobs: Some(1), ..workspace };
+    let request = Request { inputs: &inputs, emits, lists: false, polls: false };
+    assert!(matches!(request.run(&workspace, &editor), Ended::Over));
+    editor
+}
+
+/// What passed, after what came of the edit was told; it is not tried any more.
+#[track_caller]
+fn tried_again(editor: &Editor) -> Update {
+    let told = editor.told.borrow();
+    let [of_edit, again, of_other] = &**told else { panic!("{told:#?}") };
+    let changed: Vec<&Utf8PathBuf> = of_edit.changed.iter().collect();
+    assert!(matches!(&*changed, [file] if file.ends_with(OTHER.0)), "{of_edit:#?}");
+    assert!(again.changed.is_empty() && again.now.is_empty(), "{again:#?}");
+    assert!(again.tried_again.iter().all(|file| file.ends_with(VICTIM)), "{again:#?}");
+    assert!(of_other.tried_again.is_empty(), "{of_other:#?}");
+    again.clone()
+}
+
+#[test]
+fn what_may_pass_is_tried_again_after_any_change() {
+    for (event, lasts, code) in
+        [(Event::Busy, true, Code::LimitReached), (Event::Fail, false, Code::UnreadableFile)]
+    {
+        let editor = watch(event, 1, lasts, false);
+        assert_eq!(*editor.found.borrow(), [code]);
+        let before: Vec<Code> = tried_again(&editor).before.iter().map(Diagnostic::code).collect();
+        assert_eq!(before, [code]);
+    }
+}
+
+/// A machine that is busy only while programs are made.
+#[test]
+fn a_program_that_was_given_up_is_tried_again() {
+    let is_of_program = |time| {
+        let editor = watch(Event::Busy, time, false, true);
+        assert!(editor.has_program());
+        let is_given_up = !editor.found.borrow().is_empty();
+        assert!(is_given_up != editor.is_written.get());
+        is_given_up && tried_again(&editor).before.is_empty()
+    };
+    assert!((1..10).any(is_of_program));
+}
+
+/// Else each save of a drawing that takes too long would take as long once more.
+#[test]
+fn what_was_just_tried_is_not_tried_again() {
+    let edit = (VICTIM, long("8001.1P").replace("B0", "B1"));
+    let editor = watch_edit(Event::Busy, 1, true, false, edit, false);
+    assert_eq!(*editor.found.borrow(), [Code::LimitReached]);
+    let told = editor.told.borrow();
+    assert!(matches!(&**told, [only] if only.tried_again.is_empty() && only.now.len() == 1), "{told:#?}");
+}
