@@ -4,6 +4,7 @@
 
 use std::fs;
 use std::os::unix::fs::symlink;
+use std::time::Duration;
 
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
@@ -140,11 +141,12 @@ fn links_that_lead_out_are_not_read() {
     }
 }
 
-/// What a trusted run kept of a linked drawing is not what is said of a stranger's.
+/// What a trusted run kept of a linked drawing is not what is said of a stranger's, also where the drawing has rested, and is not read again.
 #[test]
 fn kept_results_of_a_trusted_run_are_no_ones_of_a_stranger() {
     let place = repository("library = [\".\"]");
     symlink("../../outside/1204.1P.dxf", place.path().join("tree/work/1204.1P.dxf")).unwrap();
+    std::thread::sleep(Duration::from_millis(3_500));
     for round in 0..2 {
         assert_eq!(run(&place, "check").status, Some(0), "{round}");
         assert_eq!(run(&place, "check --untrusted").status, Some(1), "{round}");
