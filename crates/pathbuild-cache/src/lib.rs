@@ -5,13 +5,12 @@
 //! Rules: a kept result may be missing, but never wrong. What is damaged, of another build or of another format is not used, and replaced. A run
 //! never fails because of the cache. Everything in it can be deleted at any time. (book: reference/configuration: no configuration, no cache)
 
-mod codec;
 mod facts;
-mod findings;
 mod flat;
 mod format;
 mod listing;
 mod names;
+mod payload;
 mod private;
 mod reasons;
 mod snapshot;
@@ -20,12 +19,11 @@ mod tree_store;
 mod upkeep;
 mod verify;
 
-pub use codec::{Corrupt, Decoder, Encoder};
 pub use facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
-pub use findings::{decode_diagnostic, decode_note, encode_diagnostic, encode_note};
 pub use format::{Key, Unusable};
 pub use listing::{Listing, Listings};
 pub use names::Names;
+pub use payload::{Corrupt, decode, encode};
 pub use reasons::{Reason, reasons};
 pub use snapshot::{KeptDirectory, KeptFile, KeptRecord, Snapshot};
 pub use stamp::{Clock, Stamp};

@@ -12,9 +12,8 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Clock, Decoder, DirectoryFact, Encoder, FileFact, FileState, Home, Key, Listing, Listings,
-    Looking, Lookup, Record, Snapshot, Stamp, TreeStore, Unusable, Verdict, decode_diagnostic,
-    encode_diagnostic,
+    Catalogue, Clock, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Looking, Lookup,
+    Record, Snapshot, Stamp, TreeStore, Unusable, Verdict, decode, encode,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -137,13 +136,11 @@ fn every_message_comes_back_with_all_its_values() {
         diagnostic.place.point = Some(Point { x: Number(0.0), y: Number(1e300) });
         diagnostic.trace =
             vec![TraceStep { file: "c.dxf".into(), path: "8001.1P".into(), point: Point::new(1.0, 2.0) }];
-        let mut encoder = Encoder::default();
-        encode_diagnostic(&mut encoder, &diagnostic);
-        let bytes = encoder.finish();
-        assert_eq!(decode_diagnostic(&mut Decoder::new(&bytes)), Ok(diagnostic));
-        assert!(
-            (0..bytes.len()).all(|length| decode_diagnostic(&mut Decoder::new(&bytes[..length])).is_err())
-        );
+        let bytes = encode(&diagnostic).unwrap();
+        assert_eq!(decode(&bytes), Ok(diagnostic));
+        let is_refused = |bytes: &[u8]| decode::<Diagnostic>(bytes).is_err();
+        assert!((0..bytes.len()).all(|length| is_refused(&bytes[..length])));
+        assert!(is_refused(&[&bytes[..], &[0]].concat()), "it goes on");
     }
 }
 

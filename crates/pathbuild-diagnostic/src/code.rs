@@ -2,7 +2,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// How bad a diagnostic is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum Severity {
     /// Nothing is written of the path it is in; the run exits with 1.
     Error,

@@ -1,18 +1,24 @@
 use camino::{Utf8Path, Utf8PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use crate::message::fill;
-use crate::{Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value};
+use crate::{
+    Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, kept,
+};
 
 type Arguments = Vec<(&'static str, Value)>;
 
 /// One thing that is wrong, or doubtful: which message, with which values, where.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
     /// What is said.
+    #[serde(deserialize_with = "kept::message")]
     pub message: &'static Message,
     /// The catalogue's severity of the code; the configuration can change it when it is reported.
     pub severity: Severity,
     /// The values in the message and its help, by name.
+    #[serde(deserialize_with = "kept::arguments")]
     pub arguments: Arguments,
     /// More that helps: the nearest open end, where a path was searched.
     pub notes: Vec<Note>,
@@ -29,16 +35,18 @@ pub struct Diagnostic {
 }
 
 /// A further sentence under a diagnostic.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
     /// What is said.
+    #[serde(deserialize_with = "kept::message")]
     pub message: &'static Message,
     /// The values in it.
+    #[serde(deserialize_with = "kept::arguments")]
     pub arguments: Arguments,
 }
 
 /// One embedding on the way to an erroneous path.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TraceStep {
     /// The drawing that embeds.
     pub file: Utf8PathBuf,

@@ -7,6 +7,7 @@
 
 mod code;
 mod diagnostic;
+mod kept;
 mod message;
 pub mod messages;
 mod number;

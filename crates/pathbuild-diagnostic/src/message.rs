@@ -1,7 +1,9 @@
 use std::fmt::Write;
 use std::hash::{Hash, Hasher};
 
-use crate::{Code, Number, Point, shown};
+use serde::{Deserialize, Serialize};
+
+use crate::{Code, Number, Point, kept, shown};
 
 /// The languages that pathbuild speaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -62,7 +64,7 @@ impl Hash for Message {
 }
 
 /// A value in a message.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Value {
     /// A name or a piece of source text.
     Text(Box<str>),
@@ -75,11 +77,11 @@ pub enum Value {
     /// Names, shown with commas between.
     List(Box<[Box<str>]>),
     /// A word that itself has a translation.
-    Word(&'static Word),
+    Word(#[serde(deserialize_with = "kept::word")] &'static Word),
 }
 
 /// A word or short phrase in every language.
-#[derive(Debug, PartialEq, Eq, Hash)]
+#[derive(Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Word {
     /// English.
     pub en: &'static str,

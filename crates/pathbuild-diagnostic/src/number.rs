@@ -1,13 +1,15 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
+use serde::{Deserialize, Serialize};
+
 use crate::Lang;
 
 /// A finite or non-finite `f64` that can be compared exactly and hashed, so that values holding it are `Eq`.
 ///
 /// Equality is that of the bits, except that -0 equals 0. It is exact on purpose: whether two coordinates of a drawing coincide is
 /// decided by the approximate comparisons of book: reference/glossary, never by this type.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Number(pub f64);
 
 impl Number {

@@ -1,10 +1,12 @@
 use std::fmt;
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Number;
 
 /// A place in a drawing's plane, in millimetres of the drawing's own coordinates.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Point {
     /// To the right.
     pub x: Number,
@@ -20,7 +22,7 @@ impl Point {
 }
 
 /// A DXF handle: the number that the CAD shows as an entity's identity, written in hexadecimal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Handle(pub u64);
 
 impl fmt::Display for Handle {
@@ -33,11 +35,11 @@ impl fmt::Display for Handle {
 ///
 /// Elements are counted within one path, so that an edit elsewhere in the drawing, which shifts lines and handles, leaves every
 /// value of later stages as it was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
 
 /// The type of a DXF entity, as far as pathbuild names one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum EntityKind {
     Line,
@@ -76,7 +78,7 @@ impl EntityKind {
 ///
 /// The stages behind the reader know elements only by number; `line` and `handle` are filled in when a diagnostic is reported
 /// ([`Diagnostic::locate`](crate::Diagnostic::locate)).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Place {
     /// 1-based line in the file. For ASCII DXF the line of the entity's `0` group code.
     pub line: Option<u32>,
@@ -95,7 +97,7 @@ pub struct Place {
 }
 
 /// A piece of source text with the faulty part of it: a parameter text of a drawing, a line of the configuration or of G-code.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct TextFault {
     /// The text; of a long one, what is around the fault.
     pub text: Box<str>,

@@ -1,8 +1,8 @@
 //! What a tree says beside its drawings, and what is kept of earlier runs.
 
 use camino::Utf8Path;
-use pathbuild_cache::{Decoder, decode_diagnostic};
-use pathbuild_diagnostic::Lang;
+use pathbuild_cache::decode;
+use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config;
 
 /// A pathbuild.toml.
@@ -16,7 +16,7 @@ pub(crate) fn config(data: &[u8]) {
 
 /// Findings as they are kept.
 pub(crate) fn cache(data: &[u8]) {
-    if let Ok(found) = decode_diagnostic(&mut Decoder::new(data)) {
+    if let Ok(found) = decode::<Diagnostic>(data) {
         _ = (found.text(Lang::En), found.help(Lang::De));
     }
 }

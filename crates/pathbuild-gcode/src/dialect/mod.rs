@@ -16,7 +16,7 @@ pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rule
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
 /// The kinds of G-code that are told apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum Dialect {
     /// RS274/NGC version 3 of the NIST, the common ancestor.
     Rs274,

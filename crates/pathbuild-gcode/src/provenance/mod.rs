@@ -17,11 +17,12 @@ use std::str::FromStr;
 
 use pathbuild_diagnostic::Number;
 use pathbuild_toolpath::Program;
+use serde::{Deserialize, Serialize};
 
 use crate::dialect::Dialect;
 
 /// What the line says.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// The version of pathbuild.
     pub version: Box<str>,

@@ -10,12 +10,11 @@ use crate::session::{
     Session, is_passing,
 };
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{
-    Corrupt, Decoder, Encoder, Listings, decode_diagnostic, decode_note, encode_diagnostic, encode_note,
-};
+use pathbuild_cache::{Listings, decode, encode};
 use pathbuild_db::{Database, System, Target, Trace};
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::provenance::Provenance;
+use serde::{Deserialize, Serialize};
 
 use super::Answer;
 use super::deliver::{Delivered, State, Task, is_of_other_version};
@@ -28,6 +27,7 @@ use crate::workspace::Workspace;
 pub(super) struct Store(ResultStore);
 
 /// What is known of paths that become one program.
+#[derive(Serialize, Deserialize)]
 pub(super) struct KnownPaths {
     /// What is wrong with them and with what they embed, and why they become nothing though they are right.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -36,6 +36,7 @@ pub(super) struct KnownPaths {
 }
 
 /// What is known of a job.
+#[derive(Serialize, Deserialize)]
 pub(super) struct KnownJob {
     /// The path, as the drawing spells it.
     pub(super) path: Box<str>,
@@ -48,9 +49,10 @@ pub(super) struct KnownJob {
 }
 
 /// What is known of a program without making it.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct KnownProgram {
     /// How each of its files lies there now; nothing where something is wrong with the program.
+    #[serde(skip)]
     files: Vec<(OutputKind, Utf8PathBuf, OutputState)>,
     /// In mm.
     length: f64,
@@ -58,7 +60,7 @@ pub(super) struct KnownProgram {
     /// Warnings, and what is wrong with the program.
     problems: Vec<Diagnostic>,
     notes: Vec<Note>,
-    provenance: Provenance,
+    provenance: Option<Provenance>,
 }
 
 impl Store {
@@ -82,7 +84,7 @@ impl Store {
     /// What is known of paths that become one program, if that is enough for the task: whoever writes makes a program again of which a file is
     /// not as it was.
     pub(super) fn paths(&self, system: &dyn System, of: &str, task: Task) -> Option<KnownPaths> {
-        let mut known = decoded(self.0.payload(of)?).ok()?;
+        let mut known: KnownPaths = decode(self.0.payload(of)?).ok()?;
         if let Some(KnownJob { files, program: Some(program), .. }) = &mut known.job
             && !program.is_wrong()
         {
@@ -166,7 +168,8 @@ impl Run<'_> {
             }
             _ => Default::default(),
         };
-        FreshResult { of, traces, further, outputs, payload: Some(encoded(&diagnostics, job)) }
+        let known = KnownPaths { diagnostics, job: job.map(|(job, delivered)| KnownJob::of(job, delivered)) };
+        FreshResult { of, traces, further, outputs, payload: encode(&known) }
     }
 
     /// The files that the post put in; its own is a part of the question.
@@ -196,7 +199,29 @@ fn outputs(delivered: &Delivered, task: Task) -> Vec<MadeOutput> {
     delivered.files.iter().zip(&delivered.hashes).map(output).collect()
 }
 
+impl KnownJob {
+    fn of(job: &Job, delivered: Option<&Delivered>) -> Self {
+        Self {
+            path: job.path.clone(),
+            stem: job.stem.clone(),
+            files: job.files.clone(),
+            program: delivered.map(KnownProgram::of),
+        }
+    }
+}
+
 impl KnownProgram {
+    fn of(delivered: &Delivered) -> Self {
+        Self {
+            files: Vec::new(),
+            length: delivered.length,
+            minutes: delivered.minutes,
+            problems: delivered.problems.clone(),
+            notes: delivered.notes.clone(),
+            provenance: delivered.provenance.clone(),
+        }
+    }
+
     /// Whether nothing is written of it.
     fn is_wrong(&self) -> bool {
         self.problems.iter().any(Diagnostic::is_error)
@@ -228,7 +253,7 @@ impl KnownProgram {
             minutes: self.minutes,
             problems: self.problems.clone(),
             notes: self.notes.clone(),
-            provenance: Some(self.provenance.clone()),
+            provenance: self.provenance.clone(),
             ..Delivered::default()
         }
     }
@@ -251,55 +276,4 @@ pub(super) fn of(db: &Database, targets: &[Target], join: Option<&str>) -> Strin
         _ = write!(of, "\0\0{join}");
     }
     of
-}
-
-fn encoded(diagnostics: &[Diagnostic], job: Option<(&Job, Option<&Delivered>)>) -> Vec<u8> {
-    let mut encoder = Encoder::default();
-    encoder.list(diagnostics.iter(), encode_diagnostic);
-    encoder.option(job, |encoder, (job, delivered)| {
-        encoder.text(&job.path);
-        encoder.text(job.stem.as_str());
-        encoder.list(job.files.iter(), |encoder, (kind, path)| {
-            encoder.u8(*kind as u8);
-            encoder.text(path.as_str());
-        });
-        encoder.option(delivered, encode_program);
-    });
-    encoder.finish()
-}
-
-fn encode_program(encoder: &mut Encoder, delivered: &Delivered) {
-    encoder.u64(delivered.length.to_bits());
-    encoder.u64(delivered.minutes.to_bits());
-    encoder.list(delivered.problems.iter(), encode_diagnostic);
-    encoder.list(delivered.notes.iter(), encode_note);
-    encoder.text(&delivered.provenance.as_ref().map(Provenance::to_string).unwrap_or_default());
-}
-
-fn decoded(payload: &[u8]) -> Result<KnownPaths, Corrupt> {
-    let mut decoder = Decoder::new(payload);
-    let diagnostics = decoder.list(decode_diagnostic)?;
-    let job = decoder.option(|decoder| {
-        Ok(KnownJob {
-            path: decoder.text()?.into(),
-            stem: decoder.text()?.into(),
-            files: decoder.list(|decoder| {
-                let kind = usize::from(decoder.u8()?);
-                Ok((*OutputKind::ALL.get(kind).ok_or(Corrupt)?, decoder.text()?.into()))
-            })?,
-            program: decoder.option(decode_program)?,
-        })
-    })?;
-    if decoder.is_at_end() { Ok(KnownPaths { diagnostics, job }) } else { Err(Corrupt) }
-}
-
-fn decode_program(decoder: &mut Decoder<'_>) -> Result<KnownProgram, Corrupt> {
-    Ok(KnownProgram {
-        files: Vec::new(),
-        length: f64::from_bits(decoder.u64()?),
-        minutes: f64::from_bits(decoder.u64()?),
-        problems: decoder.list(decode_diagnostic)?,
-        notes: decoder.list(decode_note)?,
-        provenance: decoder.text()?.parse().map_err(|()| Corrupt)?,
-    })
 }

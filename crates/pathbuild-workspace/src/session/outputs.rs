@@ -7,7 +7,7 @@ use pathbuild_toolpath::Program;
 use crate::config::types::SheetFormat;
 
 /// The kinds of files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum OutputKind {
     /// The program, where there are no probes.
     Milling,
@@ -39,7 +39,7 @@ pub struct Writing {
 }
 
 impl OutputKind {
-    /// Each, at the place of its number.
+    /// Each.
     pub const ALL: [Self; 7] = [
         Self::Milling,
         Self::Clean,

@@ -3,29 +3,27 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::time::Duration;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, shown};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{View, concise};
 use crate::report::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
-    let suites = suites(findings);
-    let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-    let all = || suites.values().flat_map(BTreeMap::values);
-    _ = writeln!(text, "<testsuites name=\"pathbuild\"{}>", totals(all()));
-    for (file, cases) in &suites {
+    let mut report = Report::new("pathbuild");
+    for (file, cases) in suites(findings) {
         let name = file.map_or_else(|| "pathbuild".into(), |file| view.name(file));
-        _ = writeln!(text, "  <testsuite name=\"{}\"{}>", escaped(&name), totals(cases.values()));
+        let mut suite = TestSuite::new(&*name);
         for (path, case) in cases {
             let path = path.map_or_else(|| name.clone(), shown::line);
-            write_case(&mut text, &path, &name, case, view);
+            suite.add_test_case(case.shown(&path, &name, view));
         }
-        text.push_str("  </testsuite>\n");
+        report.add_test_suite(suite);
     }
-    text.push_str("</testsuites>\n");
-    text
+    report.to_string().unwrap_or_else(|error| error.to_string())
 }
 
 type Suites<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, Case<'a>>>;
@@ -52,43 +50,33 @@ fn suites(findings: &Findings) -> Suites<'_> {
     suites
 }
 
-fn totals<'a, 'b: 'a>(cases: impl Iterator<Item = &'a Case<'b>>) -> String {
-    let (mut tests, mut failures) = (0, 0);
-    for case in cases {
-        tests += 1;
-        failures += usize::from(!case.errors.is_empty());
+impl Case<'_> {
+    fn shown(&self, name: &str, file: &str, view: &View) -> TestCase {
+        let mut shown = TestCase::new(name, self.status(view));
+        shown.set_classname(file);
+        shown.extra.insert("file".into(), file.into());
+        // Surefire's schema wants a time; what is found does not depend on the clock.
+        shown.set_time(Duration::ZERO);
+        if !self.warnings.is_empty() {
+            shown.set_system_out(lines(&self.warnings, view));
+        }
+        shown
     }
-    format!(" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\"")
-}
 
-fn write_case(text: &mut String, name: &str, file: &str, case: &Case<'_>, view: &View) {
-    let (name, file) = (escaped(name), escaped(file));
-    // Surefire's schema wants a time; what is found does not depend on the clock.
-    _ = write!(text, "    <testcase name=\"{name}\" classname=\"{file}\" file=\"{file}\" time=\"0\"");
-    if case.errors.is_empty() && case.warnings.is_empty() {
-        text.push_str("/>\n");
-        return;
-    }
-    text.push_str(">\n");
-    if let [first, others @ ..] = &*case.errors {
+    fn status(&self, view: &View) -> TestCaseStatus {
+        let [first, others @ ..] = &*self.errors else { return TestCaseStatus::success() };
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
         let more = if others.is_empty() { String::new() } else { format!(" (+{})", others.len()) };
-        let message = escaped(&format!("{}{more}", first.text(view.lang)));
-        _ = writeln!(
-            text,
-            "      <failure type=\"{}\" message=\"{message}\">{}</failure>",
-            first.code(),
-            lines(&case.errors, view)
-        );
+        status.set_type(first.code().to_string());
+        status.set_message(shown::lines(&format!("{}{more}", first.text(view.lang))));
+        status.set_description(lines(&self.errors, view));
+        status
     }
-    if !case.warnings.is_empty() {
-        _ = writeln!(text, "      <system-out>{}</system-out>", lines(&case.warnings, view));
-    }
-    text.push_str("    </testcase>\n");
 }
 
 fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
     let lines: String = diagnostics.iter().map(|diagnostic| body(diagnostic, view)).collect();
-    escaped(lines.trim_end())
+    shown::lines(lines.trim_end()).into()
 }
 
 /// A line as in a log, and below it what to do.
@@ -98,21 +86,4 @@ fn body(diagnostic: &Diagnostic, view: &View) -> String {
         _ = writeln!(body, "  {line}");
     }
     body
-}
-
-/// Text in XML 1.0, which has no way to write most control characters: none is left when what acts is escaped.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len() + 16);
-    for c in shown::lines(text).chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&apos;"),
-            '\n' => escaped.push_str("&#10;"),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -1,6 +1,6 @@
 //! Results as bytes.
 
-use pathbuild_cache::{Corrupt, Decoder, Encoder, decode_diagnostic, encode_diagnostic};
+use pathbuild_cache::{Corrupt, decode, encode};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_path::PathName;
 
@@ -24,10 +24,8 @@ impl DrawingResult {
         if self.diagnostics.iter().any(is_passing) {
             return None;
         }
-        let mut encoder = Encoder::default();
-        encoder.list(self.names.iter(), |encoder, name| encoder.text(name.as_str()));
-        encoder.list(self.diagnostics.iter(), encode_diagnostic);
-        Some(encoder.finish())
+        let names: Vec<&str> = self.names.iter().map(PathName::as_str).collect();
+        encode(&(names, &self.diagnostics))
     }
 
     /// From bytes.
@@ -35,10 +33,8 @@ impl DrawingResult {
     /// # Errors
     /// When they are of something else.
     pub fn decode(payload: &[u8]) -> Result<Self, Corrupt> {
-        let mut decoder = Decoder::new(payload);
-        let names = decoder.list(|decoder| Ok(PathName::new(decoder.text()?)))?;
-        let diagnostics = decoder.list(decode_diagnostic)?;
-        if decoder.is_at_end() { Ok(Self { names, diagnostics }) } else { Err(Corrupt) }
+        let (names, diagnostics): (Vec<&str>, _) = decode(payload)?;
+        Ok(Self { names: names.into_iter().map(PathName::new).collect(), diagnostics })
     }
 }
 
