@@ -28,7 +28,8 @@ pub(crate) enum Event {
     Busy,
 }
 
-/// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, for the n-th time.
+/// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, or after the file is
+/// written, for the n-th time.
 #[derive(Debug)]
 pub(crate) struct Mischief {
     pub(crate) trigger: String,
@@ -51,8 +52,7 @@ impl Mischief {
         path: &Utf8Path,
         read: impl FnOnce() -> Result<T, ReadError>,
     ) -> Result<T, ReadError> {
-        let is_now = self.event != Event::Busy && path.as_str().ends_with(&self.trigger) && self.is_due();
-        match (is_now, self.is_before) {
+        match (self.is_now(path), self.is_before) {
             (false, _) => read(),
             (true, true) => {
                 self.happen();
@@ -65,6 +65,10 @@ impl Mischief {
                 result
             }
         }
+    }
+
+    fn is_now(&self, path: &Utf8Path) -> bool {
+        self.event != Event::Busy && path.as_str().ends_with(&self.trigger) && self.is_due()
     }
 
     fn is_due(&self) -> bool {
@@ -134,7 +138,11 @@ impl System for Mischief {
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
-        OsSystem.write(path, bytes)
+        let written = OsSystem.write(path, bytes);
+        if self.is_now(path) {
+            self.happen();
+        }
+        written
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
