@@ -23,7 +23,7 @@ pub struct ParameterTexts {
 }
 
 /// A text of a path: its number, counted from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextId(NonZeroU32);
 
 /// Where a text and its pieces are, and what is known of it as a whole.

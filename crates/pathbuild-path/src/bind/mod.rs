@@ -5,10 +5,11 @@ mod circles;
 mod cuts;
 mod segments;
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind};
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -17,7 +18,7 @@ use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
 use crate::raw::{Language, RawPath};
-use crate::text::ParameterText;
+use crate::text::{ParameterText, TextId};
 use crate::values::{Given, Values};
 use crate::variables::{Bindings, Interpolation};
 use crate::{doubts, limits};
@@ -47,6 +48,8 @@ struct Binder<'a> {
     holes: Vec<Hole>,
     helices: Vec<Helix>,
     problems: Vec<Diagnostic>,
+    /// Which of them are about what a text says.
+    of_texts: HashMap<TextId, Vec<usize>>,
     /// The path's D was said to be doubtful for marks.
     has_doubtful_marks: bool,
     /// A segment with support bars has a gap between them.
@@ -60,6 +63,16 @@ struct Binder<'a> {
 enum At<'a> {
     Element(&'a Element),
     Marker(&'a Marker),
+}
+
+impl At<'_> {
+    /// Its own text.
+    fn text(self) -> Option<TextId> {
+        match self {
+            At::Element(element) => element.text,
+            At::Marker(marker) => marker.text,
+        }
+    }
 }
 
 impl<'a> Binder<'a> {
@@ -76,6 +89,7 @@ impl<'a> Binder<'a> {
             holes: Vec::new(),
             helices: Vec::new(),
             problems: Vec::new(),
+            of_texts: HashMap::new(),
             has_doubtful_marks: false,
             has_gap: false,
             gapless: None,
@@ -203,19 +217,22 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Reports once what several parts of a polyline, which share a text, have in common.
+    /// Reports once what the parts of a polyline, which share a text, have in common. Another text may say the same.
     fn report(&mut self, at: At<'_>, problem: Diagnostic) {
-        let origin = self.origin(at);
-        let problem = origin.at(problem.in_path(self.raw.name.as_str()));
-        let is_same = |known: &Diagnostic| {
-            known.message == problem.message
-                && known.text == problem.text
-                && known.arguments == problem.arguments
-                && known.place.entity == problem.place.entity
-        };
-        if problem.text.is_none() || !has_shared_text(&origin) || !self.problems.iter().any(is_same) {
-            self.problems.push(problem);
+        let problem = self.origin(at).at(problem.in_path(self.raw.name.as_str()));
+        if let (Some(text), true) = (at.text(), problem.text.is_some()) {
+            let known = self.of_texts.entry(text).or_default();
+            let is_same = |known: &usize| {
+                let known = &self.problems[*known];
+                (known.message, &known.text, &known.arguments)
+                    == (problem.message, &problem.text, &problem.arguments)
+            };
+            if known.iter().any(is_same) {
+                return;
+            }
+            known.push(self.problems.len());
         }
+        self.problems.push(problem);
     }
 
     fn add_probes(&mut self, path: &mut Path) {
@@ -238,11 +255,6 @@ impl<'a> Binder<'a> {
             });
         }
     }
-}
-
-/// Whether the element is part of a polyline, whose parts share one text.
-fn has_shared_text(origin: &Origin) -> bool {
-    matches!(origin.entity, EntityKind::LwPolyline | EntityKind::Polyline)
 }
 
 /// The last line of a regular expression error says what is wrong; the lines before it draw the place, which the text shows anyway.

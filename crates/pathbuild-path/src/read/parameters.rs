@@ -1,5 +1,6 @@
 //! The parameters of a path and its elements, as far as they can be checked without values: which letters, @, definitions.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
@@ -57,11 +58,11 @@ impl Checked<'_> {
                 self.report(drawn.origin(element).at(Diagnostic::new(&BARS_ON_HOLE)));
             }
         }
-        let mut seen = None;
+        let mut seen = HashSet::new();
         for element in &drawn.elements {
             let Some(text) = element.text else { continue };
             // The parts of a polyline share one text, which is checked once.
-            if seen.replace(text) == Some(text) {
+            if !seen.insert(text) {
                 continue;
             }
             let problems = drawn.texts.get(text).map(|text| text.problems(element.class(tool)));

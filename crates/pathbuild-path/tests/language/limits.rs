@@ -36,6 +36,20 @@ fn a_paths_values_are_greater_than_0() {
     assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
 }
 
+/// Parts of a polyline share its text; another polyline, or a line, may have one that says the same.
+#[test]
+fn what_a_text_says_wrong_is_said_once_of_each_text() {
+    for (text, fault) in [("B9", "PB203 B"), ("BX", "PB205 B"), ("G1", "PB202 G")] {
+        let polyline =
+            |x: u32| format!("mill polyline {x},0 {},0 bulge 0.5 {},0 \"{text}\"\n", x + 20, x + 40);
+        let (first, second) = (polyline(0), polyline(40));
+        let with = |drawn: &str| wrong(&path("T5 O3 I1 B0", &format!("{drawn}end 99,0")));
+        assert_eq!(with(&first), [fault; 1]);
+        assert_eq!(with(&format!("{first}{second}")), [fault; 2]);
+        assert_eq!(with(&format!("mill 0,90 40,90 \"{text}\"\n{first}{second}")), [fault; 3]);
+    }
+}
+
 #[test]
 fn an_elements_values_are_greater_than_0() {
     let parameters = "T5 O3 I1 B0 D2 P1 U4 Mx";
