@@ -75,6 +75,7 @@ fn optional_groups_of_a_custom_pattern_end_the_comparison() {
     assert!(!holds("AB-1.2", "AB-1"));
     assert!(holds("AB.2", "AB.2"), "an empty group in the middle on both sides");
     assert!(holds("AB.2", "AB-1"), "as many groups are left on both sides");
+    assert!(holds("AB-1", "AB.2"), "the same");
 }
 
 /// Leftmost first and not overlapping: the middle name belongs to the first range, and no second one begins with it.

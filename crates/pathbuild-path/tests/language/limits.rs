@@ -182,6 +182,8 @@ fn there_is_room_for_the_cutter_between_bars() {
     let bars = |p: &str, u: &str| on("bars 0,0 10,0\nsweep 10,0 40,0", &format!("T5 O3 I1 B0 D2 P{p} U{u}"));
     assert_eq!(bars("2", "3"), [""; 0]);
     assert_eq!(bars("2.00001", "2.9"), ["PB406"]);
+    let polyline = on("bars polyline 0,0 10,0 10,10 \"P2.00001\"\nsweep 10,10 40,0", "T5 O3 I1 B0 D2 U2.9");
+    assert_eq!(polyline, ["PB406", "PB406"], "of each part, as they are drawn");
     // No gap at all where there is no room for a bar and its distance.
     assert_eq!(bars("5", "5"), [""; 0]);
     assert_eq!(bars("5.001", "5"), ["PB408"]);
