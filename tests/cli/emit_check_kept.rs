@@ -2,6 +2,7 @@
 //! (book: reference/commands, `emit --check`)
 
 use std::fs;
+use std::time::Duration;
 
 use crate::support::{Place, Run};
 
@@ -206,6 +207,7 @@ fn measured_values_are_current_as_long_as_the_probes_are_the_same() {
     assert_eq!(answer(&place, "").stderr, ALL_CURRENT);
     let place = place.file("projects/8002_Z.txt", "#1 = 0.1\n#2 = 0.2\n");
     assert_outdated(&place, "projects/8002_Z.txt");
+    assert_eq!(answer(&place, "--moves").stderr, ALL_CURRENT.replace('4', "3"), "values are no moves");
 }
 
 #[test]
@@ -252,22 +254,25 @@ fn an_edited_post_is_noticed() {
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
-/// A file that a post puts into programs is as much a part of them as the post.
+/// A file that a post puts into programs is as much a part of them as the post, however its name is spelt there.
 #[test]
 fn an_edited_file_that_a_post_inserts_is_noticed() {
-    let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*head.nc*'\n\
-        line = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
-    let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
-    let place = Place::of(&library).file("my.toml", post).file("head.nc", "(a)\n");
-    let run = place.run("emit --post my.toml");
-    assert_eq!(run.status, Some(0), "{run}");
-    assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
-    let place = place.file("head.nc", "(b)\n");
-    let run = answer(&place, "--post my.toml");
-    assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
-    let place = place.file("head.nc", "(a)\n");
-    assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+    for name in ["head.nc", "he\\u0061d.nc"] {
+        let texts = "comment = '(~CommentText~)'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
+            rapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+        let start = format!("program-start = \"\\\\\\\\\\\\~*{name}*\"\n");
+        let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}{start}");
+        let place = Place::of(&library).file("my.toml", post).file("head.nc", "(a)\n");
+        let run = place.run("emit --post my.toml");
+        assert_eq!(run.status, Some(0), "{run}");
+        assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+        let place = place.file("head.nc", "(b)\n");
+        let run = answer(&place, "--post my.toml");
+        assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
+        let place = place.file("head.nc", "(a)\n");
+        assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));
+    }
 }
 
 /// The fault is kept with its place: a post of the same bytes has it in its own file.
@@ -457,13 +462,21 @@ fn a_program_that_cannot_be_read_is_not_current() {
 
 #[test]
 fn programs_of_the_same_moves_are_not_taken_for_those_that_would_be_written() {
-    let place = emitted();
-    let program = place.read("projects/8001_Milling.gcode");
-    let place = place.file("projects/8001_Milling.gcode", program.replace("M30", "(mine)\nM30"));
-    let current = ALL_CURRENT.replace('4', "3");
-    assert_eq!(place.run("emit --check --moves").stderr, current);
-    assert!(place.run("emit").stderr.contains("8001_Milling.gcode: written"));
-    assert_eq!(place.read("projects/8001_Milling.gcode"), program);
+    let tasks = [("--moves", "3 current, 0 not current\n"), ("", "3 current, 1 not current\n")];
+    let places = tasks.map(|_| {
+        let place = Place::of(LIBRARY);
+        place.run("emit --no-cache");
+        let program = place.read("projects/8001_Milling.gcode").replace("M30", "(mine)\nM30");
+        place.file("projects/8001_Milling.gcode", program)
+    });
+    // Only of files that have rested stamps are kept.
+    std::thread::sleep(Duration::from_millis(3_500));
+    for (place, (task, said)) in places.iter().zip(tasks) {
+        assert_eq!(place.run(&format!("emit --check {task}")).stderr, said);
+        assert_eq!(place.run("emit --check").status, Some(1), "{task}");
+        assert!(place.run("emit").stderr.contains("8001_Milling.gcode: written"), "{task}");
+        assert!(!place.read("projects/8001_Milling.gcode").contains("mine"), "{task}");
+    }
 }
 
 #[test]
