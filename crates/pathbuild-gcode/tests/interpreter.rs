@@ -764,6 +764,14 @@ fn g52_moves_the_zero_that_g92_has_set() {
 }
 
 #[test]
+fn g10_l20_says_where_the_tool_is_whatever_moves_the_zero_beside() {
+    for beside in ["", "G92 X0", "G52 X3", "G92 X0\nG52 X3"] {
+        let lines = run(LinuxCnc, &format!("G0 X10 Y0 Z5\n{beside}\nG10 L20 P1 X2\nG0 X3"));
+        assert!(lines.last().is_some_and(|line| line.ends_with(" rapid to 11 0 5")), "{beside}: {lines:?}");
+    }
+}
+
+#[test]
 fn fanuc_and_haas_number_their_programs() {
     assert_eq!(wrong(Fanuc, "O1000"), FINE);
     assert_eq!(wrong(Haas, "O01000 (PLATE)"), FINE);
