@@ -1,6 +1,6 @@
 //! `watch`: what it says and writes as drawings change.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::process::{Child, Stdio};
@@ -233,6 +233,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1999.1P"]));
         let said = watch.until("1002.dxf: changed");
         assert_eq!(difference(&said), wrong, "after {pause} ms: {said:#?}");
+        assert!(are_named_again(&said), "after {pause} ms: {said:#?}");
 
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
         std::thread::sleep(Duration::from_millis(pause));
@@ -273,6 +274,19 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     let line = said.last().unwrap();
     let expected = "[2] library/parts/1003.dxf: tried again; 1 drawing checked, 0 new findings, 1 fixed (";
     assert!(line.starts_with(expected), "{line}");
+}
+
+/// Whether each revision names the files of the one before that left drawings to it.
+fn are_named_again(said: &[String]) -> bool {
+    let mut revisions: BTreeMap<u32, (BTreeSet<&str>, bool)> = BTreeMap::new();
+    for line in said.iter().filter_map(|line| line.strip_prefix('[')) {
+        let (revision, change) = line.split_once("] ").unwrap();
+        let (files, is_behind) = revisions.entry(revision.parse().unwrap()).or_default();
+        files.insert(change.split(": ").next().unwrap());
+        *is_behind = change.contains(" to follow, ");
+    }
+    let revisions: Vec<_> = revisions.into_values().collect();
+    revisions.windows(2).all(|pair| !pair[0].1 || pair[0].0.is_subset(&pair[1].0))
 }
 
 #[test]
