@@ -254,16 +254,18 @@ fn an_edited_post_is_noticed() {
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
-/// A file that a post puts into programs is as much a part of them as the post, however its name is spelt there.
+/// A file that a post puts into programs is as much a part of them as the post, however its name is spelt there, also in a macro.
 #[test]
 fn an_edited_file_that_a_post_inserts_is_noticed() {
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
-    for name in ["head.nc", "he\\u0061d.nc"] {
+    for name in ["head.nc", "he\\u0061d.nc", "~Head~"] {
         let texts = "comment = '(~CommentText~)'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
             rapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
         let start = format!("program-start = \"\\\\\\\\\\\\~*{name}*\"\n");
         let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}{start}");
         let place = Place::of(&library).file("my.toml", post).file("head.nc", "(a)\n");
+        let configuration = place.read("pathbuild.toml") + "[macros]\nHead = 'head.nc'\n";
+        let place = place.file("pathbuild.toml", configuration);
         let run = place.run("emit --post my.toml");
         assert_eq!(run.status, Some(0), "{run}");
         assert!(answer(&place, "--post my.toml").stderr.contains(" 0 not current\n"));

@@ -172,7 +172,7 @@ impl Run<'_> {
         FreshResult { of, traces, further, outputs, payload: encode(&known) }
     }
 
-    /// The files that the post put in; its own is a part of the question.
+    /// The files that the post put in. The question has its own, and of these only those whose names stand in it, not in a macro.
     fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<Utf8PathBuf> {
         let Some(post) = self.poster.and_then(PostProcessor::file) else { return Vec::new() };
         let beside = post.parent().unwrap_or(Utf8Path::new(""));

@@ -3,14 +3,12 @@
 use std::fs;
 use std::sync::Arc;
 use std::sync::atomic::AtomicI64;
-use std::thread::sleep;
-use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_workspace::emit::{State, Task};
+use pathbuild_workspace::emit::Task;
 
 use crate::mischief::{Event, Mischief};
 use crate::on_disk::{EMITTING, OnDisk, long};
@@ -18,9 +16,6 @@ use crate::on_disk::{EMITTING, OnDisk, long};
 const DRAWING: &str = "lib/8001.1P.dxf";
 const PROGRAM: &str = "lib/8001.1P_Milling.gcode";
 const WRITE: Task = Task::Write { force: false };
-
-/// A file that rests so long has a stamp that counts.
-const REST: Duration = Duration::from_millis(3_500);
 
 fn place() -> OnDisk {
     let drawn = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
@@ -49,25 +44,6 @@ fn a_program_that_another_changes_meanwhile_is_written_again() {
         let written = fs::read_to_string(&program);
         assert!(written.is_ok_and(|it| it.contains("8001.1P")), "{event:?}");
     }
-}
-
-/// What lies there in place of a program, and has rested, is not taken for it by the next comparison; nor is a program with the same moves.
-#[test]
-fn what_is_no_program_of_ours_never_becomes_one() {
-    let [other, same_moves] = [(); 2].map(|()| place());
-    for place in [&other, &same_moves] {
-        place.emit(Arc::new(OsSystem), false, WRITE);
-        let program = place.path().join(PROGRAM);
-        let written = fs::read_to_string(&program).unwrap();
-        fs::write(program, written + "(another's)\n").unwrap();
-    }
-    sleep(REST);
-    let is_current = |place: &OnDisk, moves_only| {
-        let made = place.emit(Arc::new(OsSystem), true, Task::Compare { moves_only });
-        matches!(made.delivered[0].files[0].1, State::Current)
-    };
-    assert_eq!([(); 2].map(|()| is_current(&other, false)), [false, false]);
-    assert_eq!([true, false].map(|moves_only| is_current(&same_moves, moves_only)), [true, false]);
 }
 
 /// A machine that is busy for a moment, whenever that is: a path is walked along for its check and for its program.
