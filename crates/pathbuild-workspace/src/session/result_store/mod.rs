@@ -6,6 +6,7 @@ mod lookups;
 mod payload;
 mod question;
 mod scope;
+mod seen;
 mod writing;
 
 use std::cell::Cell;

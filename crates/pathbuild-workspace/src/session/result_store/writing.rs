@@ -1,12 +1,13 @@
 //! Putting together what is kept: results that still hold with what was known of their files, new ones with what is known now.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Record, Stamp};
-use pathbuild_db::{Database, Db, Sought, SourceFile, content, drawing_names};
+use pathbuild_db::{Db, Sought, SourceFile};
 
 use super::lookups::Lookups;
+use super::seen::{Content, Seen};
 use super::{FreshResult, MadeOutput, ResultStore};
 use crate::session::Session;
 
@@ -24,13 +25,7 @@ pub(super) struct Writing<'a> {
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
     kept_lookups: Vec<Option<usize>>,
-    /// The drawings that this run read, with the hash of what it read and the stamp it was read under; `None` where it could not be read,
-    /// or was not always the same.
-    read: HashMap<Utf8PathBuf, Option<([u8; 32], Stamp)>>,
-    /// The directories that this run asked for names.
-    asked: HashSet<&'a Utf8Path>,
-    /// The files that this run wrote or compared.
-    written: HashSet<&'a Utf8Path>,
+    seen: Seen<'a>,
 }
 
 impl<'a> Writing<'a> {
@@ -41,10 +36,6 @@ impl<'a> Writing<'a> {
         made: &'a [FreshResult],
     ) -> Self {
         let kept = &result_store.kept;
-        let db = session.db();
-        let traces = || made.iter().flat_map(|made| &made.traces);
-        let read = traces().flat_map(|trace| &trace.files);
-        let asked = traces().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories);
         Self {
             result_store,
             session,
@@ -56,9 +47,7 @@ impl<'a> Writing<'a> {
             kept_files: vec![None; kept.files()],
             kept_directories: vec![None; kept.directories()],
             kept_lookups: vec![None; kept.lookups()],
-            read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
-            asked: asked.map(|directory| &**directory).collect(),
-            written: made.iter().flat_map(|made| &made.outputs).map(|output| &*output.path).collect(),
+            seen: Seen::new(session, made),
         }
     }
 
@@ -71,8 +60,8 @@ impl<'a> Writing<'a> {
     /// its files of something else.
     pub(super) fn add_kept(&mut self, number: usize) {
         let record = self.result_store.kept.record(number);
-        let is_written = |file: usize| self.written.contains(self.result_store.kept.file(file).path());
-        if record.files().any(|file| self.is_other(file)) || record.outputs().any(is_written) {
+        let has_written = |file: usize| self.seen.has_written(self.result_store.kept.file(file).path());
+        if record.files().any(|file| self.is_other(file)) || record.outputs().any(has_written) {
             return;
         }
         let files = record.files().map(|file| self.kept_file(file)).collect();
@@ -87,7 +76,7 @@ impl<'a> Writing<'a> {
         let Some(payload) = &made.payload else { return };
         let db = self.session.db();
         let mut drawings = made.traces.iter().flat_map(|trace| &trace.files);
-        if drawings.any(|file| self.content(file.path(db)).is_none()) {
+        if drawings.any(|file| self.seen.content(file.path(db)).is_none()) {
             return;
         }
         let mut files = BTreeSet::new();
@@ -109,12 +98,9 @@ impl<'a> Writing<'a> {
 
     /// Whether this run read other bytes than those that are known of a file at which it did not look before.
     fn is_other(&self, number: usize) -> bool {
-        if self.result_store.verdict.files[number] != FileState::Unlooked {
-            return false;
-        }
         let file = self.result_store.kept.file(number);
-        let read = self.read.get(file.path());
-        read.is_some_and(|content| content.map(|(hash, _)| hash) != file.hash())
+        self.result_store.verdict.files[number] == FileState::Unlooked
+            && self.seen.is_other(file.path(), file.hash())
     }
 
     fn kept_file(&mut self, number: usize) -> usize {
@@ -130,7 +116,7 @@ impl<'a> Writing<'a> {
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
-        if self.read.get(&fact.path).is_some_and(|content| content.map(|(hash, _)| hash) != fact.hash) {
+        if self.seen.is_other(&fact.path, fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
         self.add_kept_file(number, fact)
@@ -145,7 +131,7 @@ impl<'a> Writing<'a> {
         };
         match known.filter(is_known) {
             Some(number) => self.kept_file(number),
-            None => self.new_file(path, self.content(path)),
+            None => self.new_file(path, self.seen.content(path)),
         }
     }
 
@@ -165,14 +151,9 @@ impl<'a> Writing<'a> {
     }
 
     /// What could not be read has neither stamp nor hash: whatever was made of it is made again.
-    fn new_file(&mut self, path: &Utf8Path, content: Option<([u8; 32], Stamp)>) -> usize {
+    fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
         let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.settled(self.begun));
         self.push_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
-    }
-
-    /// What this run read of a drawing.
-    fn content(&self, path: &Utf8Path) -> Option<([u8; 32], Stamp)> {
-        self.read.get(path).copied().flatten()
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
@@ -242,26 +223,10 @@ impl<'a> Writing<'a> {
         if let Some(known) = self.directories.get(&fact.path) {
             return *known;
         }
-        fact.is_doubtful |= !self.is_what_was_seen(&fact);
+        fact.is_doubtful |= !self.seen.agrees(&fact);
         let number = self.catalogue.directories.len();
         self.directories.insert(fact.path.clone(), number);
         self.catalogue.directories.push(fact);
         number
     }
-
-    /// Whether the database found the same names, if it looked.
-    fn is_what_was_seen(&self, fact: &DirectoryFact) -> bool {
-        if !self.asked.contains(&*fact.path) {
-            return true;
-        }
-        let db = self.session.db();
-        let mut seen: Vec<&str> = drawing_names(db, db.directory(&fact.path)).iter().collect();
-        seen.sort_unstable();
-        seen.into_iter().eq(fact.names.iter())
-    }
-}
-
-/// What was read of a drawing, if that was always the same.
-fn steady_content(db: &Database, file: SourceFile) -> Option<([u8; 32], Stamp)> {
-    content(db, file).filter(|_| !db.has_drifted(file))
 }

@@ -1,0 +1,69 @@
+//! What a run found out itself of files and directories, for holding it against what is kept of them.
+
+use std::collections::{HashMap, HashSet};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_cache::{DirectoryFact, Stamp};
+use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
+
+use super::FreshResult;
+use crate::session::Session;
+
+/// What a run read, asked and wrote.
+pub(super) struct Seen<'a> {
+    db: &'a Database,
+    /// The drawings that were read; `None` where one could not be read, or was not always the same.
+    read: HashMap<Utf8PathBuf, Option<Content>>,
+    /// The directories that were asked for names.
+    asked: HashSet<&'a Utf8Path>,
+    /// The files that were written or compared.
+    written: HashSet<&'a Utf8Path>,
+}
+
+/// The hash of the bytes of a file, and the stamp that they were read under.
+pub(super) type Content = ([u8; 32], Stamp);
+
+impl<'a> Seen<'a> {
+    pub(super) fn new(session: &'a Session<'a>, made: &'a [FreshResult]) -> Self {
+        let db = session.db();
+        let traces = || made.iter().flat_map(|made| &made.traces);
+        let read = traces().flat_map(|trace| &trace.files);
+        let asked = traces().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories);
+        Self {
+            db,
+            read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
+            asked: asked.map(|directory| &**directory).collect(),
+            written: made.iter().flat_map(|made| &made.outputs).map(|output| &*output.path).collect(),
+        }
+    }
+
+    /// What was read of a drawing.
+    pub(super) fn content(&self, path: &Utf8Path) -> Option<Content> {
+        self.read.get(path).copied().flatten()
+    }
+
+    /// Whether something else was read of a drawing than bytes with this hash.
+    pub(super) fn is_other(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
+        self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
+    }
+
+    /// Whether a file was written or compared.
+    pub(super) fn has_written(&self, path: &Utf8Path) -> bool {
+        self.written.contains(path)
+    }
+
+    /// Whether the database found the same names in a directory, if it looked.
+    pub(super) fn agrees(&self, fact: &DirectoryFact) -> bool {
+        if !self.asked.contains(&*fact.path) {
+            return true;
+        }
+        let mut seen: Vec<&str> = drawing_names(self.db, self.db.directory(&fact.path)).iter().collect();
+        seen.sort_unstable();
+        seen.into_iter().eq(fact.names.iter())
+    }
+}
+
+/// What was read of a drawing, if that was always the same.
+fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
+    content(db, file).filter(|_| !db.has_drifted(file))
+}
