@@ -144,7 +144,7 @@ impl Caller<'_, '_> {
                 self.hole(hole)
             }
             What::Rapid { to } => {
-                self.length("ZClearance", operation.clearance);
+                self.length("ZClearance", operation.clearance.max(self.at[2]));
                 self.change_tool(operation)?;
                 self.move_to(*to);
                 self.runner.call(ControlTextKind::Rapid)

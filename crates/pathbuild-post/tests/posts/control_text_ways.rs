@@ -109,6 +109,15 @@ fn a_hole_is_left_as_high_as_the_way_behind_it() {
     steps.push(rapid(40.0, 10.0, 25.0));
     let lines = written(&with_point(), &high(steps));
     assert_eq!(lifts(&lines).last(), Some(&"+25"), "at the end too: {lines:?}");
+    let near = holes();
+    let mut high_exit = near.clone();
+    if let Some(Step::Hole(last)) = high_exit.last_mut() {
+        last.exit = 25.0;
+    }
+    for (steps, end) in [(near, "+4"), (high_exit, "+25")] {
+        let lines = written(&with_point(), &high(steps));
+        assert_eq!(lifts(&lines).last(), Some(&end), "where the hole itself ends: {lines:?}");
+    }
 }
 
 #[test]
@@ -174,6 +183,25 @@ fn a_tool_is_changed_above_where_the_tool_is() {
     let lines = written(DIN, &job);
     let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
     assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
+}
+
+#[test]
+fn between_operations_the_tool_is_as_high_as_the_higher_of_them() {
+    let definition = DIN.replace("contour-end =", "rapid = 'G00 X{+~X1~} Y{+~Y1~} Z{+~Z1~}'\ncontour-end =");
+    let mill = |tool, x, top| {
+        let steps = vec![feed(x, 0.0, -1.0), rapid(x, 0.0, top)];
+        let entry = Entry::At([x, 0.0, top]);
+        Operation { clearance: top, entry, speed: Some(1000.0), ..operation("m", tool, steps) }
+    };
+    for (second, first_top, second_top) in [(1, 25.0, 5.0), (2, 25.0, 5.0), (2, 5.0, 25.0)] {
+        let operations = vec![mill(1, 1.0, first_top), mill(second, 60.0, second_top)];
+        let job = Job { operations, ..job(vec![]) };
+        let lines = written(&definition, &job);
+        let over = lines.iter().find(|line| line.starts_with("G00 X+60")).expect("the way over");
+        assert_eq!(over, "G00 X+60 Y+0 Z+25", "{lines:?}");
+        let change = lines.iter().rposition(|line| line.starts_with('T')).expect("a tool");
+        assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
+    }
 }
 
 #[test]
