@@ -39,7 +39,7 @@ fn depths(hole: &Hole) -> Result<Vec<f64>, Box<Diagnostic>> {
     let mut depths = Vec::new();
     let mut z = hole.retract - depth;
     while z > hole.bottom {
-        if depths.len() == MOST_PECKS || depth <= 0.0 {
+        if depths.len() == MOST_PECKS {
             let place = Point::new(hole.at[0], hole.at[1]);
             let diagnostic =
                 Diagnostic::new(&posts::TOO_MANY_PECKS).with("limit", MOST_PECKS).with("place", place);
@@ -57,15 +57,12 @@ mod tests {
     use super::*;
 
     fn heights(kind: HoleKind) -> Vec<f64> {
-        let hole = Hole {
-            at: [1.0, 2.0],
-            level: 20.0,
-            retract: 10.0,
-            bottom: 4.0,
-            exit: 20.0,
-            feed: Some(60.0),
-            kind,
-        };
+        heights_from(20.0, kind)
+    }
+
+    fn heights_from(level: f64, kind: HoleKind) -> Vec<f64> {
+        let hole =
+            Hole { at: [1.0, 2.0], level, retract: 10.0, bottom: 4.0, exit: 20.0, feed: Some(60.0), kind };
         let z = |step: &Step| match step {
             Step::Rapid { to } | Step::Feed { to, .. } => to.z,
             _ => None,
@@ -76,6 +73,7 @@ mod tests {
     #[test]
     fn a_plain_hole_is_drilled_in_one_go() {
         assert_eq!(heights(HoleKind::Plain), [20.0, 10.0, 4.0, 20.0]);
+        assert_eq!(heights_from(10.0, HoleKind::Plain), [10.0, 4.0, 20.0], "it is there already");
     }
 
     #[test]
@@ -83,6 +81,8 @@ mod tests {
         let expected = [20.0, 10.0, 7.0, 10.0, 7.254, 4.0, 20.0];
         assert_eq!(heights(HoleKind::Peck { depth: 3.0 }), expected, "exactly two goes");
         assert_eq!(heights(HoleKind::Peck { depth: 2.9 }).len(), 10, "a third for the rest");
+        let shallow = heights(HoleKind::Peck { depth: 0.2 });
+        assert!(shallow[1..shallow.len() - 1].iter().all(|z| *z <= 10.0), "no higher than it goes up");
     }
 
     #[test]
@@ -98,5 +98,7 @@ mod tests {
         };
         assert!(moves(&hole(-1001.0)).is_ok());
         assert!(moves(&hole(-1002.0)).is_err());
+        let kind = HoleKind::Peck { depth: 0.0 };
+        assert!(moves(&Hole { kind, ..hole(-1.0) }).is_err());
     }
 }
