@@ -96,6 +96,9 @@ fn pieces_have_the_feed_of_the_whole() {
 fn moves_that_go_nowhere_do_not_count() {
     assert_same("G1 X10\nX10\nG0 X10\nG1 Y10", "G1 X10\nY10");
     assert_same("G1 X10\nG0 Z5\nG1 Y10", "G1 X10\nY10");
+    // What a short arc's end is moved by so that it is no circle.
+    assert_same("G1 X10\nX10.0014\nX10 Y10", "G1 X10\nY10");
+    assert!(differ("G1 X10\nX10.0016\nX10 Y10", "G1 X10\nY10").is_some());
 }
 
 #[test]

@@ -467,6 +467,8 @@ fn it_is_said_once_until_the_spindle_is_switched_again() {
         wrong(&format!("G0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}\nM5\nM3 S0\n{cuts}\nM5"), &Checks::default()),
         ["3 spindle-off", "8 spindle-off", "13 spindle-off"]
     );
+    let again = format!("M3 S5\nM5\nG0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}");
+    assert_eq!(wrong(&again, &Checks::default()), ["5 spindle-off"], "it was off before");
 }
 
 #[test]
