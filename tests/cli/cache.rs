@@ -261,6 +261,17 @@ fn settings_that_matter_ask_another_question() {
     assert_eq!(held(&place), "5 / 5");
 }
 
+/// What was read of a drawing at which earlier results were not looked is what it is now.
+#[test]
+fn a_drawing_is_known_as_it_was_read_last() {
+    let place = library();
+    place.run("check ./library/parts");
+    write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 5, &[]), path("1001.2P", 5, &[])]);
+    place.run("check ./library/projects");
+    let again = place.run("check -v ./library/projects");
+    assert!(again.stderr.contains("results still hold: 3 / 3"), "{again}");
+}
+
 /// With its example value the path is right, with the other it is milled through the table.
 #[test]
 fn a_check_with_all_values_is_another_question() {

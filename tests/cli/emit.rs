@@ -216,21 +216,28 @@ fn measured_values_are_current() {
     let values = place.read("projects/8002_Z.txt");
     let place = place.file("projects/8002_Z.txt", values.replace("=\n", "=5.125\r\n"));
     assert_eq!(place.run("emit --check 8002.1P").status, Some(0));
-    assert_eq!(place.run("emit 8002.1P").status, Some(0));
-    assert!(place.read("projects/8002_Z.txt").contains("=5.125"));
+    for option in ["", " --no-cache"] {
+        assert_eq!(place.run(&format!("emit 8002.1P{option}")).status, Some(0));
+        assert!(place.read("projects/8002_Z.txt").contains("=5.125"));
+    }
 }
 
 #[test]
 fn measured_values_of_other_probes_are_kept_unless_forced() {
     let place = library("probe 20,20", "probe 21,20");
     place.run("emit 8002.1P");
-    let values = place.read("projects/8002_Z.txt").replace('=', "=5.125");
+    let nothing_measured = place.read("projects/8002_Z.txt");
+    let values = nothing_measured.replace('=', "=5.125");
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &values);
     assert_snapshot!(place.run("emit 8002.1P"));
     assert_eq!(written(&place), ["projects/8002_Z.txt"], "nothing of that path is written");
     assert_eq!(place.read("projects/8002_Z.txt"), values);
     assert_eq!(place.run("emit 8002.1P --force").status, Some(0));
     assert!(!place.read("projects/8002_Z.txt").contains("5.125"));
+    // Where nothing is measured yet nothing is lost.
+    let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &nothing_measured);
+    assert_eq!(place.run("emit 8002.1P").status, Some(0));
+    assert_ne!(place.read("projects/8002_Z.txt"), nothing_measured);
 }
 
 /// G-code of the original tool has other comments, head and line ends. (issue 4)

@@ -240,14 +240,20 @@ fn a_new_drawing_and_one_that_is_gone_are_noticed() {
 
 #[test]
 fn an_edited_post_is_noticed() {
-    let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
+    let post = |who: &str| {
+        format!(
+            "<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile>\
+             <PostBuildCommand>/bin/cp</PostBuildCommand></PostProcessor>"
+        )
+    };
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
     let place = Place::of(&library).file("my.cbpp", post("bert"));
     let run = place.run("emit --post my.cbpp");
     assert_eq!(run.status, Some(0), "{run}");
     assert!(is_known(&place, "--post my.cbpp"));
     assert!(!is_known(&place, ""));
-    assert!(answer(&place, "--post my.cbpp").stderr.contains(" 0 not current\n"));
+    let run = answer(&place, "--post my.cbpp");
+    assert!(run.stderr.contains(" 0 not current\n") && run.stderr.contains("was not run"), "{run}");
     let place = place.file("my.cbpp", post("anna"));
     assert!(!is_known(&place, "--post my.cbpp"));
     let run = answer(&place, "--post my.cbpp");

@@ -95,6 +95,13 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     let said = watch.until("1002.dxf: changed");
     assert!(said.iter().any(|line| line.contains("8002_Milling.gcode: written")), "{said:#?}");
     assert_ne!(place.read("library/projects/8002_Milling.gcode"), other);
+
+    // What depended on the edited drawing no longer does.
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
+    watch.until("1002.dxf: changed");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.last().unwrap().contains(": changed; 2 drawings checked"), "{said:#?}");
 }
 
 /// Names of drawings and directories are none of paths: who writes them there would wait for programs in vain.
@@ -239,6 +246,31 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         std::thread::sleep(Duration::from_millis(pause));
         watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
         let said = watch.until("1002.dxf: changed");
+        assert_eq!(difference(&said), -wrong, "mended after {pause} ms: {said:#?}");
+    }
+}
+
+/// The same with a drawing that goes while it is still open: it is not asked.
+#[test]
+fn a_drawing_that_goes_while_it_waits_is_not_asked() {
+    const PROJECTS: usize = 200;
+    let name = |index: usize| format!("library/projects/{}.1P.dxf", 8100 + index);
+    let place = (0..PROJECTS).fold(library(), |place, index| {
+        place.file(&name(index), dxf(&format!("{}.1P", 8100 + index), 5, &["1001.1P"]))
+    });
+    let watch = Watch::begin(&place, "watch --format concise");
+    for (index, pause) in [65, 90, 120, 180, 260].into_iter().enumerate() {
+        // The last in order of name that is left: 8001 and others before it are wrong then.
+        let wrong = i64::try_from(PROJECTS - index).unwrap();
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+        std::thread::sleep(Duration::from_millis(pause));
+        let last = name(PROJECTS - 1 - index);
+        fs::remove_file(place.path().join(&last)).unwrap();
+        let said = watch.until(&format!("{last}: removed"));
+        assert_eq!(difference(&said), wrong, "after {pause} ms: {said:#?}");
+
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+        let said = watch.until("1001.dxf: changed");
         assert_eq!(difference(&said), -wrong, "mended after {pause} ms: {said:#?}");
     }
 }
