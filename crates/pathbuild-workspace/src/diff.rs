@@ -11,9 +11,6 @@ use pathbuild_view::{Group, Picture, ScenePath, Totals, changes_svg, compare, gr
 use crate::inputs::Inputs;
 use crate::session::{Session, by_name};
 
-/// So many drawings at a time are compiled.
-const BATCH: usize = 256;
-
 /// One of the two sides: drawings below a directory.
 #[derive(Debug)]
 pub struct Tree<'s, 'w> {
@@ -151,7 +148,7 @@ impl Tree<'_, '_> {
         let files = wanted.whole(self.session);
         let mut problems = wanted.problems;
         let root = self.session.normal(self.root);
-        let found = self.session.in_batches(&files, BATCH, |session, files| {
+        let found = self.session.in_batches_of_programs(&files, |session, files| {
             session.read_ahead(files);
             let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
             problems.extend(broken.filter(|problem| problem.is_error()).cloned());

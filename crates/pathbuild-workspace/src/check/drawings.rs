@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 /// So many drawings are checked before what was read from them is dropped.
-const BATCH: usize = 1024;
+const BATCH: usize = 512;
 
 /// What is found in drawings, each with what it was found from.
 pub fn check_drawings(

@@ -42,7 +42,7 @@ pub(super) fn deliver_all(
             }
             delivered
         };
-        let made = session.in_batches(&numbered, BATCH, |session, jobs| session.guarded(jobs, made));
+        let made = session.in_batches_of_programs(&numbered, |session, jobs| session.guarded(jobs, made));
         drop(sender);
         let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
         (made, written.unwrap_or_default())
@@ -57,9 +57,6 @@ pub(super) fn deliver_all(
     };
     made.into_iter().zip(jobs).map(given_up).collect()
 }
-
-/// So many jobs are done before the paths that they were made from are dropped.
-const BATCH: usize = 48;
 
 /// How many jobs may wait for being written. Their texts are in memory meanwhile.
 const BEHIND: usize = 32;

@@ -140,9 +140,6 @@ impl Session<'_> {
 /// So many drawings are read at most for the names of their paths: half a second.
 const MOST_UNKNOWN: usize = 2000;
 
-/// So many paths are looked at before what was read for them is dropped.
-const BATCH: usize = 256;
-
 impl Request<'_> {
     /// Lists, in a session of its own.
     ///
@@ -205,7 +202,7 @@ fn list_paths(
     paths: &[(SourceFile, PathName)],
     poster: Option<&PostProcessor>,
 ) -> Vec<ListedPath> {
-    let mut listed = session.in_batches(paths, BATCH, known);
+    let mut listed = session.in_batches_of_programs(paths, known);
     compare(session, poster, paths, &mut listed);
     listed
 }

@@ -107,6 +107,16 @@ impl Session<'_> {
         results
     }
 
+    /// The same where programs are made: a few a thread at a time, each of which may have hundreds of thousands of steps.
+    pub fn in_batches_of_programs<T, R>(
+        &mut self,
+        all: &[T],
+        work: impl FnMut(&Self, &[T]) -> Vec<R>,
+    ) -> Vec<R> {
+        const PROGRAMS: usize = 6;
+        self.in_batches(all, PROGRAMS * self.threads(), work)
+    }
+
     /// Checks targets; the order of the results is that of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         self.each(targets, |asking, target| asking.check(*target))
@@ -181,6 +191,12 @@ impl Session<'_> {
         if self.context.jobs != Some(1) {
             self.workers();
         }
+    }
+
+    /// How many threads work.
+    fn threads(&self) -> usize {
+        let shared = || self.workers().map_or(1, Workers::count);
+        if self.context.jobs == Some(1) { 1 } else { shared() }
     }
 
     /// The worker threads, started when they are first wanted; `None` where the system gives none.

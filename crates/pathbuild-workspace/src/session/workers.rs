@@ -29,6 +29,11 @@ impl Workers {
         Some(Self { pool, is_wanted })
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
     /// Does work that shares itself out.
     pub(super) fn work<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.is_wanted.store(true, Ordering::Relaxed);
