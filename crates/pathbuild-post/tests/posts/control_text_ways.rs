@@ -40,6 +40,11 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps.clone()));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+25", "{lines:?}");
+    // What is higher than the path's own clearance is gone over as the program does.
+    steps[4] = rapid(10.0, 40.0, 30.0);
+    let lines = written(DIN, &high(steps));
+    let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
+    assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
     // A straight way at the same height needs no lift.
     let straight = vec![
         rapid(0.0, 0.0, 2.0),
