@@ -93,9 +93,12 @@ fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Cur
     if let Some(checked) = checked.iter().find(|checked| !checked.missing_options.is_empty()) {
         return Current::NeedsOptions(checked.missing_options.clone());
     }
-    let now = program(db, target)
-        .as_deref()
-        .map(|program| Provenances::new(&session.workspace().settings, None).of(&[program]));
+    let now = match session.of_target(target, |db| program(db, target).clone()) {
+        Ok(now) => now,
+        Err(problem) => return Current::Wrong(vec![*problem]),
+    };
+    let now =
+        now.as_deref().map(|program| Provenances::new(&session.workspace().settings, None).of(&[program]));
     if now.is_some_and(|now| now.moves == found.moves) {
         Current::Same
     } else {

@@ -130,6 +130,17 @@ impl Session<'_> {
         self.timings.measure(&CHECKING, || self.spread(items, work))
     }
 
+    /// Asks about a target what its check did not ask.
+    ///
+    /// # Errors
+    /// PB005 where that takes too long, PB001 where a drawing changed meanwhile, PB006 where it shows a bug.
+    pub fn of_target<R>(&self, target: Target, ask: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
+        let limit = self.limit();
+        let _watched = self.watchdog.get_or_init(|| Watchdog::start(limit)).begin(&self.db);
+        let asked = self.db.guarded(limit, || ask(&self.db));
+        asked.map_err(|problem| Box::new(about(&self.db, target, *problem)))
+    }
+
     pub(super) fn limit(&self) -> Duration {
         self.context.settings.limits.seconds_per_path.value
     }

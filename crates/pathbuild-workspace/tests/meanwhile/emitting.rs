@@ -8,7 +8,9 @@ use camino::Utf8PathBuf;
 use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_workspace::emit::Task;
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::emit::{Current, Task, current};
+use pathbuild_workspace::session::Session;
 
 use crate::mischief::{Event, Mischief};
 use crate::on_disk::{EMITTING, OnDisk, long};
@@ -46,6 +48,19 @@ fn a_program_that_another_changes_meanwhile_is_written_again() {
     }
 }
 
+/// A machine on which what is begun when the clock is looked at for the n-th time has taken long already.
+fn busy(time: i64) -> Arc<Mischief> {
+    Arc::new(Mischief {
+        trigger: String::new(),
+        countdown: AtomicI64::new(time),
+        lasts: false,
+        is_before: false,
+        event: Event::Busy,
+        victim: Utf8PathBuf::new(),
+        bytes: Vec::new(),
+    })
+}
+
 /// A machine that is busy for a moment, whenever that is: a path is walked along for its check and for its program.
 #[test]
 fn no_program_lacks_what_took_too_long() {
@@ -59,19 +74,28 @@ fn no_program_lacks_what_took_too_long() {
     let expected = emitted(Arc::new(OsSystem));
     assert!(expected.0.is_empty() && expected.1.is_some());
     let is_given_up = |time: &i64| {
-        let busy = Mischief {
-            trigger: String::new(),
-            countdown: AtomicI64::new(*time),
-            lasts: false,
-            is_before: false,
-            event: Event::Busy,
-            victim: Utf8PathBuf::new(),
-            bytes: Vec::new(),
-        };
-        let found = emitted(Arc::new(busy));
+        let found = emitted(busy(*time));
         let is_given_up = found == (vec![Code::LimitReached], None);
         assert!(is_given_up || found == expected, "the clock is looked at for the {time}th time: {found:?}");
         is_given_up
+    };
+    assert!((1..10).filter(is_given_up).count() >= 2);
+}
+
+/// The same of a program on disk that is held against its drawing.
+#[test]
+fn no_program_is_held_against_what_took_too_long() {
+    let place = OnDisk::configured(EMITTING, &[(DRAWING, &long("8001.1P"))]);
+    place.emit(Arc::new(OsSystem), false, WRITE);
+    let program = fs::read(place.path().join(PROGRAM)).unwrap();
+    let is_given_up = |time: &i64| {
+        let workspace = place.workspace(&Inputs::default(), busy(*time), false);
+        let beside = place.path().join("lib");
+        match current(&mut Session::new(&workspace), &program, &beside, None) {
+            Current::Same => false,
+            Current::Wrong(found) if matches!(&*found, [one] if one.code() == Code::LimitReached) => true,
+            other => panic!("the clock is looked at for the {time}th time: {other:?}"),
+        }
     };
     assert!((1..10).filter(is_given_up).count() >= 2);
 }

@@ -51,9 +51,12 @@ impl Against {
             let names = checked.missing_options.iter().map(|option| option.name());
             return Err(Failure::Usage(missing_values(context, names)));
         }
-        let drawn = program(session.db(), target).clone().ok_or_else(|| Failure::Found(Vec::new()))?;
-        let placed = placed_keep_outs(session.db(), target).into_iter().map(|clamp| clamp.placed);
-        let placed: Vec<KeepOut> = placed.collect();
+        let made = session.of_target(target, |db| {
+            let placed = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed);
+            (program(db, target).clone(), placed.collect::<Vec<KeepOut>>())
+        });
+        let (drawn, placed) = made.map_err(|problem| Failure::Found(vec![*problem]))?;
+        let drawn = drawn.ok_or_else(|| Failure::Found(Vec::new()))?;
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
         let file = target.file(session.db()).path(session.db()).clone();
         Ok(Self { drawn, file, clamps })
