@@ -103,10 +103,9 @@ impl Post {
         }
     }
 
-    /// The dialect in which its output is read back, if it names its own or `named` is one; and whether that is the target's own, or only
-    /// understands its moves.
-    pub fn reader(&self, named: Option<&str>) -> Option<(Dialect, bool)> {
-        Target::of(named.or(self.dialect())?).map(|target| (target.reader, true))
+    /// The dialect in which its output is read back, if it names its own or `named` is one.
+    pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
+        Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
     /// Writes a program.

@@ -57,10 +57,10 @@ fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
         Ok(text) => text,
         Err(errors) => return at(texts(&errors)),
     };
-    let (dialect, is_exact) = definition.reader(None)?;
+    let dialect = definition.reader(None)?;
     let read = interpret(&text, dialect, &Options::default());
     let errors: Vec<Diagnostic> = read.problems.iter().filter(|it| it.is_error()).cloned().collect();
-    if is_exact && !errors.is_empty() {
+    if !errors.is_empty() {
         return at(texts(&errors));
     }
     let difference = compare(&read.moves(), &moves_of(&it.program), &tolerance(post))?;

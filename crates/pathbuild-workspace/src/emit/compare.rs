@@ -43,18 +43,16 @@ pub(super) fn compare(
 /// How programs are read to be compared.
 struct Reading {
     dialect: Dialect,
-    /// The dialect is the program's own; else what it does not understand is no mistake.
-    is_exact: bool,
     tolerance: Tolerance,
 }
 
 impl Reading {
     fn of(poster: Option<&PostProcessor>) -> Option<Self> {
         let Some(poster) = poster else {
-            return Some(Self { dialect: Dialect::Native, is_exact: true, tolerance: TOLERANCE });
+            return Some(Self { dialect: Dialect::Native, tolerance: TOLERANCE });
         };
-        let (dialect, is_exact) = poster.reader()?;
-        Some(Self { dialect, is_exact, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
+        let dialect = poster.reader()?;
+        Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
     }
 }
 
@@ -69,7 +67,7 @@ fn difference(present: &[u8], expected: &[u8], reading: &Reading) -> Vec<Diagnos
     let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
     let found = read(present);
     let errors: Vec<Diagnostic> = found.problems.iter().filter(|it| it.is_error()).cloned().collect();
-    if reading.is_exact && !errors.is_empty() {
+    if !errors.is_empty() {
         return errors;
     }
     let difference = verify::compare(&found.moves(), &read(expected).moves(), &reading.tolerance);

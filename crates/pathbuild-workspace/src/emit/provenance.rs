@@ -28,10 +28,9 @@ impl Provenances {
         add(&(general.z_model.value, settings.z_split()));
         add(&(settings.comment_lang(), general.charset.value));
         options.extend(poster.map(PostProcessor::identity).unwrap_or_default());
-        let own = |(dialect, is_own): (Dialect, bool)| is_own.then_some(dialect);
         let dialect = match poster {
             None => Some(Dialect::Native),
-            Some(poster) => poster.reader().and_then(own),
+            Some(poster) => poster.reader(),
         };
         Self { options, dialect }
     }

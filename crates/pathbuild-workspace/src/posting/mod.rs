@@ -163,8 +163,8 @@ impl PostProcessor {
         self.post.extension()
     }
 
-    /// The dialect in which its output is read back, if that is known, and whether it is the target's own.
-    pub fn reader(&self) -> Option<(Dialect, bool)> {
+    /// The dialect in which its output is read back, if that is known.
+    pub fn reader(&self) -> Option<Dialect> {
         self.post.reader(self.wishes.dialect.as_deref())
     }
 

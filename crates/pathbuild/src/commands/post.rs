@@ -149,8 +149,7 @@ fn output(
     drop(steps);
     if let Some((provenance, title)) = head {
         // It is the same program in another dialect.
-        let dialect = poster.reader().and_then(|(dialect, is_own)| is_own.then_some(dialect));
-        job.remarks = vec![Provenance { dialect, ..provenance }.to_string().into(), title];
+        job.remarks = vec![Provenance { dialect: poster.reader(), ..provenance }.to_string().into(), title];
     }
     if let Some(surface) = surface {
         job.set_surface(surface);
