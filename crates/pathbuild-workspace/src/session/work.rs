@@ -114,7 +114,9 @@ impl Session<'_> {
         work: impl FnMut(&Self, &[T]) -> Vec<R>,
     ) -> Vec<R> {
         const PROGRAMS: usize = 6;
-        self.in_batches(all, PROGRAMS * self.threads(), work)
+        // Threads are not started for a few programs.
+        let threads = if all.len() > PROGRAMS { self.threads() } else { 1 };
+        self.in_batches(all, PROGRAMS * threads, work)
     }
 
     /// Checks targets; the order of the results is that of the targets.

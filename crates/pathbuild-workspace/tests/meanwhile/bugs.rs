@@ -166,25 +166,11 @@ fn a_bug_in_listing_removes_no_program() {
         let listing = OsSystem.list(&place.path().join("out")).unwrap().files;
         sorted(listing.iter().map(str::to_owned).collect())
     };
-    let inputs = Inputs::default();
-    let emit = |system| {
-        let workspace = place.workspace(&inputs, system, false);
-        let task = Task::Write { force: false };
-        let request = emit::Request {
-            inputs: &inputs,
-            task,
-            poster: None,
-            join: None,
-            deps: None,
-            removes_stale: true,
-        };
-        request.run(&mut request.session(&workspace)).unwrap()
-    };
-    emit(Arc::new(OsSystem));
+    place.emit(Arc::new(OsSystem), false, true);
     let before = programs();
     assert!(before.len() > 1, "{before:?}");
     for time in 1..8 {
-        let made = emit(bug(&place, "lib/parts", time, true));
+        let made = place.emit(bug(&place, "lib/parts", time, true), false, true);
         assert!(made.removed.is_empty() && programs() == before, "time {time}: {:?}", made.removed);
     }
 }

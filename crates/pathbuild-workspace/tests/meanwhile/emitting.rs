@@ -9,7 +9,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::emit::{Current, Task, current};
+use pathbuild_workspace::emit::{Current, current};
 use pathbuild_workspace::session::Session;
 
 use crate::mischief::{Event, Mischief};
@@ -17,7 +17,6 @@ use crate::on_disk::{EMITTING, OnDisk, long};
 
 const DRAWING: &str = "lib/8001.1P.dxf";
 const PROGRAM: &str = "lib/8001.1P_Milling.gcode";
-const WRITE: Task = Task::Write { force: false };
 
 fn place() -> OnDisk {
     let drawn = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
@@ -39,10 +38,10 @@ fn a_program_that_another_changes_meanwhile_is_written_again() {
             victim: program.clone(),
             bytes: b"(another's)\n".to_vec(),
         };
-        place.emit(Arc::new(meanwhile), true, WRITE);
+        place.emit(Arc::new(meanwhile), true, false);
         let of_another = fs::read_to_string(&program);
         assert!(of_another.is_err() || of_another.is_ok_and(|it| it == "(another's)\n"), "{event:?}");
-        place.emit(Arc::new(OsSystem), true, WRITE);
+        place.emit(Arc::new(OsSystem), true, false);
         let written = fs::read_to_string(&program);
         assert!(written.is_ok_and(|it| it.contains("8001.1P")), "{event:?}");
     }
@@ -67,7 +66,7 @@ fn no_program_lacks_what_took_too_long() {
     let drawn = long("8001.1P");
     let emitted = |system: Arc<dyn System>| {
         let place = OnDisk::configured(EMITTING, &[(DRAWING, &drawn)]);
-        let made = place.emit(system, false, WRITE);
+        let made = place.emit(system, false, false);
         let codes: Vec<Code> = made.diagnostics.iter().map(Diagnostic::code).collect();
         (codes, fs::read_to_string(place.path().join(PROGRAM)).ok())
     };
@@ -86,7 +85,7 @@ fn no_program_lacks_what_took_too_long() {
 #[test]
 fn no_program_is_held_against_what_took_too_long() {
     let place = OnDisk::configured(EMITTING, &[(DRAWING, &long("8001.1P"))]);
-    place.emit(Arc::new(OsSystem), false, WRITE);
+    place.emit(Arc::new(OsSystem), false, false);
     let program = fs::read(place.path().join(PROGRAM)).unwrap();
     let is_given_up = |time: &i64| {
         let workspace = place.workspace(&Inputs::default(), busy(*time), false);

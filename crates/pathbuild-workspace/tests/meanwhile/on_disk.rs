@@ -111,17 +111,17 @@ impl OnDisk {
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
     }
 
-    /// Writes, or compares, the programs that the configuration names.
-    pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, task: Task) -> Emission {
+    /// Writes the programs that the configuration names, and removes, if that is wanted, those that nothing gives any more.
+    pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, removes_stale: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
         let request = emit::Request {
             inputs: &inputs,
-            task,
+            task: Task::Write { force: false },
             poster: None,
             join: None,
             deps: None,
-            removes_stale: false,
+            removes_stale,
         };
         request.run(&mut request.session(&workspace)).unwrap()
     }
