@@ -212,6 +212,39 @@ fn a_fault_within_a_component_is_said_once() {
     assert!(run.stderr.contains("1234.1P.dxf:"), "{run}");
 }
 
+/// Heights are those of the drawing in which it stands, by however much H raises it.
+#[test]
+fn a_fault_within_a_component_has_the_components_heights() {
+    let place = embedding("sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P H1\"\nend 20,9\n")
+        .file("1234.1P.dxf", dxf(&COMPONENT.replace("2,3 7,3", "2,0.5 7,0.5")));
+    let run = place.run("check 8001.1P.dxf --format concise");
+    assert!(run.stderr.contains("which is 20 mm high: cut, lowest Z 0, moves: 1"), "{run}");
+    assert_eq!(codes(&run), ["407"], "{run}");
+}
+
+/// The path that is emitted may have another O than what it embeds.
+#[test]
+fn the_largest_cutter_of_a_program_keeps_away() {
+    let component = "layer 1235.1P\nstart 0,0 \"T5 O6 I5 B0 S21 MAl\"\nmill 0,0 40,0\nend 40,0\n";
+    let found = |y: &str| {
+        let project = format!("sweep 0,0 0,{y}\nsubpath 0,{y} 40,{y} \">1235.1P O6\"\nend 40,{y}\n{CLAMP}");
+        let place = embedding(&project).file("1235.1P.dxf", dxf(component));
+        let run = place.run("check 8001.1P.dxf --format concise");
+        assert!(codes(&run).is_empty() || run.stderr.contains("the tool, O6, comes into"), "{run}");
+        codes(&run)
+    };
+    assert_eq!(found("7"), [""; 0]);
+    assert_eq!(found("7.01"), ["407"]);
+}
+
+/// PathDxf2GCode knows no polylines, and no clamps either.
+#[test]
+fn clamps_are_of_all_curves_in_compatible_mode_too() {
+    let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));
+    fs::write(place.path().join("pathbuild.toml"), format!("compatible = true\n{OPTIONS}")).unwrap();
+    assert_found(&place, &["407"]);
+}
+
 /// Through a post too, and the program of a post is held against clamps as the native one is.
 #[test]
 fn posts_and_verify_know_clamps() {

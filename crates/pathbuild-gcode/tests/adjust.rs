@@ -499,6 +499,15 @@ fn tilted_and_bent_plates_have_no_odd_probes() {
     assert_eq!(odd(|x, y| 0.5 * x * y), [""; 0]);
 }
 
+/// A twisted plate's corners lie 0.1 mm from the plane through all: eight probes less the plane's three leave five for their scatter,
+/// which is 0.1 * sqrt(4/5 * 9/8) where the middle one is.
+#[test]
+fn a_probe_is_odd_beyond_four_times_the_scatter_of_the_others() {
+    let raised = |middle: f64| odd(|x, y| if (x, y) == (0.0, 0.0) { middle } else { 0.1 * x * y });
+    assert_eq!(raised(0.379), [""; 0]);
+    assert_eq!(raised(0.380), ["PB607 #55 is 0.38 mm higher than its neighbours let expect"]);
+}
+
 #[test]
 fn programs_that_do_not_say_where_probes_are_have_none_either() {
     let (program, values) = grid(|x, y| if (x, y) == (0.0, 0.0) { 0.9 } else { 0.0 });

@@ -117,6 +117,19 @@ fn probes_on_a_line_say_nothing_across_it() {
     }
 }
 
+/// Whichever way the line runs, and whichever way round its probes stand.
+#[test]
+fn a_line_of_probes_may_run_in_any_direction() {
+    for (x, y) in [(1.0, 0.0), (0.0, 1.0), (3.0, 1.0), (1.0, 3.0), (-1.0, 3.0), (3.0, -1.0), (0.1, -7.0)] {
+        let line = [(0.0, 0.0), (10.0 * x, 10.0 * y), (20.0 * x, 20.0 * y)];
+        let along = |at: (f64, f64)| (at.0 * x + at.1 * y) / (x * x + y * y);
+        for (part, aside) in [(5.0, 0.0), (5.0, 4.0), (17.0, -3.0)] {
+            let at = (part * x - aside * y, part * y + aside * x);
+            assert_near(&[modelled(ZModel::Plane, &line, |x, y| along((x, y)), at)], &[part]);
+        }
+    }
+}
+
 #[test]
 fn probes_within_a_hundredth_of_a_line_are_on_it_for_the_plane() {
     // Extent along the line and across it are those of (-100, 0), (100, 0), (0, d), (0, -d).

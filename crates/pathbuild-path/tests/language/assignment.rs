@@ -2,7 +2,7 @@
 
 use pathbuild_path::{Curve, RawPath, Shape};
 
-use crate::support::{codes, raw};
+use crate::support::{codes, raw, read};
 
 /// A path whose start, end and their texts are far from everything else.
 fn drawing(statements: &str) -> RawPath {
@@ -274,4 +274,13 @@ fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     assert!(
         notes.into_iter().any(|note| note.contains("on layer 1234.1P~A it would belong to a line at (0, 0)"))
     );
+}
+
+/// A layer that holds texts alone is no path: the texts are lost, which is said.
+#[test]
+fn a_text_on_a_layer_without_elements_belongs_to_nothing() {
+    let file = read(
+        "layer 1235.1P\ntext 20,0.5 \"F100\"\nlayer 1234.1P\nstart 0,0 \"T5 O3 I1 B0\"\nmill 0,0 40,0\nend 40,0",
+    );
+    assert_eq!((codes(&file.diagnostics), file.paths.len()), (vec!["PB107".to_owned()], 1));
 }

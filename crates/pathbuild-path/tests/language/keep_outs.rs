@@ -229,6 +229,8 @@ fn clamps_are_found_among_many() {
     // What rounding may do is allowed for.
     let touching = flat(line([0.0, 10.9995], [5.0, 10.9995]), 5.0);
     assert_eq!((map.entered(&touching, 1.0, 0.0).len(), map.entered(&touching, 1.0, 0.001).len()), (1, 0));
+    let grazing = |z| map.entered(&flat(line([0.0, 5.0], [5.0, 5.0]), z), 1.0, 0.001).len();
+    assert_eq!([grazing(9.9995), grazing(9.9985)], [0, 1]);
 }
 
 fn curve() -> impl Strategy<Value = Curve> {

@@ -1,8 +1,8 @@
 //! Line types: their names, and what they mean on lines, arcs and circles. (book: language/line-types)
 
-use pathbuild_path::{Cut, LineType, LineTypeAliases, Role};
+use pathbuild_path::{Cut, LineType, LineTypeAliases, Role, SegmentKind};
 
-use crate::support::{codes, language, path, raw, read_as};
+use crate::support::{codes, compile, language, path, raw, read_as};
 
 fn named(name: &str) -> Option<LineType> {
     LineType::of(name, &LineTypeAliases::default())
@@ -126,4 +126,14 @@ fn circles_mean_what_the_table_says() {
 fn a_line_takes_its_layers_line_type() {
     let drawing = "layer 1234.1P DIVIDE\nstart 0,0 \"T5 O3 I1 D2\"\nline BYLAYER 0,0 20,0\nend 20,0";
     assert_eq!(raw(drawing).drawn.elements[0].role, Role::Cut(Cut::Mark));
+}
+
+/// What is written at a skipped subpath is for people: neither a name nor a letter of it counts, nor the path's own sweep height.
+#[test]
+fn the_text_of_a_skipped_subpath_is_not_read() {
+    let skipped = "line DOT 0,0 20,0 \">9999.9P S4 N9 XY\"\nmill 20,0 40,0\nend 40,0";
+    let compiled = compile(&path("T5 O3 I1 B0 S8", skipped));
+    let path = compiled.path.expect("nothing is wrong");
+    assert_eq!(codes(&compiled.found), [""; 0]);
+    assert!(matches!(path.segments[0].kind, SegmentKind::Sweep { height: None }), "{path:?}");
 }

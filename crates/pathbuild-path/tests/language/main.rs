@@ -19,6 +19,7 @@ mod line_types;
 mod mistakes;
 mod names;
 mod parameters;
+mod placement;
 mod range_table;
 mod stars;
 mod text_circle;

@@ -1,6 +1,6 @@
 //! Support bars. ("Support bars")
 
-use crate::support::{COMPATIBLE, moves, path, program_with, shown};
+use crate::support::{COMPATIBLE, estimate, moves, path, program_with, shown};
 
 /// 40 mm with four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
 const FOUR: &str = "T5 O3 D2 B0 P2 U8";
@@ -36,6 +36,12 @@ fn gaps_and_bars_follow_each_other() {
     assert_eq!(milled[..2], ["L 5", "D 2"]);
     assert_eq!(milled[2..19], SECTIONS);
     assert_eq!(milled[19..], ["L 10"]);
+}
+
+/// As in [`SECTIONS`], and a move down, for each of six passes.
+#[test]
+fn moves_over_bars_are_estimated() {
+    assert_eq!(estimate(&path(&format!("{FOUR} I1"), "bars 0,0 40,0\nend 40,0")), 6 * (17 + 1));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Milling chains, pass by pass. ("Chains, ordinary milling")
 
-use pathbuild_toolpath::{Move, Step};
+use pathbuild_toolpath::{Move, Step, memory};
 
 use crate::support::{COMPATIBLE, estimate, moves, moves_and_comments, path, program, program_with, shown};
 
@@ -192,4 +192,10 @@ fn moves_are_estimated_line_by_line() {
         estimate(&path("T5 O2 I1 B0", &lines))
     };
     assert_eq!([with_depth("B0"), with_depth("B3")], [36, 30]);
+}
+
+/// As docs/reliability.md says: 208 bytes, for a move and a comment.
+#[test]
+fn memory_is_estimated_with_a_comment_for_each_move() {
+    assert_eq!([memory(1), memory(1000), memory(u64::MAX)], [208, 208_000, u64::MAX]);
 }

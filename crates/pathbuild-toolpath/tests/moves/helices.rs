@@ -3,7 +3,8 @@
 use pathbuild_toolpath::{FoldOptions, Move, Step};
 
 use crate::support::{
-    COMPATIBLE, OPTIONS, counts, moves, moves_and_comments, path, program, program_with, short, shown,
+    COMPATIBLE, OPTIONS, counts, estimate, moves, moves_and_comments, path, program, program_with, short,
+    shown,
 };
 
 /// A sweep to a helical circle, and on.
@@ -175,6 +176,12 @@ fn circles_with_bars_go_down_by_infeeds() {
     assert_eq!(of_original("T5 O3 I0.7 B1 D2 P2 U21"), "1");
     // They are beyond B: the ring between D and B stays.
     assert_eq!(of_original("T5 O3 I5 B1 D2 P2 U21"), "");
+}
+
+/// By the circle on which the cutter's centre runs, 25.133 mm and not 28: two sweeps, 6 moves down to D, two passes of two bars.
+#[test]
+fn bars_of_a_circle_are_estimated_by_where_the_centre_runs() {
+    assert_eq!(estimate(&path("T5 O3 I2 B0 D2 P2 U7", &helix(BARS))), 2 * 4 + 6 + 2 * 9);
 }
 
 #[test]

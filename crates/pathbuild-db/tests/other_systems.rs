@@ -1,0 +1,45 @@
+//! Systems that stand for another: files in memory, and a drawing that is not written yet.
+#![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
+
+use std::sync::Arc;
+
+use camino::Utf8Path;
+use pathbuild_db::system::{MemorySystem, Overlay, ReadError, System};
+
+const NEW: &str = "parts/1002.dxf";
+
+/// Beside `1001.dxf`, in which case the new drawing is there as well.
+fn overlay(new: &str) -> Overlay {
+    let below = MemorySystem::default();
+    below.put("parts/1001.dxf", "old");
+    Overlay::new(Arc::new(below), new.into(), b"0123456789".to_vec())
+}
+
+fn names(system: &dyn System, directory: &str) -> Vec<String> {
+    let listing = system.list(Utf8Path::new(directory)).unwrap_or_default();
+    let mut names: Vec<String> = listing.files.iter().map(ToString::to_string).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_drawing_that_is_not_written_yet_is_read_up_to_the_limit() {
+    let path = Utf8Path::new(NEW);
+    assert_eq!(overlay(NEW).read(path, 10).as_deref(), Ok(&b"0123456789"[..]));
+    assert_eq!(overlay(NEW).read(path, 9), Err(ReadError::TooLarge { size: 10 }));
+    assert_eq!(overlay(NEW).read(Utf8Path::new("parts/1001.dxf"), 9).as_deref(), Ok(&b"old"[..]));
+}
+
+#[test]
+fn a_drawing_that_is_not_written_yet_is_listed_once_where_it_will_lie() {
+    assert_eq!(names(&overlay(NEW), "parts"), ["1001.dxf", "1002.dxf"]);
+    assert_eq!(names(&overlay("parts/1001.dxf"), "parts"), ["1001.dxf"]);
+    assert_eq!(names(&overlay("new/1002.dxf"), "parts"), ["1001.dxf"]);
+    assert_eq!(names(&overlay("new/1002.dxf"), "new"), ["1002.dxf"]);
+}
+
+#[test]
+fn there_are_systems_without_a_clock() {
+    assert!(MemorySystem::without_clock().now().is_none());
+    assert!(MemorySystem::default().now().is_some());
+}
