@@ -123,6 +123,9 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
     // The component is thinner than the plate: an error, and what lies there is older.
     let run = answer(&place, "");
     assert_eq!(run.status, Some(1), "{run}");
+    let rows = place.run("emit --check --format json").stdout;
+    let row = rows.lines().find(|row| row.contains("8001_Milling.gcode")).unwrap_or_default();
+    assert!(row.contains("\"path\":\"8001.1P\""), "{rows}");
     assert!(run.stdout.contains("8001_Milling.gcode: not current"), "{run}");
     let place = with(
         place,

@@ -72,6 +72,23 @@ fn what_is_written_is_limited() {
     }
 }
 
+/// Counted before they are made.
+#[test]
+fn the_moves_of_a_program_are_limited() {
+    let parameters = "T5 O2 I1 B0 MX";
+    let asked = place("embedding-moves = 1", parameters).run("check 1202.1P.dxf --no-cache");
+    assert_exceeds(&asked, "embedding-moves");
+    let (before, _) = asked.stderr.split_once(" moves").unwrap();
+    let count: u64 = before.rsplit(' ').next().unwrap().parse().unwrap();
+    for command in ["check 1202.1P.dxf", "emit 1202.1P.dxf"] {
+        let inside = place(&format!("embedding-moves = {count}"), parameters).run(command);
+        assert_eq!(inside.status, Some(0), "{inside}");
+        let outside = place(&format!("embedding-moves = {}", count - 1), parameters);
+        assert_exceeds(&outside.run(command), "embedding-moves");
+        assert_eq!(programs(&outside), [0; 0]);
+    }
+}
+
 /// Some hundred bytes of drawing each: whoever checks or emits them hears of it at once.
 #[test]
 fn few_bytes_do_not_become_gigabytes() {

@@ -342,6 +342,20 @@ fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     }
 }
 
+/// Programs are known by their extension: a person's copies are no machine's.
+#[test]
+fn copies_that_are_no_programs_by_name_are_left_alone() {
+    let place = library("");
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    for copy in ["1234_Milling.bak", "1234_Milling.txt", "1234_Milling.nc"] {
+        std::fs::copy(place.path().join("1234_Milling.gcode"), place.path().join(copy)).unwrap();
+    }
+    std::fs::remove_file(place.path().join("1234.dxf")).unwrap();
+    let stale = place.run("emit . --check --format concise");
+    let named = |name: &str| stale.stderr.contains(&format!("1234_Milling.{name}: warning[PB520]"));
+    assert_eq!(["gcode", "nc", "bak", "txt"].map(named), [true, true, false, false], "{stale}");
+}
+
 /// Also under another post than the one that wrote it, by the extension.
 #[test]
 fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {

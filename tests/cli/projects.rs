@@ -241,3 +241,14 @@ fn without_times(text: &str) -> String {
     });
     lines.collect::<Vec<_>>().join("\n")
 }
+
+/// What is meant is often in the drawing that is looked into.
+#[test]
+fn names_like_one_that_is_not_found_are_named() {
+    let place = Place::of(LIBRARY).file("projects/8009.dxf", {
+        let drawn = "layer 8009.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.9P\"\nend 40,0";
+        pathbuild_testkit::sheet(drawn).unwrap().to_dxf()
+    });
+    let run = place.run("check 8009.1P");
+    assert!(run.stderr.contains("similar names: 1234.1P, 1234.2P"), "{run}");
+}

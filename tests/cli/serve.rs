@@ -513,17 +513,19 @@ fn connections_that_say_nothing_are_closed() {
     events.after(first);
 }
 
-/// Programs that are written are current.
+/// Programs that are written are current, also through a post.
 #[test]
 fn with_emit_the_state_is_that_after_writing() {
-    let emits = format!("{CONFIGURATION}\n[emit]\ntargets = [\"1001*\"]\n");
-    let place = library().file("pathbuild.toml", emits);
-    let served = Served::begin(&place, "watch --emit --serve 127.0.0.1:0");
-    let state = || served.get("/api/library").json()["drawings"][0]["rows"][0]["state"].clone();
-    assert_eq!(state(), "current");
-    served.write("library/1001.dxf", dxf("1001.1P", 6));
-    served.until("1001.dxf: changed");
-    assert_eq!(state(), "current");
+    for post in ["", "post = \"linuxcnc\"\n"] {
+        let emits = format!("{post}{CONFIGURATION}\n[emit]\ntargets = [\"1001*\"]\n");
+        let place = library().file("pathbuild.toml", emits);
+        let served = Served::begin(&place, "watch --emit --serve 127.0.0.1:0");
+        let state = || served.get("/api/library").json()["drawings"][0]["rows"][0]["state"].clone();
+        assert_eq!(state(), "current", "{post}");
+        served.write("library/1001.dxf", dxf("1001.1P", 6));
+        served.until("1001.dxf: changed");
+        assert_eq!(state(), "current", "{post}");
+    }
 }
 
 #[test]

@@ -245,3 +245,18 @@ fn joined_paths_have_one_sheet_with_all_cutters() {
     }
     assert!(!svg.contains("started by hand"));
 }
+
+/// Clamps are where they are on the machine, whose zero is the path's start.
+#[test]
+fn clamps_are_listed_from_the_start() {
+    let drawing = "layer 1234.1P\nstart 100,50 \"T2 O2 I1 B0\"\nmill 100,50 140,50\nend 140,50\n\
+        layer clamps\npolyline 120,60 130,60 130,75 120,75 closed\ntext 121,64 \"Z20\"\n";
+    let place = Place::new()
+        .file("pathbuild.toml", format!("{OPTIONS}keep-out = 'clamps'\n"))
+        .file("1234.1P.dxf", dxf(drawing));
+    let run = place.run("sheet 1234.1P -o sheet.svg");
+    let svg = place.read("sheet.svg");
+    let texts = texts(&svg);
+    let row = texts.windows(4).any(|row| row == ["clamps", "20 to 30", "10 to 25", "20"]);
+    assert!(row, "{texts:?} {run}");
+}

@@ -141,6 +141,19 @@ fn links_that_lead_out_are_not_read() {
     }
 }
 
+/// What lies there is looked into as in one's own tree: of which path it is.
+#[test]
+fn programs_that_are_older_than_a_strangers_drawing_are_told() {
+    let wrong = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 50,0";
+    for option in ["", " --untrusted"] {
+        let place = repository("[emit]\ntargets = [\"*\"]");
+        assert_eq!(run(&place, &format!("emit .{option}")).status, Some(0));
+        let place = place.file("tree/work/1202.1P.dxf", sheet(wrong).unwrap().to_dxf());
+        let told = run(&place, &format!("emit .{option}"));
+        assert!(told.stderr.contains("1202.1P_Milling.gcode is older"), "{option}: {told}");
+    }
+}
+
 /// What a trusted run kept of a linked drawing is not what is said of a stranger's, also where the drawing has rested, and is not read again.
 #[test]
 fn kept_results_of_a_trusted_run_are_no_ones_of_a_stranger() {

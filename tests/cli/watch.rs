@@ -165,6 +165,32 @@ fn a_directory_by_its_name_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
+/// A drawing of the library may be hidden, where a rule takes it in again.
+#[test]
+fn a_hidden_drawing_that_counts_is_watched() {
+    let place = library()
+        .file("library/parts/.ignore", "!.1003.dxf\n")
+        .file("library/parts/.1003.dxf", dxf("1003.1P", 5, &[]))
+        .file("library/parts/.1004.dxf", dxf("1004.1P", 5, &[]));
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.write("library/parts/.1004.dxf", dxf("1004.1P", 5, &["1999.1P"]));
+    watch.write("library/parts/.1003.dxf", dxf("1003.1P", 5, &["1999.1P"]));
+    let said = watch.until(".1003.dxf: changed");
+    assert!(said.iter().any(|line| line.contains(".1003.dxf") && line.contains("PB503")), "{said:#?}");
+    assert!(!said.iter().any(|line| line.contains(".1004.dxf") && line.contains("PB503")), "{said:#?}");
+}
+
+/// What a component is wrong for itself is not asked where only projects are watched.
+#[test]
+fn an_edit_of_what_is_not_watched_asks_only_what_is() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch library/projects --format concise");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB506") && line.contains("8001.dxf")), "{said:#?}");
+    assert!(said.last().unwrap().contains(": changed; 1 drawing checked"), "{said:#?}");
+}
+
 #[test]
 fn a_drawing_that_is_being_written_is_waited_for() {
     let place = library();

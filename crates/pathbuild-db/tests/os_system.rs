@@ -1,6 +1,10 @@
 //! Files of the operating system.
 
+#[cfg(target_os = "linux")]
+use std::io::{Read, Write};
 use std::ops::ControlFlow;
+#[cfg(target_os = "linux")]
+use std::process::{Command, Stdio};
 
 use camino::{Utf8Path, Utf8PathBuf};
 #[cfg(unix)]
@@ -25,6 +29,25 @@ fn a_file_may_have_as_many_bytes_as_the_limit() {
     let (_directory, path) = file(1000);
     assert_eq!(OsSystem.read(&path, 1000).map(|bytes| bytes.len()), Ok(1000));
     assert_eq!(OsSystem.read(&path, 999), Err(ReadError::TooLarge { size: 1000 }));
+}
+
+/// Files of the kernel tell no size: here the environment of a process, which answers once it runs.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
+    let mut command = Command::new("cat");
+    command.env_clear().env("PATH", "/usr/bin:/bin").stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut process = command.env("X", "x".repeat(100_000)).spawn().expect("cat runs");
+    process.stdin.as_mut().expect("it is piped").write_all(b"?").expect("it is read");
+    process.stdout.as_mut().expect("it is piped").read_exact(&mut [0]).expect("it is written");
+    let path = Utf8PathBuf::from(format!("/proc/{}/environ", process.id()));
+    let length = "PATH=/usr/bin:/bin".len() + "X=".len() + 100_000 + 2;
+    let read = |limit| OsSystem.read(&path, limit).map(|bytes| bytes.len());
+    let read = [length as u64, length as u64 - 1, 65_536, 65_535].map(read);
+    process.kill().expect("it can be ended");
+    process.wait().expect("it has ended");
+    assert_eq!(read[0], Ok(length));
+    assert!(read[1..].iter().all(|read| matches!(read, Err(ReadError::TooLarge { .. }))), "{read:?}");
 }
 
 /// What was read before is not seen again, whether that was longer or shorter.

@@ -7,7 +7,7 @@ use smol_str::SmolStr;
 
 use crate::definition::Definition;
 use crate::doubts::Doubts;
-use crate::element::{Element, Marker, Origin, Role};
+use crate::element::{Element, Marker, Origin};
 use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
@@ -101,11 +101,6 @@ impl RawPath {
     /// Whether the drawing alone is in order.
     pub fn is_sound(&self) -> bool {
         !self.diagnostics.iter().any(Diagnostic::is_error)
-    }
-
-    /// Whether it refers to other paths.
-    pub fn has_subpaths(&self) -> bool {
-        self.drawn.elements.iter().any(|element| element.role == Role::Subpath)
     }
 
     /// The first of its layers.

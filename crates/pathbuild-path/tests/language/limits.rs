@@ -1,5 +1,6 @@
 //! Values against their limits: PB203. (book: language/letters)
 
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_path::{Path, SweepLimits};
 
 use crate::support::{codes, compile, path, wrong};
@@ -34,6 +35,26 @@ fn a_paths_values_are_greater_than_0() {
     }
     assert_eq!(start(&format!("T{INSIDE} O3 I1 B-1")), [""; 0]);
     assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
+}
+
+/// The help says a value that is usual for the letter that is wrong.
+#[test]
+fn a_value_that_must_be_greater_than_0_has_an_example() {
+    let compiled = compile(&path("T0 O0 F0 I0 C0 A0 W0 Z0 P0 U0 B-1", "mill 0,0 40,0\nend 40,0"));
+    let argument = |found: &Diagnostic, name: &str| {
+        let found = found.arguments.iter().find(|(argument, _)| *argument == name);
+        found.map(|(_, value)| value.render(Lang::En)).unwrap_or_default()
+    };
+    let examples = compiled.found.iter().filter(|found| found.code() == Code::ParameterOutOfRange);
+    let mut letters: Vec<String> = examples
+        .map(|found| {
+            let (letter, example) = (argument(found, "letter"), argument(found, "example"));
+            assert!(example.starts_with(&letter) && example.len() > 1, "{letter}: {example}");
+            letter
+        })
+        .collect();
+    letters.sort();
+    assert_eq!(letters.concat(), "ACFIOPTUWZ");
 }
 
 /// Parts of a polyline share its text; another polyline, or a line, may have one that says the same.

@@ -68,6 +68,11 @@ fn mixed() -> impl Strategy<Value = String> + Clone {
     "([0-9]{1,2}|[A-C]{1,2})?([.]([0-9]|[A-B]))?"
 }
 
+/// Digits and letters in any order: integers, and texts that lie between them as texts do.
+fn spelt() -> impl Strategy<Value = String> + Clone {
+    "[0-2][0-2A]{0,2}"
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -100,6 +105,14 @@ proptest! {
     ) {
         let pattern = "([0-9]+|[A-Z]+)(?:[.]([0-9]+|[A-Z]+))?|[.]([0-9]+|[A-Z]+)";
         check(pattern, pattern, &stems, &names)?;
+    }
+
+    #[test]
+    fn the_table_says_what_the_scan_says_of_digits_with_letters(
+        stems in prop::collection::vec(stem(spelt()), 1..8),
+        names in prop::collection::vec(spelt(), 1..8),
+    ) {
+        check("([0-9A]+)", "([0-9A]+)", &stems, &names)?;
     }
 }
 

@@ -264,16 +264,18 @@ pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bo
     Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
-/// PB005: what comes of cutting moves is limited like the moves themselves.
+/// PB005: what comes of cutting moves is limited like the moves themselves, which were counted before they were made.
 fn too_many_pieces(count: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
-    let is_cut = count > program.steps.len() as u64;
+    if count <= program.steps.len() as u64 {
+        return None;
+    }
     // Comments are counted here, and moves with a comment each are foretold.
     let size = memory(count) / 2;
     if count > writing.most_moves {
         let problem = Diagnostic::new(&files::LIMIT).with("key", "embedding-moves");
         let what = format!("the number of moves, cut by z-split ({count}),");
         Some(problem.with("what", what).with("limit", writing.most_moves))
-    } else if is_cut && size > writing.most_memory {
+    } else if size > writing.most_memory {
         let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
         Some(problem.with("count", count).with("size", size).with("limit", writing.most_memory))
     } else {
