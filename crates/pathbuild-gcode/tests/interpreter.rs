@@ -196,11 +196,30 @@ fn arcs_need_a_centre() {
     );
 }
 
+/// Of Marlin and XpertMILL nobody knows that they repeat the motion before.
 #[test]
-fn arcs_need_an_axis_word_but_for_linuxcnc() {
-    for (dialect, expected) in [(Native, 1), (Rs274, 1), (Grbl, 1), (LinuxCnc, 0)] {
-        assert_eq!(wrong(dialect, "G0 X1 Y0 Z0\nG2 I-1 F10").len(), expected, "{dialect}");
+fn a_motion_that_is_not_stated_is_missed_where_it_must_be() {
+    let missed = |dialect| {
+        let program = "G0 X0 Y0 Z5\nG1 X1 F100\nX2";
+        let found = wrong(dialect, program).into_iter();
+        found.filter(|found| found.ends_with("motion-not-stated")).collect::<Vec<_>>()
+    };
+    for dialect in [Native, Grbl, LinuxCnc, Fanuc, Haas, Mach3, Rs274] {
+        assert_eq!(missed(dialect), FINE, "{dialect}");
     }
+    for dialect in [Marlin, Xpertmill] {
+        assert_eq!(missed(dialect), ["4 motion-not-stated"], "{dialect}");
+    }
+}
+
+#[test]
+fn arcs_need_an_axis_word_in_some_dialects() {
+    let dialects = [Native, Rs274, Grbl, Mach3, LinuxCnc, Fanuc, Haas, Marlin, Xpertmill];
+    let needed = dialects.into_iter().filter(|dialect| {
+        let found = wrong(*dialect, "G0 X1 Y0 Z0\nG2 I-1 F10");
+        found.iter().any(|found| found.ends_with("invalid-arc"))
+    });
+    assert_eq!(needed.collect::<Vec<_>>(), [Native, Rs274, Grbl]);
     assert_eq!(run(LinuxCnc, "G0 X1 Y0 Z0\nG2 I-1 F10")[1], "3 feed 10 to 1 0 0 cw round 0 0 by 360");
 }
 
@@ -249,6 +268,9 @@ fn linuxcnc_counts_turns_and_takes_absolute_centres() {
         run(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 J0 F10")[1],
         "3 feed 10 to 0 -1 0 cw round 0 0 by 90"
     );
+    // Centres count from the zero of the program, wherever that is.
+    let shifted = run(LinuxCnc, "G0 X11 Y7 Z0\nG92 X1 Y0\nG90.1 G2 X0 Y-1 I0 J0 F10");
+    assert_eq!(shifted[1], "4 feed 10 to 10 6 0 cw round 10 7 by 90");
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 F10"), ["3 missing-word"]);
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P0 F10"), ["3 value-out-of-range"]);
     assert_eq!(wrong(Grbl, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P3 F10"), ["3 unused-word"]);

@@ -3,6 +3,9 @@
 //! Rapid moves of a post need not be those of the job, as they must where a program is held against its drawing (`verify --against`): it may lift the tool higher, or leave out what is done in the air. A place is free
 //! of material above every place where the job itself goes by rapid, and above the clearance plane.
 
+#[cfg(test)]
+mod tests;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
@@ -186,8 +189,8 @@ impl Way<'_> {
             || !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
         let lowest = match (height(&it.from), height(&it.to)) {
             (Some(from), Some(to)) => from.min(to),
-            // From an unknown height straight up or down.
-            (None, Some(to)) if is_upright || to >= self.clearance - self.slack => to,
+            // From an unknown height: up to the clearance plane, or straight up or down.
+            (None, Some(to)) => to,
             _ => return false,
         };
         if lowest >= self.clearance - self.slack {

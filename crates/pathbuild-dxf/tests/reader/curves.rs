@@ -283,6 +283,14 @@ fn a_spline_stays_within_the_tolerance() {
     check_spline(5, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0], &WAVE, 0.01);
 }
 
+/// A parameter that runs ten times as fast, or slower, makes the same curve.
+#[test]
+fn knots_may_be_of_any_size() {
+    let knots = |size: f64| [0.0, 0.0, 0.0, 0.0, 1.0, 2.5, 3.0, 3.0, 3.0, 3.0].map(|knot| size * knot);
+    let count = |size| check_spline(3, &knots(size), &WAVE, 0.01);
+    assert_eq!([count(10.0), count(0.125)], [count(1.0); 2]);
+}
+
 #[test]
 fn a_rational_spline_is_the_circle_that_it_should_be() {
     let w = std::f64::consts::FRAC_1_SQRT_2;

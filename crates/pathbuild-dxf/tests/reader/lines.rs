@@ -14,6 +14,25 @@ fn all_line_ends_are_read() {
     }
 }
 
+/// Most programs pad codes to three characters. Others do not, or to six, whatever ends their lines.
+#[test]
+fn codes_are_read_in_any_width() {
+    let lf = entities(&[LINE; 50].join("\n"));
+    let sound = read_all(&lf).entities;
+    assert_eq!(sound.len(), 50);
+    for width in 0..9 {
+        let padded = |(number, line): (usize, &str)| match number % 2 {
+            0 => format!("{:>width$}\n", line.trim_start()),
+            _ => format!("{line}\n"),
+        };
+        let file: String = lf.lines().enumerate().map(padded).collect();
+        for line_end in ["\n", "\r\n", "\r"] {
+            let read = read_all(file.replace('\n', line_end)).entities;
+            assert!(read == sound, "{width} {line_end:?}: {:?}", read.first());
+        }
+    }
+}
+
 #[test]
 fn values_do_not_keep_their_carriage_returns() {
     let file = entities("0 TEXT\n8 A\n10 1\n20 2\n40 1\n1 T3\n").replace('\n', "\r\n");

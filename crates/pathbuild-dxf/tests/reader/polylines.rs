@@ -29,6 +29,14 @@ fn heavy(groups: &str, vertices: &[&str]) -> Drawing {
     read_all(entities(&format!("0 POLYLINE\n5 2F\n8 A\n66 1\n{groups}\n{vertices}\n0 SEQEND\n8 A")))
 }
 
+/// Its centre is 25 km away. A line it is where nobody sees a difference, which is up to half a micrometre.
+#[test]
+fn an_arc_that_is_too_large_is_a_line_if_it_is_flat() {
+    let shape = |bulge: &str| light(&format!("90 2\n10 0\n20 0\n42 {bulge}\n10 100\n20 0"));
+    assert_eq!(shapes(&shape("0.00000999")), [line(0.0, 0.0, 100.0, 0.0)]);
+    assert!(!shape("0.0000101").left_out.is_empty() || !shape("0.0000101").faults.is_empty());
+}
+
 /// The ends of an arc as its centre, radius and angles give them.
 fn ends(arc: &Arc) -> [[f64; 2]; 2] {
     [arc.start_angle, arc.end_angle].map(|angle| {

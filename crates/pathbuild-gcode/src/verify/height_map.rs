@@ -1,5 +1,8 @@
 //! Heights of material over the plane, known in places.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeMap;
 
 /// Cells along a tile's side.
