@@ -423,6 +423,15 @@ fn the_cache_can_be_looked_at_and_removed() {
     assert!(run.stdout.contains(": damaged, ") && run.status == Some(1), "{run}");
     assert_eq!(place.run("cache prune").stderr, "removed: 1\n");
 
+    // What cannot be removed is told, and the cache is still one.
+    fs::remove_file(&file).ok();
+    fs::create_dir(&file).unwrap();
+    let run = place.run("cache clean");
+    assert!(run.status == Some(1) && !run.stderr.contains("removed"), "{run}");
+    assert!(place.cache().exists());
+    fs::remove_dir(&file).unwrap();
+    place.run("check");
+
     assert_eq!(place.run("cache clean").stderr, "removed: 1\n");
     assert!(!place.cache().exists());
     assert_eq!(place.run("cache clean").stderr, "removed: 0\n");

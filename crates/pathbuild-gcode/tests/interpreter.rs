@@ -592,6 +592,7 @@ fn operators_bind_as_in_the_dialect() {
     for (expression, nist, linuxcnc) in [
         ("1+2*3", 7.0, 7.0),
         ("2**3**2", 64.0, 64.0),
+        ("[0-2]**3", -8.0, -8.0),
         ("0 AND 1 + 1", 1.0, 0.0),
         ("10-2/4", 9.5, 9.5),
         ("10-3-2", 5.0, 5.0),
@@ -865,4 +866,34 @@ fn ignored_feeds_are_not_missing() {
         faults_with(Xpertmill, &program.replace(" F100", ""), &Options::default()),
         ["4 missing-feed"]
     );
+}
+
+/// As a unit vector, at both ends; none where the arc has no radius.
+#[test]
+fn an_arc_begins_and_ends_along_its_tangents() {
+    for (code, ends) in [("G3", [[0.0, 1.0], [-1.0, 0.0]]), ("G2", [[0.0, -1.0], [1.0, 0.0]])] {
+        let program = format!("{HEAD}G0 X5 Y0 Z0\n{code} X0 Y5 I-5 F10\nM30\n");
+        let interpreted = interpret(program.as_bytes(), LinuxCnc, &Options::default());
+        let arc = interpreted.moves().into_iter().find_map(|(_, it)| match it.path {
+            pathbuild_gcode::interpret::Path::Arc(arc) => Some((arc, it)),
+            pathbuild_gcode::interpret::Path::Line => None,
+        });
+        let (arc, it) = arc.expect("there is an arc");
+        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;
+        assert!(near(arc.tangent(&it.from.at), ends[0]) && near(arc.tangent(&it.to.at), ends[1]), "{code}");
+        assert_eq!(arc.tangent(&[arc.centre[0], arc.centre[1], 0.0]), [0.0, 0.0]);
+    }
+}
+
+#[test]
+fn a_number_of_holes_names_its_letter() {
+    for (dialect, letter) in [(LinuxCnc, "L"), (Haas, "L"), (Fanuc, "K")] {
+        let program = format!("{HEAD}G0 X0 Y0 Z5\nG98 G81 X2 Z-3 R1 {letter}0 F60\nG80\nM30\n");
+        let problems = interpret(program.as_bytes(), dialect, &Options::default()).problems;
+        let texts: Vec<String> = problems.iter().map(|it| it.text(pathbuild_diagnostic::Lang::En)).collect();
+        assert!(
+            texts.iter().any(|text| text.contains(&format!("{letter}0")) || text.starts_with(letter)),
+            "{texts:?}"
+        );
+    }
 }

@@ -391,3 +391,13 @@ fn a_probing_run_is_read_back() {
     assert!(elsewhere != text && native::read_probing_back(&elsewhere, &program.probes).is_err());
     assert!(native::read_probing_back(&text, &program.probes[..1]).is_err());
 }
+
+/// Each letter of Latin 1 becomes letters of ASCII that people read as it, small or large as it is.
+#[test]
+fn letters_are_transliterated() {
+    let all: String = "äöüÄÖÜß àáâãå èéêë ìíîï òóôõø ùúû ÀÁÂÃÅ ÈÉÊË ÌÍÎÏ ÒÓÔÕØ ÙÚÛ çÇñÑ"
+        .chars()
+        .map(|character| if character == ' ' { " " } else { native::transliterated(character) })
+        .collect();
+    assert_eq!(all, "aeoeueAeOeUess aaaaa eeee iiii ooooo uuu AAAAA EEEE IIII OOOOO UUU cCnN");
+}

@@ -2,6 +2,9 @@
 //!
 //! It is never lower than what the map of the material has there, and takes no time to speak of: most rapid moves pass above it.
 
+#[cfg(test)]
+mod tests;
+
 use pathbuild_toolpath::Program as Drawn;
 
 use super::material::cutting_piece;

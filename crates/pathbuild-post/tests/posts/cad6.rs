@@ -263,6 +263,14 @@ fn aliases_are_other_names() {
     let unknown = Post::read(b"[alias]\nX9 = \"Xe\"", Utf8Path::new("t.toml")).unwrap();
     let warnings = texts(&unchecked(&unknown, &job(vec![]), &PostOptions::default()).unwrap().warnings);
     assert!(warnings[0].starts_with("2: PB760 there is no variable X9"), "{warnings:?}");
+    for name in ["X e", "X~", ""] {
+        let wrong = Post::read(format!("[alias]\nX1 = \"{name}\"").as_bytes(), Utf8Path::new("t.toml"));
+        let errors = texts(&wrong.unwrap_err());
+        assert!(
+            errors[0].starts_with("2: PB750") && errors[0].contains("the name of a variable"),
+            "{errors:?}"
+        );
+    }
 }
 
 #[test]
@@ -389,6 +397,28 @@ fn doubtful_terms_are_warnings() {
     assert!(warnings("{sin(90)}").contains("functions are an extension"));
     assert!(warnings("~ZClearance~").contains("ZClearance is written with all its decimals"));
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");
+}
+
+/// All of them, and none of another name.
+#[test]
+fn functions_are_those_of_the_manual_and_some_more() {
+    let value = |term: &str| text_with(&format!("{{.{term}}}"), &[]);
+    for (term, expected) in [
+        ("abs(0-2.5)", "2.5"),
+        ("sqrt(6.25)", "2.5"),
+        ("int(0-2.5)", "-2"),
+        ("round(2.6)", "3"),
+        ("floor(0-2.5)", "-3"),
+        ("ceil(2.1)", "3"),
+        ("sin(30)", "0.5"),
+        ("cos(60)", "0.5"),
+        ("tan(45)", "1"),
+        ("asin(0.5)", "30"),
+    ] {
+        let text = value(term).unwrap_or_else(|errors| panic!("{term}: {:?}", texts(&errors)));
+        assert_eq!(String::from_utf8_lossy(&text.text).trim(), expected, "{term}");
+    }
+    assert!(value("rounded(2.6)").is_err());
 }
 
 /// Files in memory.

@@ -1,7 +1,7 @@
 //! What a CamBam definition may look like, and what is wrong with one.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_post::{PostMacro, PostOptions};
+use pathbuild_post::{Arc, PostMacro, PostOptions, Step};
 
 use crate::support::{bare, definition, errors, feed, job, lines, lines_with, output, read, shared, texts};
 
@@ -268,8 +268,44 @@ fn the_command_of_a_post_is_handed_out_only_when_it_will_be_run() {
 fn an_empty_program_is_refused() {
     let empty = pathbuild_post::Job::default();
     assert_eq!(errors(&bare(""), &empty), ["PB765 the program has no operations"]);
-    let broken = job(vec![feed(f64::NAN, 0.0, 0.0)]);
-    assert_eq!(errors(&bare(""), &broken), ["PB765 mill has a coordinate or feed that is no number"]);
+    let at = |x| [Some(x), Some(0.0), Some(0.0)].into();
+    let arc = |from, centre, to, feed| {
+        Step::Arc(Arc {
+            clockwise: false,
+            from: [from, 0.0, 0.0],
+            centre: [centre; 3],
+            to: [0.0, to, 0.0],
+            feed,
+        })
+    };
+    let nan = f64::NAN;
+    for broken in [
+        feed(nan, 0.0, 0.0),
+        Step::Feed { to: at(1.0), feed: Some(nan) },
+        Step::Rapid { to: at(f64::INFINITY) },
+        Step::Dwell { seconds: nan },
+        arc(nan, 0.0, 1.0, None),
+        arc(1.0, nan, 1.0, None),
+        arc(1.0, 0.0, nan, None),
+        arc(1.0, 0.0, 1.0, Some(nan)),
+    ] {
+        let found = errors(&bare(""), &job(vec![broken]));
+        assert_eq!(found, ["PB765 mill has a coordinate or feed that is no number"]);
+    }
+}
+
+/// A spindle that takes its time: a post with a macro for that waits, another one is told not to.
+#[test]
+fn a_wait_for_the_spindle_that_is_not_written_is_noted() {
+    let notes = |elements: &str, spin_up| {
+        let options = PostOptions { spin_up, ..PostOptions::default() };
+        let output = output(&bare(elements), &job(vec![]), &options).unwrap();
+        output.notes.iter().any(|note| note.text(Lang::En).contains("has no {$spindle(up)}"))
+    };
+    let switched = "<ToolChange>{$spindle} {$s}</ToolChange><MOP>{$toolchange}{$blocks}</MOP>";
+    let waits = "<ToolChange>{$spindle} {$s} {$spindle(up)}</ToolChange><MOP>{$toolchange}{$blocks}</MOP>";
+    let found = [notes(switched, 2.0), notes(switched, 0.0), notes(waits, 2.0), notes("", 2.0)];
+    assert_eq!(found, [true, false, false, false]);
 }
 
 #[test]

@@ -41,10 +41,14 @@ fn codes_are_modal_where_the_template_says_so() {
     assert_eq!(moves(modal, steps.clone()), ["G1 X1.0", "X2.0", "G0 X3.0", "G1 X4.0"]);
     let named = format!("{modal}<G1>FEED</G1><SuppressParserErrors>true</SuppressParserErrors>");
     assert_eq!(
-        moves(&named, steps),
+        moves(&named, steps.clone()),
         ["FEED X1.0", "X2.0", "G0 X3.0", "FEED X4.0"],
         "however the word is spelt"
     );
+    // What it is read back from has the motions that the words stand for.
+    let whole = named.replace("{$_x}", "{$f} {$_x}");
+    let written = read(&bare(&whole)).unwrap().write(&job(steps), &PostOptions::default());
+    assert!(written.is_ok(), "{:?}", written.map_err(|errors| texts(&errors)));
 }
 
 #[test]

@@ -45,6 +45,28 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
+    // So is what goes beyond its end, or back behind its beginning, in X and in Y.
+    for (beyond, end) in [
+        ([70.0, 0.0], [60.0, 0.0]),
+        ([5.0, 0.0], [60.0, 0.0]),
+        ([10.0, 70.0], [10.0, 60.0]),
+        ([10.0, -5.0], [10.0, 60.0]),
+    ] {
+        let steps = vec![
+            rapid(0.0, 0.0, 2.0),
+            feed(0.0, 0.0, -1.0),
+            feed(10.0, 0.0, -1.0),
+            rapid(10.0, 0.0, 4.0),
+            rapid(beyond[0], beyond[1], 4.0),
+            rapid(end[0], end[1], 4.0),
+            feed(end[0], end[1], -1.0),
+            rapid(end[0], end[1], 25.0),
+        ];
+        let lines = written(DIN, &high(steps));
+        let there = format!("G00 X+{} Y+{}", end[0], end[1]);
+        let over = lines.iter().position(|line| *line == there).expect("the second contour");
+        assert_eq!(lines[over - 1], "G00 Z+25", "{beyond:?} {lines:?}");
+    }
     // A straight way at the same height needs no lift.
     let straight = vec![
         rapid(0.0, 0.0, 2.0),

@@ -104,6 +104,7 @@ fn cycles_are_holes() {
     assert_eq!(holes("G98 G81 X0 Z-3 R1 F60")[0].at, [0.0, 0.0], "also where the tool is");
     assert_eq!(holes("G98 G82 X2 Z-3 R1 P1.5 F60"), [hole(2.0, 5.0, HoleKind::Dwell { seconds: 1.5 })]);
     assert_eq!(holes("G98 G83 X2 Z-3 R1 Q1.5 F60"), [hole(2.0, 5.0, HoleKind::Peck { depth: 1.5 })]);
+    assert_eq!(holes("G98 G81 X2 Z-3 R1 F60\nG80\nG0 X9\nG1 X12 F100"), two[..1], "and what comes behind it");
     let next = Hole { level: 1.0, ..hole(4.0, 1.0, plain) };
     assert_eq!(holes("G99 G81 X2 Z-3 R1 F60\nX4"), [hole(2.0, 1.0, plain), next]);
 }

@@ -1,0 +1,33 @@
+//! The grid is never lower than what stands in the way.
+
+use super::{SIDE, Tops};
+use crate::interpret::{Move, Pace, Path, Position};
+
+/// A post of a millimetre, 9 mm high, in a field that is far from zero.
+const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
+
+fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
+    let [from, to] = [Position::known(x, y, 1.0), Position::known(to_x, to_y, 1.0)];
+    Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None }
+}
+
+/// Whichever way it runs, and on whichever side it passes.
+#[test]
+fn what_stands_within_the_radius_of_a_move_is_seen() {
+    let mut tops =
+        Tops { corner: [100.0, -40.0], cell: [1.0, 0.5], heights: vec![f64::NEG_INFINITY; SIDE * SIDE] };
+    tops.raise(POST, 9.0);
+    for step in 0..48 {
+        let (sin, cos) = libm::sincos(f64::from(step) * std::f64::consts::TAU / 48.0);
+        let at =
+            |along: f64, aside: f64| [130.5 + along * cos - aside * sin, -19.5 + along * sin + aside * cos];
+        let along = |aside: f64| tops.along(&rapid(at(-9.0, aside), at(7.0, aside)), 3.0);
+        assert_eq!([along(-2.9), along(0.0), along(2.9)], [9.0; 3], "{step}");
+        assert_eq!(along(9.0), f64::NEG_INFINITY, "{step}: far beside it");
+        assert_eq!(
+            tops.along(&rapid(at(9.0, 0.0), at(14.0, 0.0)), 3.0),
+            f64::NEG_INFINITY,
+            "{step}: past it"
+        );
+    }
+}
