@@ -79,14 +79,6 @@ impl Post {
         }
     }
 
-    /// What the definition says about itself, in several lines.
-    pub fn description(&self) -> &str {
-        match &self.engine {
-            Engine::CamBam(definition) => definition.description(),
-            Engine::Cad6(definition) => definition.description(),
-        }
-    }
-
     /// The extension of the files that it writes, without point.
     pub fn extension(&self) -> &str {
         match &self.engine {

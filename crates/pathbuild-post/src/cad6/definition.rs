@@ -94,11 +94,6 @@ impl Definition {
         self.settings.units
     }
 
-    /// What it says about itself.
-    pub(crate) fn description(&self) -> &str {
-        &self.settings.description
-    }
-
     /// A control text; `None` when it is absent or empty.
     pub(super) fn text(&self, kind: ControlTextKind) -> Option<&ControlText> {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())

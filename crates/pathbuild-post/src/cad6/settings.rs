@@ -8,7 +8,6 @@ use crate::Units;
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
     pub(super) name: Box<str>,
-    pub(super) description: Box<str>,
     pub(super) extension: Box<str>,
     pub(super) end_of_line: &'static str,
     pub(super) decimals: usize,
@@ -30,7 +29,6 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             name: "".into(),
-            description: "".into(),
             extension: "nc".into(),
             end_of_line: "\n",
             decimals: 3,
@@ -56,7 +54,8 @@ pub(super) struct Setting {
 /// The keys of `[post]`.
 pub(super) static SETTINGS: [(&str, Setting); 12] = [
     ("name", Setting { expected: "a text", set: |s, v| put(&mut s.name, text(v)) }),
-    ("description", Setting { expected: "a text", set: |s, v| put(&mut s.description, text(v)) }),
+    // For who reads the file.
+    ("description", Setting { expected: "a text", set: |_, v| v.as_str().map(drop) }),
     (
         "extension",
         Setting { expected: "a file name's extension", set: |s, v| put(&mut s.extension, extension(v)) },

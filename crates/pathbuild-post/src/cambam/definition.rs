@@ -86,11 +86,6 @@ impl Definition {
         !self.section(Section::G81).is_blank()
     }
 
-    /// What it says about itself.
-    pub(crate) fn description(&self) -> &str {
-        &self.options.notes
-    }
-
     /// The text of a section: the file's own, else the one that stands in for an absent element.
     pub(super) fn section(&self, section: Section) -> &Template {
         let index = section as usize;

@@ -30,8 +30,6 @@ pub(super) struct Options {
     pub(super) rotary: Rotary,
     pub(super) post_build_command: Box<str>,
     pub(super) post_build_arguments: Box<str>,
-    /// The file's own description.
-    pub(super) notes: Box<str>,
     /// The dialect that the output is in (pathbuild's own element).
     pub(super) dialect: Option<Box<str>>,
     /// Extension of the file that is written, without point (pathbuild's own element).
@@ -86,7 +84,6 @@ impl Default for Options {
             rotary: Rotary { wrap: false, along: 0, letter: 0 },
             post_build_command: "".into(),
             post_build_arguments: "".into(),
-            notes: "".into(),
             dialect: None,
             extension: "nc".into(),
         }
@@ -136,7 +133,8 @@ impl Options {
             }
             "PostBuildCommand" => put(&mut self.post_build_command, Ok(value.into())),
             "PostBuildCommandArgs" => put(&mut self.post_build_arguments, Ok(value.into())),
-            "Notes" => put(&mut self.notes, Ok(value.into())),
+            // For who reads the file.
+            "Notes" => Ok(()),
             "Dialect" => put(&mut self.dialect, Ok((!value.is_empty()).then(|| value.into()))),
             "FileExtension" => put(&mut self.extension, extension(value)),
             _ => Err(Refusal::Unknown),
