@@ -366,6 +366,9 @@ fn what_is_not_what_the_program_says_is_found_when_read_back() {
     assert!(changed > 50, "{changed}");
     let (without, _) = text.split_once("G02").expect("an arc");
     assert!(native::read_back(without, &program).is_err(), "cut off");
+    // The same moves, with a spindle that turns without a speed.
+    let turning = text.replacen("G00 X0.000 Y0.000", "M03\nG00 X0.000 Y0.000", 1);
+    assert!(native::read_back(&turning, &program).is_err(), "{turning}");
 }
 
 #[test]

@@ -399,6 +399,18 @@ fn doubtful_terms_are_warnings() {
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");
 }
 
+/// At the brace that is open, or the variable, wherever it stands in its text.
+#[test]
+fn faults_of_texts_have_their_column() {
+    let column = |text: &str| {
+        let fault = texts(&text_with(text, &[("Q1", " 5 ")]).unwrap_err())[0].clone();
+        let (_, behind) = fault.split_once(", column ").unwrap();
+        behind.split(':').next().unwrap().parse::<u32>().unwrap()
+    };
+    let columns = ["~Q1~ab{c", "~Q1~ab~Q", "{.~Q1~", "{.~Q1~}{?0{~Q1~", "abc}"].map(column);
+    assert_eq!(columns, [9, 7, 1, 11, 4]);
+}
+
 /// All of them, and none of another name.
 #[test]
 fn functions_are_those_of_the_manual_and_some_more() {

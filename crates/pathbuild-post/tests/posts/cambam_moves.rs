@@ -138,6 +138,13 @@ fn arcs_written_by_radius_are_cut_below_half_a_turn() {
         moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())])[1..],
         ["G3 X0.0 Y10.0 R10.0"]
     );
+    // With a centre beside it the way round is clear.
+    let both = elements.replace("R{$arc.radius}", "(R{$arc.radius}) {$i} {$j}");
+    let whole = arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, -10.0, 5.0]);
+    assert_eq!(
+        moves(&both, vec![feed(10.0, 0.0, 5.0), Step::Arc(whole)])[1..],
+        ["G3 X0.0 Y-10.0 (R10.0) I-10.0 J0.0"]
+    );
 }
 
 #[test]
