@@ -516,7 +516,7 @@ fn connections_that_say_nothing_are_closed() {
 /// Programs that are written are current, also through a post.
 #[test]
 fn with_emit_the_state_is_that_after_writing() {
-    for post in ["", "post = \"linuxcnc\"\n"] {
+    for post in ["", "post = \"linuxcnc\"\nspindle = \"manual\"\n"] {
         let emits = format!("{post}{CONFIGURATION}\n[emit]\ntargets = [\"1001*\"]\n");
         let place = library().file("pathbuild.toml", emits);
         let served = Served::begin(&place, "watch --emit --serve 127.0.0.1:0");
