@@ -317,23 +317,6 @@ fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
     assert_eq!(place.run("check --format json").stdout, clean.1);
 }
 
-/// What is kept grows with the library, not with its history.
-#[test]
-fn results_of_drawings_that_are_gone_are_given_up() {
-    let place = library();
-    let names = |place: &Place| {
-        let [file] = results(place).try_into().unwrap();
-        let kept = String::from_utf8_lossy(&fs::read(&file).unwrap()).into_owned();
-        ["8002.dxf", "8003.dxf"].map(|name| kept.contains(name))
-    };
-    place.run("check");
-    assert_eq!(names(&place), [true, true]);
-    fs::remove_file(place.path().join("library/projects/8003.dxf")).unwrap();
-    fs::write(place.path().join("spare/1004.dxf"), dxf(&[path("1004.1P", 6, &[])])).unwrap();
-    place.run("check");
-    assert_eq!(names(&place), [true, false]);
-}
-
 #[test]
 fn without_a_configuration_or_with_no_cache_nothing_is_kept() {
     let place = library();
