@@ -237,7 +237,7 @@ fn the_largest_cutter_of_a_program_keeps_away() {
     assert_eq!(found("7.01"), ["407"]);
 }
 
-/// PathDxf2GCode knows no polylines, and no clamps either.
+/// Polylines, which PathDxf2GCode leaves out of paths, are outlines of clamps all the same.
 #[test]
 fn clamps_are_of_all_curves_in_compatible_mode_too() {
     let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));

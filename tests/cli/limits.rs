@@ -35,22 +35,29 @@ fn assert_exceeds(run: &Run, key: &str) {
     assert!(run.stderr.contains("PB005") && run.stderr.contains(&format!("`{key}`")), "{run}");
 }
 
+/// What takes so much passes with that limit, and exceeds one that is less by one: then nothing is written.
+#[track_caller]
+fn assert_limited(key: &str, most: u64, parameters: &str, commands: &[&str]) {
+    for command in commands {
+        let inside = place(&format!("{key} = {most}"), parameters);
+        let run = inside.run(command);
+        assert_eq!(run.status, Some(0), "{run}");
+        assert_eq!(programs(&inside).len(), usize::from(command.starts_with("emit")), "{run}");
+        let outside = place(&format!("{key} = {}", most - 1), parameters);
+        assert_exceeds(&outside.run(command), key);
+        assert_eq!(programs(&outside), [0; 0]);
+    }
+}
+
 #[test]
 fn the_memory_of_a_program_is_limited() {
     let parameters = "T5 O2 I0.01 B0 MX";
     let asked = place("program-memory = 1", parameters).run("check 1202.1P.dxf --no-cache");
     assert_exceeds(&asked, "program-memory");
     let (_, rest) = asked.stderr.split_once("about ").unwrap();
-    let size: u64 = rest.split(' ').next().unwrap().parse().unwrap();
-    for command in ["check 1202.1P.dxf", "emit 1202.1P.dxf", "emit 1202.1P.dxf --post linuxcnc"] {
-        let inside = place(&format!("program-memory = {size}"), parameters);
-        let run = inside.run(command);
-        assert_eq!(run.status, Some(0), "{run}");
-        assert_eq!(programs(&inside).len(), usize::from(command.starts_with("emit")), "{run}");
-        let outside = place(&format!("program-memory = {}", size - 1), parameters);
-        assert_exceeds(&outside.run(command), "program-memory");
-        assert_eq!(programs(&outside), [0; 0]);
-    }
+    let size = rest.split(' ').next().unwrap().parse().unwrap();
+    let commands = ["check 1202.1P.dxf", "emit 1202.1P.dxf", "emit 1202.1P.dxf --post linuxcnc"];
+    assert_limited("program-memory", size, parameters, &commands);
 }
 
 #[test]
@@ -79,14 +86,8 @@ fn the_moves_of_a_program_are_limited() {
     let asked = place("embedding-moves = 1", parameters).run("check 1202.1P.dxf --no-cache");
     assert_exceeds(&asked, "embedding-moves");
     let (before, _) = asked.stderr.split_once(" moves").unwrap();
-    let count: u64 = before.rsplit(' ').next().unwrap().parse().unwrap();
-    for command in ["check 1202.1P.dxf", "emit 1202.1P.dxf"] {
-        let inside = place(&format!("embedding-moves = {count}"), parameters).run(command);
-        assert_eq!(inside.status, Some(0), "{inside}");
-        let outside = place(&format!("embedding-moves = {}", count - 1), parameters);
-        assert_exceeds(&outside.run(command), "embedding-moves");
-        assert_eq!(programs(&outside), [0; 0]);
-    }
+    let count = before.rsplit(' ').next().unwrap().parse().unwrap();
+    assert_limited("embedding-moves", count, parameters, &["check 1202.1P.dxf", "emit 1202.1P.dxf"]);
 }
 
 /// Some hundred bytes of drawing each: whoever checks or emits them hears of it at once.

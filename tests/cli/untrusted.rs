@@ -141,7 +141,7 @@ fn links_that_lead_out_are_not_read() {
     }
 }
 
-/// What lies there is looked into as in one's own tree: of which path it is.
+/// As in one's own tree: a program says in its head which path it was made from.
 #[test]
 fn programs_that_are_older_than_a_strangers_drawing_are_told() {
     let wrong = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 50,0";

@@ -180,7 +180,7 @@ fn a_hidden_drawing_that_counts_is_watched() {
     assert!(!said.iter().any(|line| line.contains(".1004.dxf") && line.contains("PB503")), "{said:#?}");
 }
 
-/// What a component is wrong for itself is not asked where only projects are watched.
+/// Where only projects are watched, what is wrong with a component alone is not asked.
 #[test]
 fn an_edit_of_what_is_not_watched_asks_only_what_is() {
     let place = library();

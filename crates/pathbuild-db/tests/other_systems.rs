@@ -8,7 +8,7 @@ use pathbuild_db::system::{MemorySystem, Overlay, ReadError, System};
 
 const NEW: &str = "parts/1002.dxf";
 
-/// Beside `1001.dxf`, in which case the new drawing is there as well.
+/// A drawing that is not written yet, over a directory in which `1001.dxf` lies.
 fn overlay(new: &str) -> Overlay {
     let below = MemorySystem::default();
     below.put("parts/1001.dxf", "old");

@@ -196,7 +196,7 @@ fn arcs_need_a_centre() {
     );
 }
 
-/// Of Marlin and XpertMILL nobody knows that they repeat the motion before.
+/// It is not known that Marlin and XpertMILL repeat the motion before.
 #[test]
 fn a_motion_that_is_not_stated_is_missed_where_it_must_be() {
     let missed = |dialect| {

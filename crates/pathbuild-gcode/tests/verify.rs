@@ -312,8 +312,9 @@ fn feeds_are_those_that_the_axes_can_do() {
         wrong("G0 X0 Y0 Z0\nG1 X10 F1000\nX20 F1001\nX30\nZ1 F201\nZ2 F200"),
         ["4 feed-too-high", "6 feed-too-high"]
     );
-    // As fast as it may, to the last digit of a double.
+    // What rounding makes of a share does no harm.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000009"), FINE);
+    assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000011"), ["3 feed-too-high"]);
     // At 45 degrees each axis has its share.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1414\nX20 Y20 F1415"), ["4 feed-too-high"]);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X10 Y0 I5 F1000\nX20 I5 F1001"), ["4 feed-too-high"]);

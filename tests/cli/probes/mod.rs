@@ -207,6 +207,21 @@ fn too_many_pieces_are_refused() {
     let run = limited(1000);
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("PB005") && run.stderr.contains("embedding-moves"), "{run}");
+    // Comments are no moves.
+    let (_, count) = run.stderr.split_once("cut by z-split (").unwrap();
+    let pieces: u32 = count.split(')').next().unwrap().parse().unwrap();
+    assert_eq!([limited(pieces).status, limited(pieces - 1).status], [Some(0), Some(1)]);
+    let program = plate("z-model = \"tin\"\nz-split = 0.1\n");
+    succeed(&emit(&program, "a.dxf"));
+    let text = program.read("a_Clean.gcode");
+    let moves = text
+        .lines()
+        .filter(|line| ["G00 ", "G01 ", "G02 ", "G03 "].iter().any(|code| line.starts_with(code)));
+    assert_eq!(
+        moves.count(),
+        pieces as usize + 3,
+        "as many lines as moves are counted, and those of head and foot"
+    );
 }
 
 #[test]

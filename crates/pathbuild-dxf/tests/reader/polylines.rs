@@ -29,7 +29,7 @@ fn heavy(groups: &str, vertices: &[&str]) -> Drawing {
     read_all(entities(&format!("0 POLYLINE\n5 2F\n8 A\n66 1\n{groups}\n{vertices}\n0 SEQEND\n8 A")))
 }
 
-/// Its centre is 25 km away. A line it is where nobody sees a difference, which is up to half a micrometre.
+/// Its centre is 2.5 km away. It becomes a line where that is at most half a micrometre off.
 #[test]
 fn an_arc_that_is_too_large_is_a_line_if_it_is_flat() {
     let shape = |bulge: &str| light(&format!("90 2\n10 0\n20 0\n42 {bulge}\n10 100\n20 0"));

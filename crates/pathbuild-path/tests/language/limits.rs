@@ -37,7 +37,7 @@ fn a_paths_values_are_greater_than_0() {
     assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
 }
 
-/// The help says a value that is usual for the letter that is wrong.
+/// The help gives a usual value of the letter.
 #[test]
 fn a_value_that_must_be_greater_than_0_has_an_example() {
     let compiled = compile(&path("T0 O0 F0 I0 C0 A0 W0 Z0 P0 U0 B-1", "mill 0,0 40,0\nend 40,0"));

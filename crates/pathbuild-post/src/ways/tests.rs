@@ -22,7 +22,7 @@ fn program([to, between, away]: [&str; 3]) -> String {
     format!("G21 G90 G17 G94\n{}G1 Z0 F100\nX10\n{}G1 Z0\nX60\n{}M2\n", line(to), line(between), line(away))
 }
 
-/// The job goes over the first cut at Z10, on to X30 at Z10, to X50 at Z12, and down to Z5.
+/// From the end of the first cut up to Z10, to X30, up to Z12, to X50, down to Z5; from the second up to Z20, to X80.
 const JOB: [&str; 3] = ["G0 Z20, G0 X0 Y0, G0 Z5", "G0 Z10, G0 X30, G0 Z12, G0 X50, G0 Z5", "G0 Z20, G0 X80"];
 
 #[track_caller]
@@ -77,7 +77,7 @@ fn a_way_down_ends_where_the_job_has_been() {
     assert!(may_go("G0 Z12, G0 X40, G0 Z12, G0 X50, G0 Z5"));
     assert!(!may_go("G0 Z20, G0 X40, G0 Z11.9, G0 Z12, G0 X50, G0 Z5"));
     assert!(!may_go("G0 Z12, G0 X50, G0 Z4.9, G0 Z5"));
-    // By feed where the job is rapid is slower, not dangerous; a cut it is not.
+    // By feed instead of by rapid is slower, not dangerous.
     assert!(may_go("G0 Z12, G0 X50, G1 Z5 F100"));
 }
 

@@ -411,7 +411,7 @@ fn faults_of_texts_have_their_column() {
     assert_eq!(columns, [9, 7, 1, 11, 4]);
 }
 
-/// All of them, and none of another name.
+/// Each of them, and none of another name.
 #[test]
 fn functions_are_those_of_the_manual_and_some_more() {
     let value = |term: &str| text_with(&format!("{{.{term}}}"), &[]);
@@ -426,6 +426,12 @@ fn functions_are_those_of_the_manual_and_some_more() {
         ("cos(60)", "0.5"),
         ("tan(45)", "1"),
         ("asin(0.5)", "30"),
+        ("acos(0.5)", "60"),
+        ("atan(1)", "45"),
+        ("min(3,1,2)", "1"),
+        ("max(3,1,2)", "3"),
+        ("mod(0-1,3)", "2"),
+        ("atan2(1,0)", "90"),
     ] {
         let text = value(term).unwrap_or_else(|errors| panic!("{term}: {:?}", texts(&errors)));
         assert_eq!(String::from_utf8_lossy(&text.text).trim(), expected, "{term}");

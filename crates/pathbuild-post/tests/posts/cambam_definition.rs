@@ -294,7 +294,7 @@ fn an_empty_program_is_refused() {
     }
 }
 
-/// A spindle that takes its time: a post with a macro for that waits, another one is told not to.
+/// A post with the macro for it waits until the spindle turns; of another one it is said that it does not.
 #[test]
 fn a_wait_for_the_spindle_that_is_not_written_is_noted() {
     let notes = |elements: &str, spin_up| {

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Note, Point, Value};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Outside, Program, Statistics, Total, memory};
+use pathbuild_toolpath::{Outside, Program, Statistics, Step, Total, memory};
 
 use super::job::Job;
 use super::provenance::Provenances;
@@ -264,20 +264,23 @@ pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bo
     Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
-/// PB005: what comes of cutting moves is limited like the moves themselves, which were counted before they were made.
-fn too_many_pieces(count: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
-    if count <= program.steps.len() as u64 {
+/// PB005: what comes of cutting moves is limited like the moves themselves, which were counted before they were made. `steps`: pieces, and
+/// comments between them, which are no moves.
+fn too_many_pieces(steps: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
+    if steps <= program.steps.len() as u64 {
         return None;
     }
-    // Comments are counted here, and moves with a comment each are foretold.
-    let size = memory(count) / 2;
-    if count > writing.most_moves {
+    let comments = program.steps.iter().filter(|step| matches!(step, Step::Comment(_))).count() as u64;
+    let moves = steps - comments;
+    // Foretold are moves with a comment each.
+    let size = memory(steps) / 2;
+    if moves > writing.most_moves {
         let problem = Diagnostic::new(&files::LIMIT).with("key", "embedding-moves");
-        let what = format!("the number of moves, cut by z-split ({count}),");
+        let what = format!("the number of moves, cut by z-split ({moves}),");
         Some(problem.with("what", what).with("limit", writing.most_moves))
     } else if size > writing.most_memory {
         let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
-        Some(problem.with("count", count).with("size", size).with("limit", writing.most_memory))
+        Some(problem.with("count", moves).with("size", size).with("limit", writing.most_memory))
     } else {
         None
     }
@@ -327,8 +330,8 @@ fn native(
     delivered: &mut Delivered,
 ) -> Result<Vec<Output>, Box<Diagnostic>> {
     let correction = means.writing.options.correction;
-    let count = correction.count(program);
-    if let Some(problem) = too_many_pieces(count, program, &means.writing) {
+    let steps = correction.count(program);
+    if let Some(problem) = too_many_pieces(steps, program, &means.writing) {
         return Err(Box::new(at(problem)));
     }
     delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
