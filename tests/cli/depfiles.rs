@@ -91,6 +91,29 @@ fn ninja_finds_files_of_any_name() {
     emitted.is_found_by(is_up_to_date);
 }
 
+/// Else make would take the rule for an assignment, and run what the name says.
+#[test]
+fn names_that_no_rule_can_have_are_refused() {
+    let names = [
+        ("a+1301.1P", true),
+        ("A=1301.1P", false),
+        ("X!=touch${IFS}b|true 1301.1P", false),
+        ("a%1301.1P", false),
+    ];
+    for (name, is_right) in names {
+        let drawing = format!("{name}.dxf");
+        let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("out.d", "of before");
+        let place = place.file(&drawing, sheet(DRAWING).unwrap().to_dxf());
+        let run = place.run_with(&["emit", &drawing, "--deps", "out.d"]);
+        assert_eq!(
+            (run.status, run.stderr.contains("PB004")),
+            (Some(i32::from(!is_right)), !is_right),
+            "{run}"
+        );
+        assert_eq!(place.read("out.d") == "of before", !is_right, "{run}");
+    }
+}
+
 /// Else the rest of a name would be a rule of its own.
 #[test]
 fn no_name_makes_a_line_of_its_own() {

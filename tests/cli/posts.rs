@@ -264,12 +264,16 @@ fn the_provenance_tells_posts_tools_and_macros_apart() {
     distinct.sort();
     distinct.dedup();
     assert_eq!(distinct.len(), all.len(), "{all:#?}");
-    let inserting = |head: &str| {
-        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*head.nc*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+    let inserting = |name: &str, head: &str| {
+        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*{name}*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n"
+            .replace("{name}", name);
         let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
-        provenance(&library("").file("my.toml", post).file("head.nc", head), "--post my.toml")
+        let place = Place::of(&LIBRARY.replace("[tool.2mm]", "[macros]\nHead = 'head'\n[tool.2mm]"));
+        provenance(&place.file("my.toml", post).file("head.nc", head), "--post my.toml")
     };
-    assert_ne!(inserting("(a)\n"), inserting("(b)\n"));
+    for name in ["head.nc", "~Head~.nc"] {
+        assert_ne!(inserting(name, "(a)\n"), inserting(name, "(b)\n"));
+    }
     let native = provenance(&Place::of(&LIBRARY.replace("number = 4", "number = 5")), "");
     assert_eq!(native, all[0], "what a native program does not depend on is not in it");
 }

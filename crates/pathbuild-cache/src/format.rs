@@ -40,12 +40,22 @@ impl Key {
     /// The name of the file that results are kept in.
     pub fn file_name(&self) -> String {
         let digits = blake3::Hash::from_bytes(self.question).to_hex();
-        format!("{}{SUFFIX}", &digits[..24])
+        format!("{}{SUFFIX}", &digits[..DIGITS])
     }
 }
 
+/// Whether a name is one that [`Key::file_name`] gives.
+pub(crate) fn is_file_name(name: &str) -> bool {
+    let digits = name.strip_suffix(SUFFIX);
+    digits.is_some_and(|it| {
+        it.len() == DIGITS && it.bytes().all(|it| it.is_ascii_digit() || (b'a'..=b'f').contains(&it))
+    })
+}
+
 /// What names of kept results end in.
-pub(crate) const SUFFIX: &str = ".results";
+const SUFFIX: &str = ".results";
+/// How many digits of the question's hash stand before that.
+const DIGITS: usize = 24;
 
 /// A catalogue as the bytes of a file.
 ///

@@ -28,5 +28,5 @@ pub use reasons::{Reason, reasons};
 pub use snapshot::{KeptDirectory, KeptFile, KeptRecord, Snapshot};
 pub use stamp::{Clock, Stamp};
 pub use tree_store::{Home, TreeStore};
-pub use upkeep::Entry;
+pub use upkeep::{Entry, NotRemoved};
 pub use verify::{Covers, FileState, Looking, Stamped, Verdict, verify};

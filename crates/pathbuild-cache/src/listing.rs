@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 use std::fs;
+use std::io;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -33,10 +34,21 @@ impl Listing {
         }
     }
 
-    /// A directory's; one that cannot be listed holds nothing.
+    /// A directory's. What is in one that cannot be listed is not known; one that is not there holds nothing.
     fn of(directory: &Utf8Path) -> Self {
         let mut listing = Self::default();
-        for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
+        let entries = match fs::read_dir(directory) {
+            Ok(entries) => entries,
+            Err(error) => {
+                listing.is_doubtful = error.kind() != io::ErrorKind::NotFound;
+                return listing;
+            }
+        };
+        for entry in entries {
+            let Ok(entry) = entry else {
+                listing.is_doubtful = true;
+                continue;
+            };
             // As System lists them: of names that are no UTF-8 a lossy spelling.
             if let Some(file_type) = entry.file_type().ok().filter(|file_type| !file_type.is_dir()) {
                 listing.add(&entry.file_name().to_string_lossy(), file_type.is_symlink());

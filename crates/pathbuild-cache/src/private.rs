@@ -6,6 +6,11 @@ use std::fs::{self, DirBuilder, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::reasons::{
+    IS_LINK, NEVER_SO_LARGE, NO_DIRECTORY_BUT_FILE, NO_OWN_FILE, NOT_LOOKED_AT, OPEN_TO_ALL, SOMEBODY_ELSES,
+    reason,
+};
+use pathbuild_diagnostic::{Value, Word};
 
 /// Makes a directory with those above it that are missing; whether it was not there.
 ///
@@ -23,23 +28,23 @@ pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
 }
 
 /// Why a directory is not used; nothing where it is not there yet.
-pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static str> {
+pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Word> {
     match fs::symlink_metadata(directory) {
-        Ok(data) if data.is_symlink() => Some("it is a link"),
-        Ok(data) if !data.is_dir() => Some("it is no directory"),
-        Ok(data) if !is_own(&data) => Some("it belongs to somebody else"),
-        Ok(data) if is_open_to_all(&data) => Some("everybody may write into it"),
+        Ok(data) if data.is_symlink() => Some(&IS_LINK),
+        Ok(data) if !data.is_dir() => Some(&NO_DIRECTORY_BUT_FILE),
+        Ok(data) if !is_own(&data) => Some(&SOMEBODY_ELSES),
+        Ok(data) if is_open_to_all(&data) => Some(&OPEN_TO_ALL),
         Ok(_) => None,
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(_) => Some("it cannot be looked at"),
+        Err(_) => Some(&NOT_LOOKED_AT),
     }
 }
 
 /// The bytes of a file, if it is a regular one of this person; `None` where there is none.
 ///
 /// # Errors
-/// When it cannot be read, or is something else.
-pub(crate) fn read(path: &Utf8Path) -> io::Result<Option<Vec<u8>>> {
+/// When it cannot be read, is something else, or has more than so many bytes.
+pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
     let mut options = OpenOptions::new();
     options.read(true);
     // A link is not followed, and nobody waits for who writes into a pipe.
@@ -48,18 +53,19 @@ pub(crate) fn read(path: &Utf8Path) -> io::Result<Option<Vec<u8>>> {
         let flags = rustix::fs::OFlags::NOFOLLOW | rustix::fs::OFlags::NONBLOCK;
         std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, flags.bits().cast_signed());
     }
-    let mut file = match options.open(path) {
+    let file = match options.open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(error),
+        Err(error) => return Err(reason(&error)),
     };
-    let data = file.metadata()?;
+    let data = file.metadata().map_err(|error| reason(&error))?;
     if !data.is_file() || !is_own(&data) {
-        return Err(io::Error::other("it is no file of this user"));
+        return Err(Value::Word(&NO_OWN_FILE));
     }
-    let mut bytes = Vec::with_capacity(usize::try_from(data.len()).unwrap_or_default());
-    file.read_to_end(&mut bytes)?;
-    Ok(Some(bytes))
+    // It may grow while it is read.
+    let mut bytes = Vec::with_capacity(usize::try_from(data.len().min(limit)).unwrap_or_default());
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| reason(&error))?;
+    if bytes.len() as u64 > limit { Err(Value::Word(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
 }
 
 /// Makes a file that was not there, with a name of its own that begins with a point.

@@ -35,9 +35,13 @@ impl Stamp {
     /// One that no file has.
     pub const UNKNOWN: Self = Self([0; Self::SIZE]);
 
-    /// That of a file, of what a link leads to.
+    /// That of a file, of what a link leads to; unknown where the system does not tell it.
     pub fn of(file: &Utf8Path) -> Self {
-        fs::metadata(file).map_or(Self::MISSING, |data| Self::of_data(&data))
+        match fs::metadata(file) {
+            Ok(data) => Self::of_data(&data),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Self::MISSING,
+            Err(_) => Self::UNKNOWN,
+        }
     }
 
     /// That of an open file; unknown where the system does not tell it.

@@ -5,6 +5,8 @@
 use std::io;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::reasons::HOLDS_OTHERS;
 
 use crate::facts::Catalogue;
 use crate::flat::TooMuch;
@@ -33,9 +35,13 @@ pub struct TreeStore {
 
 /// In which file of a tree's directory the tree's path is.
 pub(crate) const TREE: &str = "tree";
+/// Larger results are not read: a file that somebody put there must not fill the memory.
+pub(crate) const LARGEST: u64 = 1 << 30;
+/// The same of the other files.
+pub(crate) const SMALL: u64 = 1 << 16;
 /// What marks a directory as a cache.
 pub(crate) const TAG: &str = "CACHEDIR.TAG";
-pub(crate) const SIGNATURE: &str = "Signature: 8a477f597d28d172789f06886806bc55";
+const SIGNATURE: &str = "Signature: 8a477f597d28d172789f06886806bc55";
 
 impl TreeStore {
     /// That of the tree whose configuration is in this directory. Nothing is made yet.
@@ -56,15 +62,17 @@ impl TreeStore {
     }
 
     /// Why it is not used: it is a link, somebody else's, or a directory of other things.
-    pub fn refusal(&self) -> Option<&'static str> {
-        let is_marked = || matches!(private::read(&self.directory.join(TAG)), Ok(Some(_)));
+    pub fn refusal(&self) -> Option<&'static Word> {
         let holds_others = || {
             let mut listed = self.directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
             listed.any(|entry| !is_ours(entry.file_name()))
         };
-        private::refusal(&self.directory).or_else(|| {
-            (!is_marked() && holds_others()).then_some("it holds other things and no CACHEDIR.TAG")
-        })
+        let is_right = || match private::read(&self.directory.join(TAG), SMALL) {
+            Ok(Some(tag)) => is_own_tag(&tag),
+            Ok(None) => !holds_others(),
+            Err(_) => false,
+        };
+        private::refusal(&self.directory).or_else(|| (!is_right()).then_some(&HOLDS_OTHERS))
     }
 
     /// What is kept under a key; `None` where nothing is.
@@ -72,7 +80,7 @@ impl TreeStore {
     /// # Errors
     /// Why what is there cannot be used.
     pub fn load(&self, key: &Key) -> Result<Option<Snapshot>, Unusable> {
-        match private::read(&self.directory.join(key.file_name())) {
+        match private::read(&self.directory.join(key.file_name()), LARGEST) {
             Ok(Some(file)) => format::decode(key, file).map(Some),
             Ok(None) => Ok(None),
             Err(_) => Err(Unusable::Damaged),
@@ -84,8 +92,11 @@ impl TreeStore {
     /// # Errors
     /// When it cannot be written; what was there still is.
     pub fn store(&self, key: &Key, catalogue: &Catalogue) -> io::Result<()> {
-        let bytes = format::encode(key, catalogue)
-            .map_err(|TooMuch| io::Error::other("there is more to keep than a file can hold"))?;
+        let too_much = || io::Error::other("there is more to keep than a file can hold");
+        let bytes = format::encode(key, catalogue).map_err(|TooMuch| too_much())?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(too_much());
+        }
         self.make()?;
         private::replace(&self.directory, &key.file_name(), &bytes)
     }
@@ -104,7 +115,8 @@ impl TreeStore {
     /// When it cannot be made.
     pub fn make(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
-        if private::read(&self.directory.join(TAG))?.is_none() {
+        let tag = private::read(&self.directory.join(TAG), SMALL);
+        if tag.map_err(|_| io::Error::other("its CACHEDIR.TAG cannot be read"))?.is_none() {
             let tag = format!("{SIGNATURE}\n{EXPLANATION}");
             private::replace(&self.directory, TAG, tag.as_bytes())?;
             if let Some(tree) = &self.tree {
@@ -114,6 +126,14 @@ impl TreeStore {
         Ok(is_new)
     }
 }
+
+/// Whether the file that marks a cache is pathbuild's: others mark theirs by the same signature.
+pub(crate) fn is_own_tag(tag: &[u8]) -> bool {
+    tag.strip_prefix(SIGNATURE.as_bytes()).is_some_and(|rest| rest.windows(OWN.len()).any(|word| word == OWN))
+}
+
+/// The word by which pathbuild knows its own.
+const OWN: &[u8] = b"pathbuild";
 
 /// So many digits of a hash tell trees apart.
 const NAME_LENGTH: usize = 32;

@@ -6,10 +6,12 @@ use std::io;
 use std::time::{Duration, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::{NO_CACHE, reason};
 
-use crate::format::{self, Key, SUFFIX, Unusable};
-use crate::private::{self, remove};
-use crate::tree_store::{Home, SIGNATURE, TAG, TREE, TreeStore};
+use crate::format::{self, Key, Unusable};
+use crate::private;
+use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag};
 
 /// A file of kept results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +24,15 @@ pub struct Entry {
     pub fault: Option<Unusable>,
 }
 
+/// What could not be removed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotRemoved {
+    /// The file, or the directory.
+    pub path: Utf8PathBuf,
+    /// Why not.
+    pub reason: Value,
+}
+
 /// How long results that nobody asked for are kept when the cache is pruned.
 const UNUSED: Duration = Duration::from_hours(30 * 24);
 /// After which time a file that a process was writing must have been left behind.
@@ -31,7 +42,7 @@ impl TreeStore {
     /// Every file of results, in order of name, and whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = names(self.directory())
-            .filter(|name| name.ends_with(SUFFIX))
+            .filter(|name| format::is_file_name(name))
             .map(|name| self.directory().join(name))
             .map(|path| Entry {
                 size: fs::symlink_metadata(&path).map_or(0, |data| data.len()),
@@ -48,7 +59,7 @@ impl TreeStore {
     ///
     /// # Errors
     /// When one of them cannot be removed, or it is no cache: then nothing is.
-    pub fn prune(&self, build: &Key) -> io::Result<usize> {
+    pub fn prune(&self, build: &Key) -> Result<usize, NotRemoved> {
         refuse_others(self.directory())?;
         let unused = self.entries(build).into_iter();
         let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED));
@@ -63,7 +74,7 @@ impl TreeStore {
     ///
     /// # Errors
     /// When it cannot be removed, or is no cache: then nothing is.
-    pub fn clean(&self) -> io::Result<bool> {
+    pub fn clean(&self) -> Result<bool, NotRemoved> {
         let is_there = fs::symlink_metadata(self.directory()).is_ok();
         if is_there {
             clean(self.directory())?;
@@ -77,24 +88,27 @@ impl Home {
     ///
     /// # Errors
     /// When they cannot be removed.
-    pub fn prune(&self) -> io::Result<usize> {
+    pub fn prune(&self) -> Result<usize, NotRemoved> {
         let Self::User(caches) = self else { return Ok(0) };
-        let mut removed = 0;
+        let (mut removed, mut not_removed) = (0, None);
         for directory in names(caches).map(|name| caches.join(name)) {
-            let tree = private::read(&directory.join(TREE)).ok().flatten();
+            let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
             let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
             if tree.is_some_and(|tree| !Utf8Path::new(&tree).as_std_path().exists()) {
-                clean(&directory)?;
-                removed += 1;
+                match clean(&directory) {
+                    Ok(()) => removed += 1,
+                    // The others go all the same.
+                    Err(error) => not_removed = Some(error),
+                }
             }
         }
-        Ok(removed)
+        not_removed.map_or(Ok(removed), Err)
     }
 }
 
 /// Whether a name is one that pathbuild gives in a directory of kept results.
 pub(crate) fn is_ours(name: &str) -> bool {
-    name.ends_with(SUFFIX) || is_temporary(name) || matches!(name, TAG | TREE)
+    format::is_file_name(name) || is_temporary(name) || matches!(name, TAG | TREE)
 }
 
 fn is_temporary(name: &str) -> bool {
@@ -105,7 +119,7 @@ fn is_temporary(name: &str) -> bool {
 }
 
 /// Removes what pathbuild made in a directory, and the directory where nothing else is in it.
-fn clean(directory: &Utf8Path) -> io::Result<()> {
+fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
     refuse_others(directory)?;
     // What says that it is a cache goes last.
     for name in names(directory).filter(|name| is_ours(name) && name != TAG).chain([TAG.to_owned()]) {
@@ -113,27 +127,34 @@ fn clean(directory: &Utf8Path) -> io::Result<()> {
     }
     match fs::remove_dir(directory) {
         Err(error) if !matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound) => {
-            Err(error)
+            Err(not_removed(directory, &error))
         }
         _ => Ok(()),
     }
 }
 
 /// Nothing is removed through a link, or from a directory that pathbuild has not made: names like its own may be anybody's.
-fn refuse_others(directory: &Utf8Path) -> io::Result<()> {
-    if let Some(reason) = private::refusal(directory) {
-        return Err(io::Error::other(reason));
+fn refuse_others(directory: &Utf8Path) -> Result<(), NotRemoved> {
+    let refused = |word| NotRemoved { path: directory.to_owned(), reason: Value::Word(word) };
+    if let Some(word) = private::refusal(directory) {
+        return Err(refused(word));
     }
-    let tag = private::read(&directory.join(TAG))?;
+    let tag = directory.join(TAG);
+    let tag = private::read(&tag, SMALL).map_err(|reason| NotRemoved { path: tag, reason })?;
     // Another run may be about to write it, or just have removed it: then there is nothing else but what pathbuild makes.
-    let is_cache = tag.map_or_else(
-        || names(directory).all(|name| is_ours(&name)),
-        |tag| tag.starts_with(SIGNATURE.as_bytes()),
-    );
+    let is_cache = tag.map_or_else(|| names(directory).all(|name| is_ours(&name)), |tag| is_own_tag(&tag));
     if !is_cache {
-        return Err(io::Error::other("it has no CACHEDIR.TAG, so it is no cache"));
+        return Err(refused(&NO_CACHE));
     }
     Ok(())
+}
+
+fn remove(path: &Utf8Path) -> Result<(), NotRemoved> {
+    private::remove(path).map_err(|error| not_removed(path, &error))
+}
+
+fn not_removed(path: &Utf8Path, error: &io::Error) -> NotRemoved {
+    NotRemoved { path: path.to_owned(), reason: reason(error) }
 }
 
 fn names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
@@ -142,7 +163,7 @@ fn names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
 }
 
 fn fault(path: &Utf8Path, build: &Key) -> Option<Unusable> {
-    let Ok(Some(file)) = private::read(path) else { return Some(Unusable::Damaged) };
+    let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(Unusable::Damaged) };
     let Some(key) = format::key_of(&file) else { return Some(Unusable::Damaged) };
     if key.build != build.build {
         return Some(Unusable::Foreign);

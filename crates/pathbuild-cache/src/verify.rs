@@ -39,8 +39,10 @@ pub struct Looking<'a> {
     pub covers: Covers<'a>,
     /// Which records are looked at, by what they are of.
     pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
-    /// The bytes of a file, and the stamp that it had before and after they were read: unknown if that was not the same.
-    pub read: &'a (dyn Fn(&Utf8Path) -> Option<Stamped> + Sync),
+    /// Whether a file may be looked at.
+    pub is_allowed: &'a (dyn Fn(&Utf8Path) -> bool + Sync),
+    /// The bytes of a file, of an output or not, and the stamp that it had before and after they were read: unknown if that was not the same.
+    pub read: &'a (dyn Fn(&Utf8Path, bool) -> Option<Stamped> + Sync),
     /// What the content of an output is hashed to: some is written by people.
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
@@ -79,8 +81,8 @@ fn files(kept: &Snapshot, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileSt
     }
     let state = |(number, role): (usize, &Role)| match role {
         Role::None => FileState::Unlooked,
-        Role::Source => state(kept.file(number), looking, &|_, bytes| *blake3::hash(bytes).as_bytes()),
-        Role::Output => state(kept.file(number), looking, looking.hash_output),
+        Role::Source => state(kept.file(number), looking, false, &|_, bytes| *blake3::hash(bytes).as_bytes()),
+        Role::Output => state(kept.file(number), looking, true, looking.hash_output),
     };
     roles.par_iter().enumerate().with_min_len(256).map(state).collect()
 }
@@ -128,14 +130,20 @@ pub enum FileState {
 fn state(
     file: KeptFile<'_>,
     looking: Looking<'_>,
+    is_output: bool,
     hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32],
 ) -> FileState {
-    let (path, stamp) = (file.path(), Stamp::of(file.path()));
+    let path = file.path();
+    // The stamp is that of what links lead to, wherever.
+    if !(looking.is_allowed)(path) {
+        return FileState::Changed;
+    }
+    let stamp = Stamp::of(path);
     if stamp == file.stamp() && stamp != Stamp::UNKNOWN {
         return FileState::Resting;
     }
     let Some(hash) = file.hash().filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
-    match (looking.read)(path) {
+    match (looking.read)(path, is_output) {
         Some((bytes, stamp)) if hash_of(path, &bytes) == hash => FileState::Restored(stamp),
         _ => FileState::Changed,
     }

@@ -106,7 +106,7 @@ fn covers(file: &str, path: &str) -> bool {
 /// Everything is looked at; of outputs all counts.
 fn looking<'a>(base: &'a Utf8Path, covers: pathbuild_cache::Covers<'a>) -> Looking<'a> {
     let hash_output = &|_: &Utf8Path, bytes: &[u8]| *blake3::hash(bytes).as_bytes();
-    Looking { base, covers, is_asked: &|_| true, read: &read, hash_output }
+    Looking { base, covers, is_asked: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
 }
 
 /// A cache that is there.
@@ -165,7 +165,7 @@ fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     (file, cache(base).clock().unwrap())
 }
 
-fn read(file: &Utf8Path) -> Option<(Vec<u8>, Stamp)> {
+fn read(file: &Utf8Path, _: bool) -> Option<(Vec<u8>, Stamp)> {
     Some((fs::read(file).ok()?, Stamp::of(file)))
 }
 

@@ -60,15 +60,29 @@ fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
     let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
     assert_eq!(place.refusal(), None);
     symlink("one", place.directory()).unwrap();
-    assert_eq!(place.refusal(), Some("it is a link"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("it is a link"));
     fs::remove_file(place.directory()).unwrap();
     fs::write(place.directory(), "").unwrap();
-    assert_eq!(place.refusal(), Some("it is no directory"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("it is no directory"));
     fs::remove_file(place.directory()).unwrap();
     store(&place);
     assert_eq!(place.refusal(), None);
     fs::set_permissions(place.directory(), fs::Permissions::from_mode(0o777)).unwrap();
-    assert_eq!(place.refusal(), Some("everybody may write into it"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("everybody may write into it"));
+}
+
+#[test]
+fn files_that_are_too_large_are_not_read() {
+    let (_directory, base) = world();
+    let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
+    store(&place);
+    let key = Key::new("build", "question");
+    // Without content: they take no room on disk.
+    for name in [key.file_name(), "CACHEDIR.TAG".to_owned()] {
+        fs::File::create(place.directory().join(name)).unwrap().set_len(1 << 42).unwrap();
+    }
+    assert!(place.load(&key).is_err());
+    assert!(place.clean().is_err_and(|it| it.path.ends_with("CACHEDIR.TAG")));
 }
 
 #[test]
@@ -76,7 +90,7 @@ fn a_directory_of_other_things_is_refused_and_stays() {
     let (_directory, base) = world();
     let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
-    assert_eq!(place.refusal(), Some("it holds other things and no CACHEDIR.TAG"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("it holds other things and no CACHEDIR.TAG"));
     assert!(place.clean().is_err());
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     store(&place);

@@ -34,7 +34,7 @@ pub use queries::{
     drawing_names, drawn_path, embeds, embeds_others, file_index, holders, in_force, keep_outs, likely_file,
     locate, may_hold, name_table, other_layers, path, path_index, path_names, path_place, placed_keep_outs,
     prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path, summary, trace,
-    traced_program,
+    traced_program, unlistable, unlisted,
 };
 pub use scratch::ScratchPool;
 pub use settings::{Limits, Reading, Settings};

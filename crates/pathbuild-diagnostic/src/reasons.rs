@@ -16,6 +16,8 @@ words! {
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
     /// A directory where a file should be written.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
+    /// R of a path is a part of its program's name.
+    NO_FILE_NAME: "the name, of which R is a part, holds a character that cannot be in a file's name", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
     /// A pipe, a socket, a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
     /// `--untrusted`.
@@ -28,6 +30,26 @@ words! {
     NO_DIRECTORY_OF_POST: "this post has no directory", "dieser Postprozessor hat kein Verzeichnis";
     /// Texts.
     NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
+    /// Files of kept results.
+    NO_OWN_FILE: "it is no file of this user", "es ist keine Datei dieses Benutzers";
+    /// Likewise.
+    NEVER_SO_LARGE: "it is larger than what pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
+    /// Directories that are not used, of kept results.
+    IS_LINK: "it is a link", "es ist eine Verknüpfung";
+    /// Likewise.
+    NO_DIRECTORY_BUT_FILE: "it is no directory", "es ist kein Verzeichnis";
+    /// Likewise.
+    SOMEBODY_ELSES: "it belongs to somebody else", "es gehört jemand anderem";
+    /// Likewise.
+    OPEN_TO_ALL: "everybody may write into it", "alle dürfen hineinschreiben";
+    /// Likewise.
+    NOT_LOOKED_AT: "it cannot be looked at", "es lässt sich nicht einsehen";
+    /// Likewise.
+    HOLDS_OTHERS: "it holds other things and no CACHEDIR.TAG", "es enthält anderes und keine CACHEDIR.TAG";
+    /// Likewise.
+    IN_STRANGERS_TREE: "it lies in a tree that is not trusted", "es liegt in einem Baum, dem nicht getraut wird";
+    /// Likewise.
+    NO_CACHE: "it has no CACHEDIR.TAG, so it is no cache", "es hat keine CACHEDIR.TAG, ist also kein Cache";
     /// As systems say it.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Likewise.

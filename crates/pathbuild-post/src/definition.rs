@@ -1,11 +1,13 @@
 //! A definition of either language, and what it writes.
 
+use std::collections::BTreeSet;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
 use super::built_in::Language;
 use super::job::{Coolant, Job, Operation, Spindle};
-use super::options::PostOptions;
+use super::options::{PostMacro, PostOptions};
 use super::read_back::{self, Expected};
 use super::suggest::nearest;
 use super::target::{self, Target};
@@ -84,6 +86,15 @@ impl Post {
         match &self.engine {
             Engine::CamBam(definition) => definition.extension(),
             Engine::Cad6(definition) => definition.extension(),
+        }
+    }
+
+    /// The files that are part of every text, relative to the definition's directory. Further ones may depend on the program, see
+    /// [`Output::inserted`].
+    pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
+        match &self.engine {
+            Engine::CamBam(_) => BTreeSet::new(),
+            Engine::Cad6(definition) => cad6::foreseen(definition, macros),
         }
     }
 

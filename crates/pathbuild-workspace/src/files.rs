@@ -19,6 +19,11 @@ pub fn is_there(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
 
+/// Whether anything at all has that name, were it a link to nothing.
+pub fn is_named(file: &Utf8Path) -> bool {
+    file.as_std_path().symlink_metadata().is_ok()
+}
+
 /// The text of a file, in UTF-8.
 ///
 /// # Errors

@@ -9,6 +9,7 @@ use std::env;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::CacheHome;
+use pathbuild_workspace::config::clean;
 
 /// A person's `config.toml`, there or not; `None` where nobody says where it would be.
 pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
@@ -42,7 +43,7 @@ pub(crate) fn cache_home(
 ) -> Option<CacheHome> {
     let named = named.map(Utf8Path::to_owned).or_else(|| directory("PATHBUILD_CACHE_DIR"));
     match named {
-        Some(named) => Some(CacheHome::Named(working_directory.join(named))),
+        Some(named) => Some(CacheHome::Named(clean(&working_directory.join(named)))),
         None => configured.or_else(user_caches).map(CacheHome::User),
     }
 }

@@ -47,6 +47,7 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
     let to = match &embedding.outcome {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
+        Outcome::Unlisted(_) => nowhere(Code::UnreadableFile),
         // There is one problem at least.
         Outcome::Unbound(problems) => {
             nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))

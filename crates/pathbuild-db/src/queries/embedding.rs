@@ -31,6 +31,8 @@ pub struct Embedding<'db> {
 pub enum Outcome<'db> {
     /// It names no path, or one that may not be embedded: PB501, PB502, PB507.
     Refused(Diagnostic),
+    /// It may be in a directory that cannot be listed: PB001.
+    Unlisted(Vec<Diagnostic>),
     /// The path is nowhere, or in several places: PB503, PB504.
     NotFound(Diagnostic),
     /// The values do not fit its variables: PB302 to PB304.
@@ -86,6 +88,7 @@ impl<'db> Embedder<'db> {
             return self.bound(call, self.file, key);
         };
         match resolved.files.as_slice() {
+            _ if !resolved.unlisted.is_empty() => Outcome::Unlisted(resolved.unlisted.clone()),
             [] => Outcome::NotFound(self.not_found(call, name, resolved)),
             [file] => self.bound(call, *file, key),
             [first, second, ..] => {

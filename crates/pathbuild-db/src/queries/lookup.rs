@@ -1,11 +1,12 @@
 //! Where paths are: file names to files. (book: language/layers-and-names)
 
 use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{PathKey, PathName};
 use rustc_hash::FxHashSet;
 
 use super::index::{NameKey, file_index, path_index};
-use super::names::name_table;
+use super::names::{name_table, unlisted};
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
@@ -17,6 +18,8 @@ pub struct Resolved {
     pub files: Vec<SourceFile>,
     /// The files that may hold it by their names.
     pub searched: Vec<SourceFile>,
+    /// PB001 of the directories that cannot be listed: it may be there, or once more.
+    pub unlisted: Vec<Diagnostic>,
 }
 
 /// Where a path is that a drawing refers to: in any file of its directory and the search directories. `None` where the drawing itself defines
@@ -40,7 +43,8 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
         let mut seen = FxHashSet::default();
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }
-    Resolved { files, searched }
+    let unlisted = directories.iter().filter_map(|directory| unlisted(db, *directory)).collect();
+    Resolved { files, searched, unlisted }
 }
 
 /// The directories in which paths are looked for that drawings in a directory refer to, in order, that one first.

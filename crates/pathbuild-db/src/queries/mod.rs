@@ -42,7 +42,7 @@ pub use index::{FileIndex, NameKey, PathIndex, content, content_hash, file_index
 pub use instance::{Instance, chains, path, summary};
 pub use keep_outs::{PlacedKeepOut, keep_outs, placed_keep_outs};
 pub use lookup::{Resolved, holders, may_hold, resolve_path, search_path};
-pub use names::{drawing_names, name_table};
+pub use names::{drawing_names, name_table, unlistable, unlisted};
 pub use prefetch::{embeds_others, likely_file, prefetch};
 pub use programs::program;
 pub use q_projects::{q_project, q_project_findings};

@@ -1,18 +1,24 @@
 //! What file names say about paths: the drawings of a directory by the name ranges in theirs. (book: language/layers-and-names)
 
+use camino::Utf8Path;
+use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::reasons::NO_DIRECTORY;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{FilePattern, PathKey, RangeTable};
 
 use crate::bugs::catch_bugs;
 use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
-use crate::system::{Names, join};
+use crate::system::{Names, ReadError, join};
 
 /// The drawings of a directory by the path names in theirs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameTable {
     names: Names,
     ranges: RangeTable,
+    /// Why the directory cannot be listed: nobody knows what is in it.
+    fault: Option<ReadError>,
 }
 
 impl NameTable {
@@ -25,7 +31,7 @@ impl NameTable {
             pattern.each_range(stem, |range| ranges.push((range, number)));
             names.push(name);
         }
-        Self { names, ranges: ranges.into_iter().collect() }
+        Self { names, ranges: ranges.into_iter().collect(), fault: None }
     }
 
     /// The files that may hold a path, in order of name.
@@ -38,13 +44,35 @@ impl NameTable {
     }
 }
 
-/// The name ranges in a directory's file names. A directory that cannot be listed has none.
+/// The name ranges in a directory's file names; none where there is no such directory, or it cannot be listed.
 #[salsa::tracked]
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
     let pattern = Settings::get(db).file_pattern(db);
-    let list = || db.system().list(directory.path(db)).unwrap_or_default().files;
-    NameTable::new(&db.listed(directory).unwrap_or_else(list), pattern)
+    let list = || db.system().list(directory.path(db)).map(|listing| listing.files);
+    match db.listed(directory).map_or_else(list, Ok) {
+        Ok(files) => NameTable::new(&files, pattern),
+        Err(ReadError::Missing) => NameTable::default(),
+        Err(fault) => NameTable { fault: Some(fault), ..NameTable::default() },
+    }
+}
+
+/// PB001 of a directory that cannot be listed: a path may be in it, or once more.
+pub fn unlisted(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
+    let fault = name_table(db, directory).fault.as_ref()?;
+    Some(unlistable(directory.path(db), fault))
+}
+
+/// The same of any directory.
+pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
+    let reason = match fault {
+        ReadError::Other(reason) => reason.clone(),
+        ReadError::Missing | ReadError::IsDirectory | ReadError::TooLarge { .. } => {
+            Value::Word(&NO_DIRECTORY)
+        }
+    };
+    let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
+    Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
 /// The names of the drawings in a directory, as its name ranges were read from them; none where that shows a bug.

@@ -1,4 +1,4 @@
-//! A system in which nothing leads out of one directory: for trees of strangers. (book: reference/configuration, `--untrusted`)
+//! A system in which nothing leads out of some directories: for trees of strangers. (book: reference/configuration, `--untrusted`)
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -11,58 +11,82 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written, clean};
 
-/// Another system, of which nothing is read or written through links that lead from inside a directory to outside. A name that lies
-/// outside by itself is allowed: a tree can give none that is not held against [`Confined::holds`] first, so a person gave it.
+/// Another system, of which nothing is read or written through links that lead from inside one of some directories to outside of it. A name that
+/// lies outside by itself is allowed: a tree can give none that is not held against [`Confined::holds`] first, so a person gave it.
 #[derive(Clone, Debug)]
 pub struct Confined {
     below: Arc<dyn System>,
     /// What relative names are relative to.
     working_directory: Utf8PathBuf,
-    /// The directory as names spell it, and where it really is.
-    root: Utf8PathBuf,
-    real_root: Utf8PathBuf,
+    /// That of the configuration first.
+    roots: Vec<Root>,
+}
+
+/// A directory as names spell it, and where it really is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Root {
+    spelt: Utf8PathBuf,
+    real: Utf8PathBuf,
 }
 
 impl Confined {
     /// A system confined to a directory.
     pub fn new(below: Arc<dyn System>, root: &Utf8Path, working_directory: &Utf8Path) -> Self {
-        let root = clean(&working_directory.join(root));
-        let real_root = below.canonical(&root);
-        Self { below, working_directory: working_directory.to_owned(), root, real_root }
+        let confined = Self { below, working_directory: working_directory.to_owned(), roots: Vec::new() };
+        confined.and(root)
     }
 
-    /// The directory.
+    /// The same, confined to a further directory for what lies in that.
+    #[must_use]
+    pub fn and(mut self, root: &Utf8Path) -> Self {
+        let spelt = clean(&self.working_directory.join(root));
+        let real = self.below.canonical(&spelt);
+        let root = Root { spelt, real };
+        if !self.roots.contains(&root) {
+            self.roots.push(root);
+        }
+        self
+    }
+
+    /// The directory of the configuration.
     pub fn root(&self) -> &Utf8Path {
-        &self.root
+        self.roots.first().map_or(Utf8Path::new(""), |root| &root.spelt)
     }
 
-    /// Whether the directory really lies in or below one of these.
-    pub fn lies_below(&self, roots: &[Utf8PathBuf]) -> bool {
-        roots.iter().any(|root| self.real_root.starts_with(self.below.canonical(root)))
+    /// Whether all of the directories really lie in or below one of these.
+    pub fn lies_below(&self, trusted: &[Utf8PathBuf]) -> bool {
+        let is_below =
+            |root: &Root| trusted.iter().any(|trusted| root.real.starts_with(self.below.canonical(trusted)));
+        self.roots.iter().all(is_below)
     }
 
-    /// Whether a path lies in the directory, as it is spelt and where it leads.
+    /// Whether a path lies in the directory of the configuration, as it is spelt and where it leads.
     pub fn holds(&self, path: &Utf8Path) -> bool {
-        self.spells_inside(path) && self.leads_inside(path)
+        self.roots.first().is_some_and(|root| self.spells(path, root) && self.leads_into(path, root))
     }
 
-    fn spells_inside(&self, path: &Utf8Path) -> bool {
+    /// Whether a path lies in one of the directories, as it is spelt.
+    pub fn spells_inside(&self, path: &Utf8Path) -> bool {
+        self.roots.iter().any(|root| self.spells(path, root))
+    }
+
+    fn spells(&self, path: &Utf8Path, root: &Root) -> bool {
         let path = clean(&self.working_directory.join(path));
-        path.starts_with(&self.root) || path.starts_with(&self.real_root)
+        path.starts_with(&root.spelt) || path.starts_with(&root.real)
     }
 
     /// Of what is not there yet, where it would be.
-    fn leads_inside(&self, path: &Utf8Path) -> bool {
+    fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
         let there = ancestors.find(|path| self.below.kind(path) != FileKind::Missing);
         // What cannot be followed may lead anywhere.
-        there.is_none_or(|there| there.canonicalize_utf8().is_ok_and(|it| it.starts_with(&self.real_root)))
+        there.is_none_or(|there| there.canonicalize_utf8().is_ok_and(|it| it.starts_with(&root.real)))
     }
 
     /// Whether a path may be read or written: it does not lead from inside to outside.
     pub fn allows(&self, path: &Utf8Path) -> bool {
-        !self.spells_inside(path) || self.leads_inside(path)
+        self.roots.iter().all(|root| !self.spells(path, root) || self.leads_into(path, root))
     }
 
     fn allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {

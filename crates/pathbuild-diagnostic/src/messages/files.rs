@@ -8,6 +8,20 @@ messages! {
         help_en: "check the name, and that the CAD has not locked the file",
         help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
     }
+    /// The system refused to say what is in it.
+    UNLISTABLE: UnreadableFile {
+        en: "cannot look into the directory: {reason}",
+        de: "das Verzeichnis lässt sich nicht einsehen: {reason}",
+        help_en: "give the user who runs pathbuild the right to read it; drawings in it may be missing here",
+        help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht geben; hier können Zeichnungen daraus fehlen",
+    }
+    /// A drawing or a directory that cannot be named.
+    NAME_NOT_UTF_8: UnreadableFile {
+        en: "the name {name} in this directory is not in UTF-8; nothing under it is read",
+        de: "der Name {name} in diesem Verzeichnis ist nicht in UTF-8; was darunter steht, wird nicht gelesen",
+        help_en: "rename it",
+        help_de: "umbenennen",
+    }
     /// There is no such file.
     MISSING: UnreadableFile {
         en: "there is no such file",
@@ -103,6 +117,13 @@ messages! {
         de: "{name} kann nicht entfernt werden: {reason}",
         help_en: "check the directory's permissions, and whether another program has the file open",
         help_de: "Rechte des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
+    }
+    /// A rule would be something else with it, a command at worst.
+    UNNAMEABLE: CannotWrite {
+        en: "no rule for make can name {name}: it has `=`, `%` or `|`",
+        de: "keine Regel für make kann {name} nennen: darin steht `=`, `%` oder `|`",
+        help_en: "rename the file or the directory, or leave out --deps",
+        help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
     /// Writing failed.
     CANNOT_WRITE: CannotWrite {

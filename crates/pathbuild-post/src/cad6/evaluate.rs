@@ -120,7 +120,7 @@ impl<'a> Evaluator<'a> {
 
     fn escape(&mut self) -> Evaluated<()> {
         let rest = self.rest();
-        if let Some(after) = rest.strip_prefix(r"\\\~*") {
+        if let Some(after) = rest.strip_prefix(super::insert::INSERTION) {
             return self.insertion(after);
         }
         if let Some(byte) = rest.strip_prefix(r"\\\~").and_then(hex_byte) {

@@ -29,6 +29,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 
 pub(super) use definition::Definition;
+pub(super) use insert::foreseen;
 use runner::Runner;
 
 use super::PostOptions;

@@ -7,10 +7,11 @@ use super::calls::calls;
 use super::control_text::ControlTextKind;
 use super::marks::is_private;
 use super::runner::{Called, Runner};
-use crate::PostOptions;
+use super::variables::Variables;
 use crate::arcs::Polar;
 use crate::job::{Coolant, Job, Operation, Plane, Spindle, Units};
 use crate::step::{Arc, Hole, HoleKind};
+use crate::{PostMacro, PostOptions};
 
 /// Makes the calls of a job.
 pub(super) struct Caller<'a, 'r> {
@@ -45,6 +46,13 @@ pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runn
     caller.runner.call(ControlTextKind::ProgramEnd)
 }
 
+/// The user's macros are variables.
+pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
+    for own in macros {
+        variables.assign(&own.name, &own.value.replace(is_private, "?"));
+    }
+}
+
 impl Caller<'_, '_> {
     fn set(&mut self, name: &str, value: f64) {
         self.runner.variables.set(name, value);
@@ -63,9 +71,7 @@ impl Caller<'_, '_> {
     }
 
     fn constants(&mut self, units: Units, options: &PostOptions<'_>) {
-        for own in &options.macros {
-            self.runner.variables.assign(&own.name, &own.value.replace(is_private, "?"));
-        }
+        assign_macros(&mut self.runner.variables, &options.macros);
         for axis in ["X", "Y", "Z"] {
             self.runner.variables.assign(&format!("{axis}Incr"), &format!("(~{axis}1~-~Prev{axis}~)"));
         }

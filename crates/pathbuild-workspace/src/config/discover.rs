@@ -40,6 +40,11 @@ impl Discovery<'_> {
         first.map_or_else(|| clean(self.working_directory), |first| self.beginning_of(first))
     }
 
+    /// The trees of all arguments.
+    pub(super) fn beginnings(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
+        self.inputs.iter().map(|input| self.beginning_of(input))
+    }
+
     fn beginning_of(&self, input: Input<'_>) -> Utf8PathBuf {
         clean(&self.working_directory.join(input.beginning(|place| self.is_directory(place))))
     }
@@ -73,6 +78,18 @@ impl Discovery<'_> {
 pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_repository = |directory: &&Utf8Path| system.kind(&directory.join(".git")) != FileKind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
+}
+
+/// The repository that a directory of a stranger's tree may not lead out of: a link in a repository leads to no other one.
+pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
+    let is_link = |place: &&Utf8Path| {
+        let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };
+        system.canonical(place) != system.canonical(parent).join(name)
+    };
+    let is_repository = |place: &&Utf8Path| system.kind(&place.join(".git")) != FileKind::Missing;
+    let outermost = directory.ancestors().filter(is_link).last();
+    let around = outermost.and_then(|link| link.ancestors().skip(1).find(is_repository));
+    around.unwrap_or_else(|| repository(system, directory))
 }
 
 fn complaint(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use toml::de::DeTable;
 
 use super::arguments::Overrides;
-use super::discover::{Discovery, repository};
+use super::discover::{Discovery, confining};
 use super::options::Options;
 use super::reader::TomlReader;
 use super::settings::Settings;
@@ -42,7 +42,7 @@ pub fn load(
     (Settings { file, not_used, confined, ..options.over(configured).resolve() }, diagnostics)
 }
 
-/// The repository that a run may not leave, where it is a stranger's.
+/// The repositories that a run may not leave, where one of them is a stranger's: that of the configuration, and that of each argument.
 fn confinement(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -51,8 +51,10 @@ fn confinement(
 ) -> Option<Confined> {
     let first = || discovery.beginning();
     let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
-    let root = repository(&**system, &directory);
+    let root = confining(&**system, &directory);
     let confined = Confined::new(Arc::clone(system), root, discovery.working_directory);
+    let further = discovery.beginnings();
+    let confined = further.fold(confined, |confined, place| confined.and(confining(&**system, &place)));
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
     (given.untrusted || !is_trusted).then_some(confined)
 }

@@ -2,7 +2,6 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use toml::de::DeTable;
@@ -27,7 +26,7 @@ pub struct User {
 impl User {
     /// Reads the file, if there is one, with everything that is wrong in it.
     pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
-        if system.kind(file) != FileKind::File {
+        if !files::is_named(file) {
             return (Self::default(), Vec::new());
         }
         match files::read(system, file, LARGEST) {

@@ -12,14 +12,15 @@ use crate::posting::PostProcessor;
 use crate::session::OutputKind;
 
 /// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
-/// of another program. Comes with where the moves part, or why they cannot be read.
+/// of another program. Comes with where the moves part, or why they cannot be read. What is larger than any program is none.
 pub(super) fn compare(
     system: &dyn System,
     output: &Output,
+    limit: u64,
     moves_only: bool,
     poster: Option<&PostProcessor>,
 ) -> (State, Vec<Diagnostic>) {
-    let present = match system.read(&output.path, u64::MAX) {
+    let present = match system.read(&output.path, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing) => return (State::Missing, Vec::new()),
         Err(_) => return (State::Outdated, Vec::new()),

@@ -19,7 +19,7 @@ use super::{compare, options, sheet};
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
 use crate::machine::machine;
-use crate::posting::{PostProcessor, tool_table};
+use crate::posting::{Inserted, PostProcessor, tool_table};
 use crate::session::{OutputKind, Writing, hash_output, without_values};
 use crate::workspace::Workspace;
 
@@ -63,8 +63,8 @@ pub struct Delivered {
     pub notes: Vec<Note>,
     /// The command that a post wants to be run, and the file that it is for.
     pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
-    /// Files that a post put in.
-    pub(super) inserted: Vec<Box<str>>,
+    /// Files that a post put in, or could not.
+    pub(super) inserted: Vec<Inserted>,
 }
 
 impl Delivered {
@@ -219,24 +219,29 @@ pub(super) fn finish(
     system: &dyn System,
     mut outputs: Vec<Output>,
     task: Task,
-    poster: Option<&PostProcessor>,
+    means: &OutputSettings<'_>,
     delivered: &mut Delivered,
 ) {
+    let (poster, limit) = (means.poster, means.writing.most_bytes as u64);
+    // Of what this version writes, whatever of another version lies there: else that would be what should be there from now on.
+    let hashes: Vec<[u8; 32]> =
+        outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
     if task != Task::Print {
         for output in &mut outputs {
-            keep_other_version(system, output);
+            keep_other_version(system, output, limit);
         }
     }
+    let hashed = outputs.iter().zip(hashes);
     match task {
         Task::Write { force } => {
-            if let Err(problem) = write(system, &outputs, force, delivered) {
+            if let Err(problem) = write(system, hashed, force, delivered) {
                 delivered.problems.push(*problem);
             }
         }
         Task::Compare { moves_only } => {
-            for output in outputs.iter().filter(|output| task.compares(output.kind)) {
-                let (state, problems) = compare::compare(system, output, moves_only, poster);
-                delivered.hashes.push(hash_output(&output.path, &output.text));
+            for (output, hash) in hashed.filter(|(output, _)| task.compares(output.kind)) {
+                let (state, problems) = compare::compare(system, output, limit, moves_only, poster);
+                delivered.hashes.push(hash);
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
             }
@@ -249,9 +254,9 @@ pub(super) fn finish(
 }
 
 /// What another version of pathbuild wrote stays, where it is the same program.
-fn keep_other_version(system: &dyn System, output: &mut Output) {
+fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     if is_of_other_version(system, &output.path)
-        && let Ok(present) = system.read(&output.path, u64::MAX)
+        && let Ok(present) = system.read(&output.path, limit)
         && is_same_program(&present, &output.text)
     {
         output.text = present;
@@ -359,12 +364,11 @@ fn posted(
         PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
-    let output = poster.write(&program, Some(path));
+    let output = poster.write(&program, Some(path), &mut delivered.inserted);
     let output =
         output.map_err(|problems| problems.into_iter().map(|it| in_job(it, job)).collect::<Vec<_>>())?;
     delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
-    delivered.inserted = output.inserted;
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
     Ok(Output { kind: *kind, path: path.clone(), text: output.text })
 }
@@ -374,25 +378,26 @@ fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }
 
-fn write(
+/// Writes outputs, each with the hash of what this version writes.
+fn write<'a>(
     system: &dyn System,
-    outputs: &[Output],
+    outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
     force: bool,
     delivered: &mut Delivered,
 ) -> Result<(), Box<Diagnostic>> {
-    let values = || outputs.iter().filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(lost) = values().find(|output| would_lose_values(system, output)) {
+    let mut values = outputs.clone().map(|(output, _)| output).filter(|it| it.kind == OutputKind::Values);
+    if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
         let name = lost.path.file_name().unwrap_or_default();
         return Err(Box::new(
             Diagnostic::new(&probes::VALUES_PRESENT).with("name", name).in_file(&lost.path),
         ));
     }
-    for output in outputs {
+    for (output, hash) in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
         let written = if is_kept { Ok(Written::Unchanged) } else { system.write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
         let state = if written == Written::Changed { State::Written } else { State::Unchanged };
-        delivered.hashes.push(hash_output(&output.path, &output.text));
+        delivered.hashes.push(hash);
         delivered.files.push((output.path.clone(), state));
     }
     Ok(())

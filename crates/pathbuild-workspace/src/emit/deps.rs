@@ -3,45 +3,51 @@
 use std::fmt::Write;
 use std::iter::repeat_n;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files as messages;
 
 use super::deliver::cannot_write;
 use super::job::Job;
-use crate::posting::PostProcessor;
+use crate::posting::{Inserted, PostProcessor};
 use crate::session::Session;
 
 /// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
-/// from. `inserted`: of each job what the post put in, relative to the post's directory.
+/// from. `inserted`: of each job what the post put in, relative to the post's directory. Where a name has no spelling nothing is written.
 pub(super) fn write(
     session: &Session<'_>,
     file: &Utf8Path,
     jobs: &[Job],
     poster: Option<&PostProcessor>,
-    inserted: &[Vec<Box<str>>],
+    inserted: &[&[Inserted]],
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
     let post = poster.and_then(PostProcessor::file).map(|file| session.normal(file));
     let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
-    for (job, inserted) in jobs.iter().zip(inserted) {
-        let outputs: Vec<String> = job.files.iter().map(|(_, path)| escaped(path)).collect();
-        _ = write!(text, "{}:", outputs.join(" "));
-        let sources = job.sources.iter().map(|source| source.path(db).as_path());
-        for source in sources.chain(configuration.as_deref()).chain(post.as_deref()) {
-            _ = write!(text, " {}", escaped(source));
-        }
-        for name in inserted {
-            _ = write!(text, " {}", escaped(&session.normal(&beside.join(&**name))));
-        }
-        text.push('\n');
-    }
     let file = session.normal(file);
+    for (job, inserted) in jobs.iter().zip(inserted) {
+        let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();
+        let inserted: Vec<Utf8PathBuf> =
+            inserted.iter().map(|inserted| session.normal(&beside.join(&inserted.name))).collect();
+        let sources = job.sources.iter().map(|source| source.path(db).as_path());
+        let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
+        let sources: Vec<&Utf8Path> = sources.chain(inserted.iter().map(Utf8PathBuf::as_path)).collect();
+        if let Some(name) = outputs.iter().chain(&sources).find(|name| name.as_str().contains(NO_SPELLING)) {
+            let problem = Diagnostic::new(&messages::UNNAMEABLE).with("name", name.as_str());
+            return Some(problem.in_file(&file));
+        }
+        let all = |names: &[&Utf8Path]| names.iter().map(|name| escaped(name)).collect::<Vec<_>>().join(" ");
+        _ = writeln!(text, "{}: {}", all(&outputs), all(&sources));
+    }
     let written = db.system().write(&file, text.as_bytes());
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
+
+/// What make takes for its own wherever it stands: an assignment, even of a command's output (`!=`), a pattern, and what need not be newer.
+const NO_SPELLING: [char; 3] = ['=', '%', '|'];
 
 /// A name in which nothing is taken for more than itself, as make reads it, and Ninja where it has a way to write it. There is none to write a
 /// line feed or another control character: escaped they name a file that is not there.

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_db::{Database, SourceFile, Target, path_names, trace};
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
+use pathbuild_diagnostic::reasons::NO_FILE_NAME;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 
 use super::Owners;
@@ -164,11 +165,7 @@ impl Maker<'_> {
 
     fn named(&self, name: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
         if stem_fault(name) {
-            let reason = self.session.workspace().choose(
-                "the name, of which R is a part, holds a character that cannot be in a file's name",
-                "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann",
-            );
-            return Err(Box::new(cannot_write(name, reason)));
+            return Err(Box::new(cannot_write(name, Value::Word(&NO_FILE_NAME))));
         }
         Ok(join(directory, name))
     }

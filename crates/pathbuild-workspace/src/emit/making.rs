@@ -129,6 +129,11 @@ impl Planning<'_> {
                 None => open.push(targets.clone()),
             }
         }
+        // Their moves may be known of a run that asked for no times.
+        let rapid = self.session.workspace().settings.general.rapid.value;
+        if !jobs.is_empty() && rapid.is_none() && task.writes_times() {
+            return Err(options::missing_values(self.session.workspace(), ["rapid"]));
+        }
         jobs.extend(self.made(&open)?);
         Ok(jobs)
     }

@@ -114,7 +114,7 @@ impl Request<'_> {
         let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
         diagnostics.extend(problems.cloned());
         if let Some(file) = self.deps {
-            let inserted: Vec<_> = delivered.iter().map(|delivered| delivered.inserted.clone()).collect();
+            let inserted: Vec<_> = delivered.iter().map(|delivered| &*delivered.inserted).collect();
             diagnostics.extend(deps::write(session, file, &jobs, self.poster, &inserted));
         }
         let stale = match self.task {

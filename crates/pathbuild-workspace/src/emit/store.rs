@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use crate::config::Concerns;
 use crate::session::{
-    Drawing, DrawingResult, FreshResult, MadeOutput, OutputKind, OutputState, Question, ResultStore, Scope,
-    Session, is_passing,
+    Drawing, DrawingResult, FreshResult, FurtherFile, MadeOutput, OutputKind, OutputState, Question,
+    ResultStore, Scope, Session, is_passing,
 };
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listings, decode, encode};
@@ -20,7 +20,7 @@ use super::Answer;
 use super::deliver::{Delivered, State, Task, is_of_other_version};
 use super::job::Job;
 use super::targets::Selection;
-use crate::posting::PostProcessor;
+use crate::posting::{Inserted, PostProcessor};
 use crate::workspace::Workspace;
 
 /// The records of earlier runs with these settings.
@@ -162,8 +162,12 @@ impl Run<'_> {
             Some((job, Some(delivered))) if is_complete(job, delivered) => {
                 (self.inserted(session, delivered), outputs(delivered, self.task))
             }
+            // What a post refuses may be right with other files.
+            Some((_, Some(delivered))) if delivered.is_refused => {
+                (self.inserted(session, delivered), Vec::new())
+            }
             // Not written: another time it may be.
-            Some((_, Some(delivered))) if !delivered.is_refused => {
+            Some((_, Some(_))) => {
                 return FreshResult { of, ..FreshResult::default() };
             }
             _ => Default::default(),
@@ -172,11 +176,15 @@ impl Run<'_> {
         FreshResult { of, traces, further, outputs, payload: encode(&known) }
     }
 
-    /// The files that the post put in. The question has its own, and of these only those whose names stand in it, not in a macro.
-    fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<Utf8PathBuf> {
+    /// The files that the post put in, or could not, as they were read.
+    fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<FurtherFile> {
         let Some(post) = self.poster.and_then(PostProcessor::file) else { return Vec::new() };
         let beside = post.parent().unwrap_or(Utf8Path::new(""));
-        delivered.inserted.iter().map(|name| session.normal(&beside.join(&**name))).collect()
+        let file = |Inserted { name, hash }: &Inserted| FurtherFile {
+            path: session.normal(&beside.join(name)),
+            hash: *hash,
+        };
+        delivered.inserted.iter().map(file).collect()
     }
 }
 

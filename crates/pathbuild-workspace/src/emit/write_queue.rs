@@ -22,7 +22,7 @@ pub(super) fn deliver_all(
     let system = session.db().shared_system();
     let finished = |outputs| {
         let mut delivered = Delivered::default();
-        finish(&*system, outputs, task, means.poster, &mut delivered);
+        finish(&*system, outputs, task, means, &mut delivered);
         delivered
     };
     let write = |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {

@@ -1,6 +1,8 @@
 //! The files that a definition inserts: those below its directory. (book: program/posts)
 
-use camino::Utf8Path;
+use std::cell::RefCell;
+
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::Value;
@@ -12,6 +14,31 @@ use pathbuild_post::PostFiles;
 pub(super) struct Below<'a> {
     pub(super) directory: &'a Utf8Path,
     pub(super) system: &'a dyn System,
+}
+
+/// A file that was to be inserted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Inserted {
+    /// Relative to the definition's directory.
+    pub name: Utf8PathBuf,
+    /// The hash of what was read; `None` where it could not be.
+    pub hash: Option<[u8; 32]>,
+}
+
+/// The same files, and which of them were read.
+#[derive(Debug)]
+pub(super) struct Noted<'a> {
+    pub(super) below: Below<'a>,
+    pub(super) read: RefCell<Vec<Inserted>>,
+}
+
+impl PostFiles for Noted<'_> {
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
+        let read = self.below.read(path);
+        let hash = read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes());
+        self.read.borrow_mut().push(Inserted { name: path.to_owned(), hash });
+        read
+    }
 }
 
 /// Larger texts are no part of a program.

@@ -4,6 +4,7 @@ mod build;
 mod files;
 mod tools;
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -24,7 +25,8 @@ use crate::workspace::Workspace;
 pub use build::run_post_build;
 pub use tools::{furnish, tool_table};
 
-use files::Below;
+pub use files::Inserted;
+use files::{Below, Noted};
 
 /// A definition, and everything that its text depends on beside the program.
 #[derive(Debug)]
@@ -32,10 +34,12 @@ pub struct PostProcessor {
     post: Post,
     /// Where the definition's own files are; `None` of a built-in post.
     directory: Option<Utf8PathBuf>,
-    /// The definition's text, and that of all files that it may insert.
+    /// The definition's text, and the hashes of files that it inserts.
     definition: Vec<u8>,
     /// Where the definition is, unless it is built in.
     file: Option<Utf8PathBuf>,
+    /// The files that it inserts, relative to its directory.
+    insertions: Vec<Utf8PathBuf>,
     tools: ToolTable,
     macros: Vec<PostMacro>,
     cycles: bool,
@@ -69,6 +73,9 @@ pub struct PostArguments {
     /// The post's own command is run.
     pub run_post_build: bool,
 }
+
+/// So many files of a definition are looked at before a program is written.
+const MOST_INSERTIONS: usize = 1000;
 
 /// The post that writes what book: program/gcode says.
 const NATIVE: &str = "native";
@@ -113,17 +120,26 @@ impl PostProcessor {
             (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None)
         };
         let macros = context.settings.tables.macros.value.iter();
+        let macros: Vec<_> =
+            macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
         let system = &*context.system;
-        let insertions = |directory| insertions(&definition, &Below { directory, system });
-        let inserted = directory.as_deref().map(insertions).unwrap_or_default();
+        let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
+        let inserted = |directory| {
+            let files = Below { directory, system };
+            let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
+            // What cannot be read is told when a program is written; so is that it is too much.
+            insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
+        };
+        let inserted = directory.as_deref().map(inserted).unwrap_or_default();
         Ok(Self {
             post,
             directory,
             definition: [definition, inserted].concat(),
             file,
+            insertions,
             tools: tool_table(context),
-            macros: macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect(),
+            macros,
             cycles: general.cycles.value,
             most_bytes: context.settings.limits.output_size(),
             charset: match general.charset.value {
@@ -149,12 +165,11 @@ impl PostProcessor {
         self.file.as_deref()
     }
 
-    /// The files that it is read from: the definition's own, and those that it may insert.
+    /// The files that it is read from: the definition's own, and those that it inserts whatever the program.
     pub fn sources(&self) -> Vec<Utf8PathBuf> {
         let Some(file) = &self.file else { return Vec::new() };
         let directory = file.parent().unwrap_or(Utf8Path::new(""));
-        let text = String::from_utf8_lossy(&self.definition);
-        let inserted = inserted_names(&text).map(|name| join(directory, name));
+        let inserted = self.insertions.iter().map(|file| join(directory, file.as_str()));
         std::iter::once(file.clone()).chain(inserted).collect()
     }
 
@@ -188,13 +203,19 @@ impl PostProcessor {
         self.cycles
     }
 
-    /// Writes a program that will be in this file.
+    /// Writes a program that will be in this file. Files that it inserts, or could not, are added to `inserted`, also where it fails.
     ///
     /// # Errors
     /// What the post cannot say, or says wrongly.
-    pub fn write(&self, job: &Job, output: Option<&Utf8Path>) -> Result<Output, Vec<Diagnostic>> {
+    pub fn write(
+        &self,
+        job: &Job,
+        output: Option<&Utf8Path>,
+        inserted: &mut Vec<Inserted>,
+    ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
         let below = self.directory.as_deref().map(|directory| Below { directory, system });
+        let noted = below.map(|below| Noted { below, read: RefCell::default() });
         let mut options = PostOptions {
             date: self.wishes.date.clone(),
             macros: self.macros.clone(),
@@ -213,10 +234,12 @@ impl PostProcessor {
             machine: self.machine.clone(),
             ..PostOptions::default()
         };
-        if let Some(below) = &below {
-            options.files = below;
+        if let Some(noted) = &noted {
+            options.files = noted;
         }
-        let output = self.post.write(job, &options)?;
+        let output = self.post.write(job, &options);
+        inserted.extend(noted.iter().flat_map(|noted| noted.read.take()));
+        let output = output?;
         match &output.post_build {
             Some(command) if self.runs_no_command => {
                 let refusal = Diagnostic::new(&messages::POST_BUILD_REFUSED);
@@ -236,20 +259,6 @@ impl PostProcessor {
         identity
     }
 }
-
-/// What control texts may insert: the content of each file that is named in them, as far as it can be read.
-fn insertions(definition: &[u8], files: &Below<'_>) -> Vec<u8> {
-    let text = String::from_utf8_lossy(definition);
-    inserted_names(&text).flat_map(|name| files.read(Utf8Path::new(name)).unwrap_or_default()).collect()
-}
-
-/// The files that are named in control texts.
-fn inserted_names(text: &str) -> impl Iterator<Item = &str> {
-    text.split(INSERTION).skip(1).filter_map(|rest| rest.split_once('*')).map(|(name, _)| name)
-}
-
-/// What stands before the name of a file in control texts, with a `*` behind it.
-const INSERTION: &str = r"\\\~*";
 
 /// Whether a post's name is a file's: it has an extension or a directory.
 pub(crate) fn is_file_name(name: &str) -> bool {

@@ -8,13 +8,12 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
 use pathbuild_db::system::{Entry, EntryKind, FileKind, ReadError, join};
-use pathbuild_db::{System, catch_bugs};
+use pathbuild_db::{System, catch_bugs, unlistable};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
 
 use super::ignoring::{self, Rules};
-use crate::files::unreadable_by;
 
 /// What lies in a directory and below.
 #[derive(Debug, Default)]
@@ -85,7 +84,7 @@ impl Walk<'_> {
                     Some(listed) => {
                         count += listed.count;
                         walked.drawings.extend(listed.drawings);
-                        walked.problems.extend(listed.problem.map(|problem| *problem));
+                        walked.problems.extend(listed.problems);
                         let rules = listed.rules;
                         next.extend(listed.directories.into_iter().map(|below| (below, rules.clone())));
                         walked.listings.insert(directory.clone(), listed.listing);
@@ -127,15 +126,15 @@ struct Directory {
     rules: Option<Arc<Rules>>,
     /// How much there is that counts.
     count: u64,
-    /// Why it cannot be listed.
-    problem: Option<Box<Diagnostic>>,
+    /// Why it cannot be listed, and names in it under which nothing can be read.
+    problems: Vec<Diagnostic>,
 }
 
 impl Directory {
     /// One of which nothing is known, since listing it showed a bug.
     fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
-        let problem = Some(Box::new(bug.in_file(readable(directory))));
-        Self { problem, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
+        let problems = vec![bug.in_file(readable(directory))];
+        Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
     }
 
     /// Nothing where there is none.
@@ -176,8 +175,7 @@ impl Directory {
             if is_none {
                 return Ok(None);
             }
-            found.problem =
-                Some(Box::new(unreadable_by(readable(directory), error, walk.limit, "library-entries")));
+            found.problems.push(unlistable(directory, error));
         }
         // Who looks for a path must not miss what was not told.
         found.listing.is_doubtful |= listed.is_err();
@@ -198,7 +196,13 @@ impl Directory {
             listing.add(name, kind == EntryKind::Link);
         }
         let is_directory = kind == EntryKind::Directory;
-        if is_exact && self.counts(directory, name, is_directory) {
+        if !is_exact {
+            let is_meant = is_directory || is_drawing(Utf8Path::new(name));
+            if is_meant && self.counts(directory, name, is_directory) {
+                let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).with("name", name);
+                self.problems.push(problem.in_file(readable(directory)));
+            }
+        } else if self.counts(directory, name, is_directory) {
             self.count += 1;
             if is_directory {
                 self.directories.push(join(directory, name));

@@ -44,8 +44,8 @@ pub use outputs::{OutputKind, Writing, stem_fault, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{NamesOf, Wanted, WantedPath};
 pub use result_store::{
-    BUILD, Coverage, Dependencies, DrawingResult, FreshResult, Held, MadeOutput, OutputState, Question,
-    ResultStore, Scope, hash_output, is_passing,
+    BUILD, Coverage, Dependencies, DrawingResult, FreshResult, FurtherFile, Held, MadeOutput, OutputState,
+    Question, ResultStore, Scope, hash_output, is_passing,
 };
 pub use scene::Seen;
 pub(crate) use scene::program_scene;

@@ -86,6 +86,10 @@ impl Session<'_> {
             Argument::Name { name, candidates, drawing, directory } => {
                 let defines = |file: &SourceFile| names(*file).contains(name);
                 let files = self.different(candidates.iter().copied().filter(defines));
+                if !files.is_empty() {
+                    // It may be there once more.
+                    wanted.problems.extend_from_slice(&found.name_problems);
+                }
                 match (files.as_slice(), drawing, directory) {
                     ([file], ..) => {
                         let spelt = names(*file).iter().find(|known| *known == name).unwrap_or(name);

@@ -19,6 +19,8 @@ pub(super) struct Library<'a> {
     inputs: &'a Inputs,
     coverage: Coverage,
     drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
+    /// What is wrong with arguments and directories.
+    problems: Vec<Diagnostic>,
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
     /// The drawings that have a Q-project, each with it; `None` until somebody asks.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
@@ -40,12 +42,21 @@ pub(super) struct Batch {
     pub(super) open: usize,
     /// The drawings that are no longer there.
     pub(super) removed: BTreeSet<Utf8PathBuf>,
-    /// Drawings that are asked again though they did not change.
+    /// Drawings that are asked again though they did not change, and directories that can be listed again.
     pub(super) tried_again: BTreeSet<Utf8PathBuf>,
     /// What was found in them before.
     pub(super) before: Vec<Diagnostic>,
     /// What is found in them now.
     pub(super) now: Vec<Diagnostic>,
+    /// What is wrong with arguments and directories, where that is something else than before.
+    pub(super) problems: Option<Vec<Diagnostic>>,
+}
+
+impl Batch {
+    /// Whether there is anything to tell, whatever is still to be asked.
+    pub(super) fn has_news(&self) -> bool {
+        !self.removed.is_empty() || self.problems.is_some()
+    }
 }
 
 impl<'a> Library<'a> {
@@ -56,6 +67,7 @@ impl<'a> Library<'a> {
             session,
             inputs,
             drawings: BTreeMap::new(),
+            problems: Vec::new(),
             q_projects: BTreeMap::new(),
             pairs: None,
             reverse: Reverse::default(),
@@ -87,6 +99,7 @@ impl<'a> Library<'a> {
         self.session.read_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
+        self.problems.clone_from(&wanted.problems);
         Batch { now: wanted.problems, ..Batch::default() }
     }
 
@@ -117,22 +130,34 @@ impl<'a> Library<'a> {
         update
     }
 
-    /// Drawings in which something was found that may pass by itself are to be asked again, but for those that just were. `further`: those of
-    /// which a program was.
+    /// Drawings in which something was found that may pass by itself are to be asked again, but for those that just were, and directories that
+    /// could not be listed are listed again. `further`: drawings of which a program was given up.
     pub(super) fn try_again(&mut self, further: &BTreeSet<Utf8PathBuf>, asked: &[SourceFile]) -> Batch {
+        let (mut update, mut concerned) = (Batch::default(), HashSet::new());
+        if self.problems.iter().any(is_passing) {
+            self.find_drawings(&mut concerned, &mut update);
+        }
         let db = self.session.db();
+        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_passing);
+        let unsure = self.drawings.iter().filter(|(_, result)| is_passed(result));
+        let unsure: Vec<SourceFile> = unsure.map(|(path, _)| db.file(path)).collect();
         let found = self.drawings.values().flat_map(|result| &result.diagnostics);
         let found = found.filter(|found| is_passing(found)).filter_map(|found| found.file.as_ref());
         let files: BTreeSet<Utf8PathBuf> = found.chain(further).cloned().collect();
-        let concerned = files.iter().flat_map(|path| self.reverse.of_file(db.file(path)));
-        let open = concerned.filter(|drawing| !asked.contains(drawing));
+        concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
+        let open = concerned.into_iter().filter(|drawing| !asked.contains(drawing));
         self.open = open.map(|drawing| (drawing.path(db).clone(), drawing)).collect();
         if self.is_behind() {
-            for path in &files {
+            // What is said of a directory is that it could not be listed.
+            files.iter().for_each(|path| {
                 self.session.touch_file(path);
-            }
+                self.session.touch_directory(as_listed(path));
+            });
         }
-        Batch { tried_again: self.open.keys().cloned().collect(), ..Batch::default() }
+        let again = self.open.keys().filter(|path| !update.changed.contains(*path)).cloned();
+        let listed = update.before.iter().filter(|problem| !update.now.contains(problem));
+        update.tried_again = again.chain(listed.filter_map(|problem| problem.file.clone())).collect();
+        update
     }
 
     /// Whether something is still to be asked.
@@ -228,13 +253,24 @@ impl<'a> Library<'a> {
                 update.changed.insert((*drawing).clone());
             }
         }
-        let is_gone = |drawing: &Utf8PathBuf, _: &mut DrawingResult| !there.contains(drawing);
+        // What lies in a directory that cannot be listed is not known: it may be there still.
+        let unlisted: Vec<&Utf8PathBuf> =
+            wanted.problems.iter().filter(|it| is_passing(it)).filter_map(|it| it.file.as_ref()).collect();
+        let is_unsure =
+            |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(as_listed(place)));
+        let is_gone =
+            |drawing: &Utf8PathBuf, _: &mut DrawingResult| !there.contains(drawing) && !is_unsure(drawing);
         let gone: Vec<(Utf8PathBuf, DrawingResult)> = self.drawings.extract_if(.., is_gone).collect();
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;
             update.before.extend(result.diagnostics);
             update.removed.insert(drawing);
+        }
+        if self.problems != wanted.problems {
+            update.now.extend_from_slice(&wanted.problems);
+            update.problems = Some(wanted.problems.clone());
+            update.before.extend(std::mem::replace(&mut self.problems, wanted.problems));
         }
     }
 
@@ -280,4 +316,9 @@ impl<'a> Library<'a> {
         update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
         self.pairs = Some(pairs);
     }
+}
+
+/// A directory of which something is said: the working directory is shown as `.`.
+fn as_listed(directory: &Utf8Path) -> &Utf8Path {
+    if directory == "." { Utf8Path::new("") } else { directory }
 }

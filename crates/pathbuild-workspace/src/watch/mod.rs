@@ -82,7 +82,10 @@ pub struct Update {
     pub changed: BTreeSet<Utf8PathBuf>,
     /// Those of them that are no longer there.
     pub removed: BTreeSet<Utf8PathBuf>,
-    /// Drawings that did not change, and were asked again because what was found in them may pass by itself.
+    /// What is wrong with arguments and directories, where that is something else than before; it is a part of `now` too.
+    pub problems: Option<Vec<Diagnostic>>,
+    /// Drawings that did not change, and were asked again because what was found in them may pass by itself; directories that can be listed
+    /// again.
     pub tried_again: BTreeSet<Utf8PathBuf>,
     /// How many drawings were checked.
     pub checked: usize,
@@ -189,7 +192,7 @@ impl Watching<'_> {
 
     fn update(&mut self, changes: &changes::Changes) {
         let found = self.library.take_over(changes);
-        if !self.library.is_behind() && found.removed.is_empty() {
+        if !self.library.is_behind() && !found.has_news() {
             return;
         }
         self.revision += 1;
@@ -197,7 +200,7 @@ impl Watching<'_> {
         // It may take as long as it is allowed to: whoever changed something does not wait for it.
         if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
             let again = self.library.try_again(self.writer.passing(), &asked);
-            if self.library.is_behind() {
+            if self.library.is_behind() || again.has_news() {
                 self.work_on(again);
             }
         }
@@ -219,12 +222,13 @@ impl Watching<'_> {
         }
         self.library.leave(&mut found);
         let time = begun.elapsed();
-        let library::Batch { changed, asked, open, removed, tried_again, before, now } = found;
+        let library::Batch { changed, asked, open, removed, tried_again, before, now, problems } = found;
         let session = self.library.session();
         self.listener.updated(&Update {
             revision: self.revision,
             changed,
             removed,
+            problems,
             tried_again,
             checked: asked.len(),
             open,

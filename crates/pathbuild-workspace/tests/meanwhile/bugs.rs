@@ -1,4 +1,5 @@
-//! Bugs that show while a drawing is read or a directory is listed: they are said of what shows them, and keep nothing else from being done.
+//! Bugs that show while a drawing is read or a directory is listed, and directories that cannot be listed: they are said of what shows them, and
+//! keep nothing else from being done.
 
 use std::fs;
 use std::sync::Arc;
@@ -18,12 +19,17 @@ use crate::on_disk::{OnDisk, sorted};
 
 /// The files, with a bug that shows when this one is read, or listed, for the n-th time.
 fn bug(place: &OnDisk, victim: &str, time: i64, lasts: bool) -> Arc<Mischief> {
+    trouble(Event::Panic, place, victim, time, lasts)
+}
+
+/// The same of any trouble.
+fn trouble(event: Event, place: &OnDisk, victim: &str, time: i64, lasts: bool) -> Arc<Mischief> {
     Arc::new(Mischief {
         trigger: victim.to_owned(),
         countdown: AtomicI64::new(time),
         lasts,
-        is_before: true,
-        event: Event::Panic,
+        is_before: event == Event::Panic,
+        event,
         victim: place.path().join(victim),
         bytes: Vec::new(),
     })
@@ -118,6 +124,16 @@ fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic
 /// what is found without it, but for hints.
 #[test]
 fn a_bug_in_listing_ends_no_command() {
+    in_each_listing(Event::Panic, "InternalError");
+}
+
+/// Else a path that lies there would not be found, or would count as the only one of its name.
+#[test]
+fn a_directory_that_cannot_be_listed_is_told() {
+    in_each_listing(Event::Fail, "UnreadableFile");
+}
+
+fn in_each_listing(event: Event, code: &str) {
     let workshop = Workshop::new(3);
     let place = OnDisk::new(&workshop);
     let paths = paths(&place);
@@ -125,7 +141,7 @@ fn a_bug_in_listing_ends_no_command() {
     let directory = place.path().join("lib/parts").into_string();
     let all: [&[&str]; 5] = [&[], &[name], &[drawing], &[&directory], &[name, &directory, "no such path"]];
     let jobs = [None, Some(1)];
-    let mut bugs = 0;
+    let mut troubles = 0;
     for (command, run) in COMMANDS {
         for arguments in all {
             let inputs = Inputs { inputs: arguments.iter().map(|it| (*it).to_owned()).collect() };
@@ -138,20 +154,20 @@ fn a_bug_in_listing_ends_no_command() {
             let expected = find(Arc::new(OsSystem), false, None);
             for victim in ["lib", "lib/parts", "lib/projects", "spare"] {
                 for (time, lasts) in [(1, false), (2, false), (3, false), (4, false), (1, true), (2, true)] {
-                    let bug = bug(&place, victim, time, lasts);
-                    let found = find(bug.clone(), false, jobs[bugs % 2]);
-                    if bug.countdown.load(Ordering::SeqCst) > 0 {
+                    let trouble = trouble(event, &place, victim, time, lasts);
+                    let found = find(trouble.clone(), false, jobs[troubles % 2]);
+                    if trouble.countdown.load(Ordering::SeqCst) > 0 {
                         continue;
                     }
-                    bugs += 1;
+                    troubles += 1;
                     let said = format!("{command} {arguments:?}: {victim}, time {time}, {lasts}: {found:#?}");
-                    let is_said = found.iter().any(|it| it.contains("InternalError") && it.contains(victim));
+                    let is_said = found.iter().any(|it| it.contains(code) && it.contains(victim));
                     assert!(is_said || found == expected, "{said}");
                 }
             }
         }
     }
-    assert!(bugs > 200, "only {bugs} bugs showed");
+    assert!(troubles > 200, "only {troubles} showed");
 }
 
 /// Which drawings lie in a directory that cannot be listed is not known: a program that one of them may have become is left.

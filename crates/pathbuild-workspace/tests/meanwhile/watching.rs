@@ -88,8 +88,22 @@ fn watch_edit(
     passes: bool,
 ) -> Editor {
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, &long("8001.1P"))]);
+    watch_place(place, VICTIM, event, time, lasts, emits, edit, passes)
+}
+
+#[expect(clippy::too_many_arguments, reason = "what may happen, one by one")]
+fn watch_place(
+    place: OnDisk,
+    trigger: &str,
+    event: Event,
+    time: i64,
+    lasts: bool,
+    emits: bool,
+    edit: (&'static str, String),
+    passes: bool,
+) -> Editor {
     let mischief = Arc::new(Mischief {
-        trigger: VICTIM.to_owned(),
+        trigger: trigger.to_owned(),
         countdown: AtomicI64::new(time),
         lasts,
         is_before: false,
@@ -153,4 +167,73 @@ fn what_was_just_tried_is_not_tried_again() {
     assert_eq!(*editor.found.borrow(), [Code::LimitReached]);
     let told = editor.told.borrow();
     assert!(matches!(&**told, [only] if only.tried_again.is_empty() && only.now.len() == 1), "{told:#?}");
+}
+
+/// A drawing that embeds another one of its directory, which cannot be listed when it is looked for there.
+#[test]
+fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 MX\"\nsubpath 0,0 40,0 \">1001.1P\"\nend 40,0";
+    let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, project)]);
+    let edit = ("lib/1002.1P.dxf", OTHER.1.replace("1001", "1002"));
+    // The second time: the first is to find the drawings.
+    let editor = watch_place(place, "lib", Event::Fail, 2, false, false, edit, true);
+    assert_eq!(*editor.found.borrow(), [Code::UnreadableFile]);
+    let told = editor.told.borrow();
+    let before: Vec<Code> = told.iter().flat_map(|update| &update.before).map(Diagnostic::code).collect();
+    let now: Vec<&Diagnostic> = told.iter().flat_map(|update| &update.now).collect();
+    assert!(before == [Code::UnreadableFile] && now.is_empty(), "{told:#?}");
+}
+
+/// Adds a drawing when all were checked, and ends when there were two batches.
+struct Adder {
+    place: OnDisk,
+    bell: RefCell<Option<Bell>>,
+    told: RefCell<Vec<Update>>,
+}
+
+impl Listener for Adder {
+    fn bell(&self, bell: Bell) {
+        self.bell.replace(Some(bell));
+    }
+
+    fn begun(&self, beginning: &Beginning) {
+        assert!(beginning.diagnostics.is_empty() && beginning.drawings == 2, "{beginning:#?}");
+        self.place.draw("lib/1002.1P.dxf", &OTHER.1.replace("1001", "1002"));
+    }
+
+    fn updated(&self, update: &Update) {
+        self.told.borrow_mut().push(update.clone());
+        if self.told.borrow().len() == 2 {
+            self.bell.borrow().as_ref().unwrap().end();
+        }
+    }
+}
+
+/// What lies in a directory that cannot be listed for a moment is not taken for gone; what came there is found once it can.
+#[test]
+fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
+    let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, &long("8001.1P"))]);
+    let mischief = Arc::new(Mischief {
+        trigger: "lib".to_owned(),
+        // The first time is at the beginning.
+        countdown: AtomicI64::new(2),
+        lasts: false,
+        is_before: false,
+        event: Event::Fail,
+        victim: place.path().join("lib"),
+        bytes: Vec::new(),
+    });
+    let adder = Adder { place, bell: RefCell::default(), told: RefCell::default() };
+    let inputs = Inputs::default();
+    let workspace = adder.place.workspace(&inputs, mischief, false);
+    let request = Request { inputs: &inputs, emits: false, lists: false, polls: false };
+    assert!(matches!(request.run(&workspace, &adder), Ended::Over));
+    let told = adder.told.borrow();
+    let [failed, again] = &**told else { panic!("{told:#?}") };
+    let codes = |found: &[Diagnostic]| found.iter().map(Diagnostic::code).collect::<Vec<_>>();
+    assert!(failed.removed.is_empty() && codes(&failed.now) == [Code::UnreadableFile], "{failed:#?}");
+    assert_eq!(failed.problems.as_deref().map(codes), Some(vec![Code::UnreadableFile]));
+    assert!(codes(&again.before) == [Code::UnreadableFile] && again.now.is_empty(), "{again:#?}");
+    assert_eq!((again.problems.as_deref(), again.checked), (Some(&[][..]), 1), "{again:#?}");
+    assert!(again.tried_again.iter().any(|path| path.ends_with("lib")), "{again:#?}");
 }

@@ -1,8 +1,6 @@
 //! `pathbuild cache`: what is kept between runs. (book: reference/configuration)
 
-use std::io;
-
-use pathbuild_cache::{Entry, Key, TreeStore, Unusable};
+use pathbuild_cache::{Entry, Key, NotRemoved, Unusable};
 use pathbuild_db::system::spelt;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
@@ -44,12 +42,12 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
             }
         }
         CacheCommand::Prune => {
-            let gone = home.prune();
-            return report(context, &place, gone.and_then(|gone| Ok(gone + place.prune(&build)?)));
+            let (others, own) = (home.prune(), place.prune(&build));
+            return report(context, others.and_then(|others| Ok(others + own?)));
         }
         CacheCommand::Clean => {
             let cleaned = place.clean().map(usize::from);
-            return report(context, &place, cleaned);
+            return report(context, cleaned);
         }
         CacheCommand::Verify => return verify(context, &place.entries(&build)),
     }
@@ -57,16 +55,16 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
 }
 
 /// Says how much was removed.
-fn report(context: &Context, place: &TreeStore, removed: io::Result<usize>) -> ExitStatus {
+fn report(context: &Context, removed: Result<usize, NotRemoved>) -> ExitStatus {
     match removed {
         Ok(count) => {
             context.row_of_json(|| ("cache", json!({ "removed": count })));
             context.printer.status(format_args!("{}: {count}", context.choose("removed", "entfernt")));
             ExitStatus::Success
         }
-        Err(reason) => {
-            let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", place.directory().as_str());
-            context.fail(vec![problem.with("reason", reason.to_string())])
+        Err(NotRemoved { path, reason }) => {
+            let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", spelt(path).as_str());
+            context.fail(vec![problem.with("reason", reason)])
         }
     }
 }

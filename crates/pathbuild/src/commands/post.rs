@@ -155,7 +155,7 @@ fn output(
         job.set_surface(surface);
     }
     let unknown = furnish(&mut job, poster.tools());
-    let mut output = poster.write(&job, to)?;
+    let mut output = poster.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{SourceFile, check_file, path_names};
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_path::PathName;
 use pathbuild_view::Shown;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
@@ -52,7 +52,7 @@ impl<'a> Page<'a> {
             Some(session.scene(file, &names).judged(self.context, file_name).0)
         })?;
         Some(match form {
-            Form::Scene => scene.to_json(),
+            Form::Scene => shown::json(&scene.to_json()).into_owned(),
             Form::Picture => pathbuild_view::svg(&scene, Shown::all(self.context.lang())),
         })
     }
@@ -104,12 +104,16 @@ impl Listener for Page<'_> {
         self.hub.publish(|state, _| state.is_complete = true);
     }
 
-    fn updated(&self, Update { removed, .. }: &Update) {
-        if removed.is_empty() {
+    fn updated(&self, Update { removed, problems, .. }: &Update) {
+        if removed.is_empty() && problems.is_none() {
             return;
         }
+        let problems = problems.as_ref().map(|problems| self.context.findings(problems.clone()));
         let mut library = self.library.borrow_mut();
         self.hub.publish(|state, revision| {
+            if let Some(problems) = &problems {
+                state.set_problems(&problems.diagnostics);
+            }
             for drawing in removed {
                 let name = self.context.file(drawing);
                 state.set(drawing, &name, None, revision);

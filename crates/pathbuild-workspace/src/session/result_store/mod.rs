@@ -19,6 +19,7 @@ use pathbuild_cache::{
 };
 use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
+use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
 
 use super::Session;
 use super::outputs::{OutputKind, without_values};
@@ -68,11 +69,20 @@ pub struct FreshResult {
     /// Everything that it was made from.
     pub traces: Vec<Trace>,
     /// Files beside drawings that it was made from.
-    pub further: Vec<Utf8PathBuf>,
+    pub further: Vec<FurtherFile>,
     /// The files that it becomes.
     pub outputs: Vec<MadeOutput>,
     /// Itself; `None` where another run may find something else, though nothing changes.
     pub payload: Option<Vec<u8>>,
+}
+
+/// A file beside drawings that a result was made from.
+#[derive(Clone, Debug)]
+pub struct FurtherFile {
+    /// The file.
+    pub path: Utf8PathBuf,
+    /// The hash of the bytes that were read; `None` where they could not be.
+    pub hash: Option<[u8; 32]>,
 }
 
 /// A file that a result becomes.
@@ -112,8 +122,11 @@ impl ResultStore {
         let Question { whose, text, scope, listings } = question;
         let base = context.settings.directory()?.to_owned();
         let place = context.cache_place()?;
-        if let Some(reason) = place.refusal() {
+        let confined = context.settings.confined.as_ref();
+        let is_strangers = confined.is_some_and(|confined| confined.spells_inside(place.directory()));
+        if let Some(reason) = is_strangers.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
             let phrase = context.choose("nothing is kept there", "dort wird nichts aufgehoben");
+            let reason = context.choose(reason.en, reason.de);
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
         }
@@ -213,16 +226,25 @@ fn look(
     let base = workspace.settings.directory().unwrap_or(Utf8Path::new(""));
     let is_asked = |of: &str| scope.holds(of);
     let covers = |file: &str, path: &str| coverage.may_hold(file, path);
-    let (system, limit) = (&*workspace.system, workspace.settings.limits.file_size.value);
-    let read = |file: &Utf8Path| {
+    let (system, limits) = (&*workspace.system, &workspace.settings.limits);
+    let read = |file: &Utf8Path, is_output: bool| {
         let mut room = Vec::new();
+        let limit = if is_output { limits.output_size.value } else { limits.file_size.value };
         let (bytes, stamp) = system.read_stamped(file, limit, &mut room).ok()?;
         let length = bytes.len();
         room.truncate(length);
         Some((room, stamp))
     };
-    let looking =
-        Looking { base, covers: &covers, is_asked: &is_asked, read: &read, hash_output: &hash_output };
+    let confined = workspace.settings.confined.as_ref();
+    let is_allowed = |file: &Utf8Path| confined.is_none_or(|confined| confined.allows(file));
+    let looking = Looking {
+        base,
+        covers: &covers,
+        is_asked: &is_asked,
+        is_allowed: &is_allowed,
+        read: &read,
+        hash_output: &hash_output,
+    };
     verify(kept, looking, listings)
 }
 

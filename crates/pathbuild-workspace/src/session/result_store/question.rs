@@ -20,6 +20,10 @@ pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &st
         let value = if base.is_empty() { value } else { value.replace(&base, "\"./") };
         _ = write!(text, "\n{name} = {value}");
     });
+    if whose == Concerns::Emit {
+        // What these are hangs on whether a key is set, not on its value alone.
+        _ = write!(text, "\n{:?}", (context.settings.comment_lang(), context.settings.z_split()));
+    }
     // What is refused of a stranger's tree may be right in one's own.
     _ = write!(text, "\n{}\n{}", context.settings.confined.is_some(), place_of(context));
     text

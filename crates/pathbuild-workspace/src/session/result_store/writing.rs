@@ -8,7 +8,7 @@ use pathbuild_db::{Db, Sought, SourceFile};
 
 use super::lookups::Lookups;
 use super::seen::{Content, Seen};
-use super::{FreshResult, MadeOutput, ResultStore};
+use super::{FreshResult, FurtherFile, MadeOutput, ResultStore};
 use crate::session::Session;
 
 /// A catalogue while it is put together.
@@ -135,11 +135,19 @@ impl<'a> Writing<'a> {
         }
     }
 
-    /// A file beside drawings that was read now.
-    fn further_file(&mut self, path: &Utf8Path) -> usize {
+    /// A file beside drawings that was read for a result. Where others were made of other bytes, nobody can say which of them a result is of.
+    fn further_file(&mut self, FurtherFile { path, hash }: &FurtherFile) -> usize {
         let mut room = Vec::new();
-        let read = self.session.db().system().read_stamped(path, u64::MAX, &mut room);
-        self.new_file(path, read.ok().map(|(bytes, stamp)| (*blake3::hash(bytes).as_bytes(), stamp)))
+        let limit = self.session.workspace().settings.limits.file_size.value;
+        let now = self.session.db().system().read_stamped(path, limit, &mut room);
+        let stamp = now.ok().filter(|(bytes, _)| Some(*blake3::hash(bytes).as_bytes()) == *hash);
+        let stamp = stamp.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp);
+        let number = self.new_file(path, hash.map(|hash| (hash, stamp)));
+        let fact = &mut self.catalogue.files[number];
+        if fact.hash != *hash {
+            (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
+        }
+        number
     }
 
     /// A file that was written, or compared, now.
