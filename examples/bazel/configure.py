@@ -31,7 +31,7 @@ def targets():
         rows = told("emit", "--check", "--deps", rules)
         text = rules.read_text(encoding="utf-8")
     paths = {from_here(row["file"]): row["path"] for row in rows if row["type"] == "output"}
-    for line in text.splitlines():
+    for line in text.split("\n")[:-1]:
         outputs, sources = (names(side) for side in re.split(r"(?<!\\):", line, maxsplit=1))
         path = paths[outputs[0]]
         yield path, asked[path], outputs, [name for name in sources if name.lower().endswith(".dxf")]
@@ -39,7 +39,7 @@ def targets():
 
 def names(text):
     """The names of one side of a rule for make."""
-    return [re.sub(r"\\(.)", r"\1", name).replace("$$", "$") for name in re.findall(r"(?:\\.|[^\s\\])+", text)]
+    return [re.sub(r"\\(.)", r"\1", name).replace("$$", "$") for name in re.findall(r"(?:\\.|[^ \\])+", text)]
 
 
 def how_asked():

@@ -3,6 +3,7 @@
 comes or goes and when pathbuild.toml changes; a path that comes into a drawing that is there needs a run by hand."""
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -28,7 +29,7 @@ rule names
 
 # pathbuild leaves a program alone that is as it should be, and restat stops there.
 rule emit
-  command = {pathbuild} emit "$asked" --quiet --deps .ninja/$path.d
+  command = {pathbuild} emit $asked --quiet --deps .ninja/$path.d
   description = EMIT $path
   depfile = .ninja/$path.d
   deps = gcc
@@ -50,7 +51,7 @@ def main():
     edges, programs = [], []
     for path, (asked, files) in targets().items():
         inputs = names([".ninja/names", pathbuild])
-        edges.append(f"build {names(files)}: emit | {inputs}\n  path = {path}\n  asked = {escaped(asked)}\n")
+        edges.append(f"build {names(files)}: emit | {inputs}\n  path = {path}\n  asked = {escaped(shlex.quote(asked))}\n")
         programs += [file for file in files if file.endswith(".gcode")]
     edges.append(f"build gcode.sha256: checksums {names(programs)}\n")
     rules = RULES.format(pathbuild=pathbuild, python=sys.executable, directories=names(sorted(directories)))

@@ -55,6 +55,8 @@ fn escaped(text: &str) -> String {
         match character {
             '\\' | '{' | '}' => escaped.extend(['\\', character]),
             '\u{a0}' => escaped.push_str("\\~"),
+            // Else a control character would be read with what follows.
+            '^' => escaped.push_str("^ "),
             character => escaped.push(character),
         }
     }

@@ -1,7 +1,7 @@
 //! The page: one HTML file that asks the network for nothing. Its script is written in TypeScript (page/src) and built by esbuild; what is
 //! built is committed, and CI holds it against its source.
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, shown};
 
 use crate::scene::Scene;
 use crate::svg::{Shown, escaped, svg};
@@ -21,10 +21,11 @@ pub const LIVE_STYLE: &str = concat!(include_str!("../page/style.css"), include_
 pub fn page(scene: &Scene, lang: Lang) -> String {
     let title = escaped(&scene.title);
     // In the page other elements have these names.
-    let still =
-        svg(scene, Shown::all(lang)).replace(" id=\"", " id=\"still-").replace("(#frame)", "(#still-frame)");
+    let still = svg(scene, Shown::all(lang))
+        .replace(" id=\"", " id=\"still-")
+        .replace("=\"url(#frame)", "=\"url(#still-frame)");
     // Within a script's text only `<` could end it.
-    let data = scene.to_json().replace('<', "\\u003c");
+    let data = shown::json(&scene.to_json()).replace('<', "\\u003c");
     let viewer = filled(VIEWER, &|name| match name {
         "title" => &title,
         "svg" => &still,

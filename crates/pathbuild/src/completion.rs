@@ -36,7 +36,7 @@ pub(crate) fn paths() -> ArgValueCompleter {
             path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
         });
         let mut candidates = path_names(current);
-        candidates.extend(files.complete(current));
+        candidates.extend(harmless(files.complete(current)));
         candidates
     })
 }
@@ -48,7 +48,7 @@ pub(crate) fn posts() -> ArgValueCompleter {
         let built_in = BUILT_IN.iter().filter(|post| begins(post.name));
         let built_in =
             built_in.map(|post| CompletionCandidate::new(post.name).help(Some(post.description.into())));
-        built_in.chain(PathCompleter::file().complete(current)).collect()
+        built_in.chain(harmless(PathCompleter::file().complete(current))).collect()
     })
 }
 
@@ -65,7 +65,18 @@ pub(crate) fn codes() -> ArgValueCandidates {
     ArgValueCandidates::new(move || Code::ALL.iter().map(candidate).collect())
 }
 
-/// The paths of the working directory's library that begin so. A name with anything in it that acts on a terminal is not offered.
+/// Names that may be put into a command line as they are: nothing in them acts on a terminal or means anything to a shell. The shell's own
+/// completion of files knows how to quote the others.
+fn harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = CompletionCandidate> {
+    candidates.into_iter().filter(|candidate| candidate.get_value().to_str().is_some_and(is_harmless))
+}
+
+fn is_harmless(name: &str) -> bool {
+    let is_special = |c: char| c.is_whitespace() || c.is_ascii_punctuation() && !"+,-./:@_".contains(c);
+    !name.chars().any(|c| shown::acts(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
+}
+
+/// The paths of the working directory's library that begin so.
 fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
     let cli = Cli { command: Command::Man, common: CommonArgs { quiet: 2, ..CommonArgs::default() } };
     let (context, faults) = context_of(&cli);
@@ -75,6 +86,8 @@ fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
     let begin = current.to_string_lossy().to_lowercase();
     let names = Session::new(&context).names_of_library().into_iter();
     let meant = names.filter(|name| name.as_str().to_lowercase().starts_with(&begin));
-    let harmless = meant.filter(|name| !name.as_str().chars().any(shown::acts));
-    harmless.map(|name| CompletionCandidate::new(name.as_str())).collect()
+    meant
+        .filter(|name| is_harmless(name.as_str()))
+        .map(|name| CompletionCandidate::new(name.as_str()))
+        .collect()
 }

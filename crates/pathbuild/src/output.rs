@@ -44,7 +44,8 @@ impl Output {
     pub(crate) fn refusal(&self, workspace: &Workspace) -> Option<String> {
         let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
         let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
-        if !self.is_document && (!self.reports.is_empty() || self.format.is_report()) {
+        let is_json = self.format == Format::Json && self.command != "config";
+        if !self.is_document && (!self.reports.is_empty() || self.format.is_report() || is_json) {
             return Some(workspace.phrase(
                 "`{}` has no findings to report",
                 "`{}` hat keine Meldungen für einen Bericht",

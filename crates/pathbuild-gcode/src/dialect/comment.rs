@@ -1,6 +1,8 @@
 //! Texts of others in comments: names, remarks, dates. Whatever comes from a drawing, a file's name or an option passes here.
 //! (book: program/gcode; book: program/reading)
 
+use pathbuild_diagnostic::shown;
+
 use super::{Dialect, Percent, Style};
 use crate::native::{Charset, transliterated};
 
@@ -32,7 +34,7 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
         '%' if !knows_percent => '-',
         '!' | '?' if acts_at_once => '.',
         '~' if acts_at_once => '-',
-        c if is_invisible(c) => ' ',
+        c if shown::acts(c) => ' ',
         c => c,
     };
     if text.bytes().all(is_harmless_everywhere) {
@@ -47,12 +49,6 @@ fn is_harmless_everywhere(byte: u8) -> bool {
     matches!(byte, b' '..=b'~') && !matches!(byte, b'(' | b')' | b'\\' | b';' | b'%' | b'!' | b'?' | b'~')
 }
 
-/// Control characters, ends of lines and changes of direction.
-fn is_invisible(c: char) -> bool {
-    let is_format = matches!(c, '\u{2028}' | '\u{2029}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || is_format
-}
-
 /// A text with transliterated umlauts and the like, in capitals among capitals.
 pub fn ascii(text: &str) -> String {
     let mut ascii = String::with_capacity(text.len());
@@ -64,7 +60,7 @@ pub fn ascii(text: &str) -> String {
             || (is_after_capital && !is_before_letter);
         match c {
             c if c.is_ascii() => ascii.push(c),
-            c if is_invisible(c) => ascii.push(' '),
+            c if shown::acts(c) => ascii.push(' '),
             c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
             c => ascii.push_str(transliterated(c)),
         }

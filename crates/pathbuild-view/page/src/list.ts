@@ -1,5 +1,6 @@
 // Rows of a library, of which only those that can be seen are made.
 
+import { visible } from "./visible.js";
 import { LibraryRow } from "./source.js";
 import { lang } from "./viewer.js";
 import { Word, say } from "./words.js";
@@ -124,7 +125,7 @@ export class List {
 
 function part(content: string, className = ""): HTMLElement {
   const made = document.createElement("span");
-  made.textContent = content;
+  made.textContent = visible(content);
   made.className = className;
   return made;
 }

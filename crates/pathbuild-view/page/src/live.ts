@@ -1,5 +1,6 @@
 // The page of a library: what is listed, and one path of it that is looked at.
 
+import { visible } from "./visible.js";
 import { List } from "./list.js";
 import { Finding } from "./scene.js";
 import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
@@ -344,7 +345,7 @@ function inOrder(files: Iterable<string>): string[] {
 
 function node(tag: string, content: string): HTMLElement {
   const made = document.createElement(tag);
-  made.textContent = content;
+  made.textContent = visible(content);
   return made;
 }
 

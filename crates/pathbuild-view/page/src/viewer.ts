@@ -1,5 +1,6 @@
 // What shows a scene: the picture, its G-code, and what goes between them.
 
+import { visible } from "./visible.js";
 import { Spot } from "./labels.js";
 import { Model, model } from "./model.js";
 import { Finding, Parameter, Scene, pointsOfShape } from "./scene.js";
@@ -57,8 +58,8 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
       pathOf.push(index);
     }
   });
-  $("title").textContent = scene.title;
-  document.title = scene.title;
+  $("title").textContent = visible(scene.title);
+  document.title = visible(scene.title);
   linesOf = null;
   if (!isSame) {
     measured = null;
@@ -112,7 +113,7 @@ function found({ path, handle, turn }: Mark): number | null {
 
 function text(tag: string, content: string, className = ""): HTMLElement {
   const node = document.createElement(tag);
-  node.textContent = content;
+  node.textContent = visible(content);
   node.className = className;
   return node;
 }
@@ -185,7 +186,7 @@ function spots(): void {
   for (const finding of scene.findings) {
     if (!finding.at) continue;
     const node = text("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
-    node.title = `${finding.code}: ${finding.message[lang]}`;
+    node.title = visible(`${finding.code}: ${finding.message[lang]}`);
     node.addEventListener("click", () => goTo(finding));
     add(finding.at, 0, node);
   }

@@ -113,11 +113,13 @@ impl Canvas {
     }
 }
 
-/// A text within SVG: on one line, what acts in it shown, what is XML's escaped.
+/// A text within SVG: on one line, what acts in it shown, what is XML's escaped, and no command of a CI runner in it.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
+    let mut before = ' ';
     for character in shown::line(text).chars() {
         match character {
+            '#' if before == '#' => escaped.push_str("&#35;"),
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
@@ -125,6 +127,7 @@ pub fn escaped(text: &str) -> String {
             '\'' => escaped.push_str("&#39;"),
             other => escaped.push(other),
         }
+        before = character;
     }
     escaped
 }

@@ -1,5 +1,7 @@
 use std::fmt::Write;
 
+use pathbuild_diagnostic::shown;
+
 use super::origin::Origin;
 use super::settings::Settings;
 
@@ -13,7 +15,7 @@ pub(super) struct Shown {
 /// What holds, as TOML that says the same; with origins as comments where they are asked for.
 pub fn show(settings: &Settings, with_origin: bool) -> String {
     let mut text = match &settings.file {
-        Some(file) => format!("# {file}\n"),
+        Some(file) => format!("# {}\n", shown::line(file.as_str())),
         None => "# no pathbuild.toml\n".to_owned(),
     };
     // Tables that hold tables are shown inline, so they must stand before the first header.

@@ -15,7 +15,7 @@ use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use futures_util::stream;
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, shown};
 use serde::Deserialize;
 use tokio::runtime;
 use tokio::sync::watch;
@@ -141,7 +141,8 @@ struct News {
 }
 
 async fn library(State(routes): State<Arc<Routes>>, Query(News { since, most }): Query<News>) -> Response {
-    ([(CONTENT_TYPE, JSON)], routes.hub.library(since, most.unwrap_or(usize::MAX))).into_response()
+    ([(CONTENT_TYPE, JSON)], shown::json(&routes.hub.library(since, most.unwrap_or(usize::MAX))).into_owned())
+        .into_response()
 }
 
 /// A path, or a whole drawing.

@@ -1,5 +1,7 @@
 //! Texts, names of files, and choices.
 
+use std::fmt::Write;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Value, shown};
@@ -113,14 +115,22 @@ pub(in crate::config) fn texts<'v, 't>(
     }
 }
 
-/// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too.
+/// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too, but for those of characters
+/// beyond U+FFFF.
 pub(in crate::config) fn quoted(text: &str) -> String {
-    let is_plain = !text.contains('\'') && !text.contains(shown::acts);
+    let is_plain = !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts);
     if text.contains(['\\', '"']) && is_plain {
-        format!("'{text}'")
-    } else {
-        shown::json(&json!(text).to_string()).into_owned()
+        return format!("'{text}'");
     }
+    let mut quoted = String::with_capacity(text.len() + 2);
+    for character in json!(text).to_string().chars() {
+        if character > '\u{ffff}' && shown::acts(character) {
+            _ = write!(quoted, "\\U{:08x}", u32::from(character));
+        } else {
+            quoted.push(character);
+        }
+    }
+    shown::json(&quoted).into_owned()
 }
 
 /// Texts as a TOML list.

@@ -20,12 +20,12 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
         if let Outcome::Changed(program) = &path.outcome {
             cell = details(program, lang).iter().map(|line| escaped(line)).collect::<Vec<_>>().join("<br>");
         }
-        _ = writeln!(text, "| {} | {} | {cell} |", escaped(&path.name), escaped(&place(path)));
+        _ = writeln!(text, "| {} | {} | {cell} |", code(&path.name), code(&place(path)));
     }
     text
 }
 
-/// A text as Markdown shows it: whatever could be markup, a link or a mention is written as a character's number.
+/// A text as Markdown shows it: whatever could be markup or a mention is written as a character's number.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in shown::line(text).chars() {
@@ -38,4 +38,13 @@ fn escaped(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// A name as code in a cell of a table: GitHub makes links of addresses, numbers and hashes in any other text, however they are written.
+fn code(text: &str) -> String {
+    let text = shown::line(text).replace('|', "\\|");
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let ticks = "`".repeat(longest + 1);
+    // The blanks next to them are taken away again.
+    format!("{ticks} {text} {ticks}")
 }

@@ -29,7 +29,7 @@ fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
-            '#' | '"' | '<' | '>' | '&' | '`' => _ = write!(escaped, "#{};", u32::from(character)),
+            '#' | '"' | '<' | '>' | '&' | '`' | '%' => _ = write!(escaped, "#{};", u32::from(character)),
             character => escaped.push(character),
         }
     }
