@@ -709,3 +709,81 @@ fn a_program_that_may_not_be_written_is_not_made_again() {
     let run = settles(&place, "components");
     assert_eq!(run.status, Some(1), "{run}");
 }
+
+/// What is kept of a run that found another version's program is what this version writes: a colleague may have written it with this one.
+#[test]
+fn a_program_of_this_version_takes_the_place_of_another_ones() {
+    let place = emitted();
+    let program = "projects/8001_Milling.gcode";
+    let own = place.read(program);
+    let place = place
+        .file(program, own.replacen(concat!("pathbuild ", env!("CARGO_PKG_VERSION")), "pathbuild 0.0.9", 1));
+    assert_ne!(place.read(program), own);
+    assert!(answer(&place, "").stderr.contains(" 0 not current\n"));
+    let place = place.file(program, own);
+    assert!(answer(&place, "").stderr.contains(" 0 not current\n"));
+}
+
+/// The language of comments is that of messages, unless a key says another: whether it is set counts, not its value alone.
+#[test]
+fn a_language_that_is_no_longer_set_is_noticed() {
+    let place = Place::of(&LIBRARY.replace("feed = 150", "feed = 150\nlang = \"de\"\ncomment-lang = \"en\""));
+    assert_eq!(place.run("emit").status, Some(0));
+    let configuration = place.read("pathbuild.toml").replace("comment-lang = \"en\"\n", "");
+    let place = place.file("pathbuild.toml", configuration);
+    let run = place.run("emit --check");
+    assert_eq!(run.status, Some(1), "{run}");
+}
+
+/// A post refuses what it inserts, or what it does not find: with the file that passes.
+#[test]
+fn a_refusal_for_an_inserted_file_passes_with_it() {
+    let texts = "comment = '(~CommentText~)'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
+        rapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\nprogram-start = '\\\\\\~*~Head~*'\n";
+    let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
+    let place = Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", "")).file("my.toml", post);
+    let configuration = place.read("pathbuild.toml") + "[macros]\nHead = 'head.nc'\n";
+    let mut place = place.file("pathbuild.toml", configuration);
+    assert_eq!(place.run("emit --post my.toml").status, Some(1), "there is none");
+    for (head, status) in [("(a)\n", 0), ("G01 X900 F1\n", 1), ("(b)\n", 0)] {
+        place = place.file("head.nc", head);
+        let run = place.run("emit --post my.toml");
+        assert_eq!(run.status, Some(status), "{head}: {run}");
+    }
+}
+
+/// The limit of drawings is none of programs.
+#[test]
+fn a_program_may_be_larger_than_a_drawing() {
+    let place = Place::of(LIBRARY);
+    let largest = ["projects/8001.dxf", "components/1234.dxf"].map(|it| place.read(it).len());
+    let limit = largest.into_iter().max().unwrap() + 4096;
+    let deep = Place::of(&LIBRARY.replace("I1 B4", "I0.001 B4"));
+    let configuration = deep.read("pathbuild.toml") + &format!("[limits]\nfile-size = \"{limit} B\"\n");
+    let deep = deep.file("pathbuild.toml", configuration);
+    assert_eq!(deep.run("emit").status, Some(0));
+    assert!(deep.read("projects/8001_Milling.gcode").len() > limit);
+    assert!(answer(&deep, "").stderr.contains(" 0 not current\n"));
+}
+
+/// Moves can be compared without a speed of rapid moves; what is known of that run is not enough for one that tells times.
+#[test]
+fn a_value_that_is_missing_is_missing_though_moves_are_known() {
+    let place = Place::of(&LIBRARY.replace("rapid = 1000\n", ""));
+    assert_eq!(place.run("emit --rapid 1000").status, Some(0));
+    assert_eq!(place.run("emit --check --moves").status, Some(0));
+    let run = place.run("emit --check");
+    assert!(run.status == Some(2) && run.stderr.contains("--rapid"), "{run}");
+}
+
+/// Something lies there; it cannot be read.
+#[cfg(unix)]
+#[test]
+fn a_program_that_leads_to_itself_is_not_missing() {
+    let place = emitted();
+    let program = place.path().join("projects/8001_Milling.gcode");
+    fs::remove_file(&program).unwrap();
+    std::os::unix::fs::symlink("8001_Milling.gcode", &program).unwrap();
+    let run = answer(&place, "");
+    assert!(run.stdout.contains("8001_Milling.gcode: not current\n"), "{run}");
+}

@@ -57,6 +57,7 @@ mod strangers;
 mod support;
 mod texts;
 mod untrusted;
+mod untrusted_roots;
 mod usage;
 mod view;
 mod watch;

@@ -173,7 +173,7 @@ fn json_of_hostile_names_is_whole() {
 /// Reports in files are harmless too: they are shown by others.
 #[test]
 fn reports_of_hostile_names_act_on_nobody() {
-    for format in ["full", "concise", "json", "sarif", "gitlab", "junit"] {
+    for format in ["full", "concise", "json", "sarif", "gitlab", "junit", "html"] {
         let place = place();
         let run = place.run(&format!("check . --report {format}=report"));
         let report = Run { stdout: place.read("report"), ..run };
@@ -182,4 +182,42 @@ fn reports_of_hostile_names_act_on_nobody() {
     let place = place();
     let run = place.run("check . --baseline known --update-baseline");
     assert_harmless(&Run { stdout: place.read("known"), ..run }, false);
+}
+
+/// Pictures, pages and scenes.
+#[test]
+fn what_is_seen_of_hostile_names_acts_on_nobody() {
+    let place = place();
+    let drawing = format!("./::stop-commands::{HOSTILE}1303.1P.dxf");
+    for output in ["seen.json", "seen.svg", "seen.html"] {
+        let run = place.run_with(&["view", &drawing, "-o", output]);
+        assert_harmless(&run, false);
+        let text = place.read(output);
+        let acting: Vec<char> = text.chars().filter(|it| *it != '\n' && shown::acts(*it)).collect();
+        assert!(
+            acting.is_empty() && !text.contains("##[") && text.contains("1303.1P"),
+            "{output}: {acting:?}"
+        );
+    }
+}
+
+/// A link, a number or a mention is made of nothing, a directive neither.
+#[test]
+fn graphs_hold_no_directive_of_mermaid() {
+    let place = Place::new().file("%%{init: {}}%%1303.1P.dxf", right_drawing("1303.1P"));
+    let run = place.run("graph . --format mermaid");
+    assert!(run.stdout.contains("#37;#37;{init") && !run.stdout.contains("%%"), "{run}");
+}
+
+/// What a configuration says is shown as TOML that says the same.
+#[test]
+fn a_shown_configuration_says_the_same() {
+    let text = "\u{e0041}b\\c ##[d]";
+    let configuration = format!("[macros]\na = '{text}'\n");
+    let place = Place::new().file("a\nfeed = 9 #/pathbuild.toml", configuration);
+    let run = place.run_with(&["config", "show", "--config", "a\nfeed = 9 #/pathbuild.toml"]);
+    assert_harmless(&run, false);
+    let table: toml::Table = run.stdout.parse().unwrap();
+    assert_eq!(table["macros"]["a"].as_str(), Some(text), "{run}");
+    assert!(!table.contains_key("feed"), "{run}");
 }

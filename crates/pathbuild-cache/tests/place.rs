@@ -105,7 +105,7 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
     let (_directory, base) = world();
     let build = Key::new("build", "question");
     let place = TreeStore::of_tree(&Home::Named(base.join("link")), &base);
-    let old = base.join("one/x.results");
+    let old = base.join("one").join(build.file_name());
     fs::write(&old, "somebody's").unwrap();
     symlink("one", place.directory()).unwrap();
     assert!(place.prune(&build).is_err());
@@ -117,6 +117,47 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     assert!(place.prune(&build).unwrap() == 1 && !old.exists());
     assert_eq!(TreeStore::of_tree(&Home::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
+}
+
+/// Others mark their caches by the same signature, and call their files as they like.
+#[test]
+fn only_what_pathbuild_makes_is_removed() {
+    let (_directory, base) = world();
+    let build = Key::new("build", "question");
+    let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
+    store(&place);
+    let own = place.directory().join(build.file_name());
+    let of_others = ["probe1.results", "0123456789abcdef0123456g.results", "notes.tmp"];
+    for name in of_others {
+        fs::write(base.join("one").join(name), "mine").unwrap();
+    }
+    assert_eq!((place.refusal(), place.prune(&build)), (None, Ok(0)));
+    let tag = base.join("one/CACHEDIR.TAG");
+    let signature = fs::read_to_string(&tag).unwrap().lines().next().unwrap().to_owned();
+    fs::write(&tag, format!("{signature}\n# This file is a cache directory tag created by cargo.\n"))
+        .unwrap();
+    assert!(
+        place.refusal().is_some() && place.prune(&build).is_err() && place.clean().is_err() && own.exists()
+    );
+    fs::write(&tag, format!("{signature}\n# pathbuild\n")).unwrap();
+    assert!(place.clean().unwrap() && !own.exists());
+    assert!(of_others.iter().all(|name| base.join("one").join(name).exists()));
+}
+
+/// Another tree's directory that is somebody else's does not keep the others from being looked after.
+#[test]
+fn one_directory_that_is_refused_keeps_no_other_from_being_pruned() {
+    let (_directory, base) = world();
+    let home = Home::User(base.join("caches"));
+    let [one, two] = ["one", "two"].map(|tree| TreeStore::of_tree(&home, &base.join(tree)));
+    store(&one);
+    store(&two);
+    let open = [&one, &two].map(TreeStore::directory).into_iter().min().unwrap();
+    fs::set_permissions(open, fs::Permissions::from_mode(0o777)).unwrap();
+    fs::remove_dir(base.join("one")).unwrap();
+    fs::remove_dir(base.join("two")).unwrap();
+    assert!(home.prune().is_err_and(|it| it.path == open));
+    assert_eq!([&one, &two].into_iter().filter(|it| it.directory().exists()).count(), 1);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Bugs that show while nobody works on a target: they are said of the directory that shows them, and keep nothing else from being done.
 
 use camino::Utf8Path;
-use pathbuild_db::system::{Names, ReadError};
+use pathbuild_db::system::Names;
 use pathbuild_db::{Db, Directory, catch_bugs, unlistable, unlisted};
 use pathbuild_diagnostic::Diagnostic;
 
@@ -34,8 +34,8 @@ impl Session<'_> {
         let listed = catch_bugs(|| self.db.system().list(directory));
         match listed.map_err(|bug| Box::new(bug.in_file(readable(directory))))? {
             Ok(listing) => Ok(listing.files),
-            Err(ReadError::Missing) => Ok(Names::default()),
-            Err(fault) => Err(Box::new(unlistable(directory, &fault))),
+            Err(fault) if self.is_directory(directory) => Err(Box::new(unlistable(directory, &fault))),
+            Err(_) => Ok(Names::default()),
         }
     }
 }

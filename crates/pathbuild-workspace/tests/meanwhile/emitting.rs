@@ -47,6 +47,47 @@ fn a_program_that_another_changes_meanwhile_is_written_again() {
     }
 }
 
+/// A file that a post inserts changes between two programs, whenever that is: what is known of the first is of the old bytes.
+#[test]
+fn an_inserted_file_that_changes_meanwhile_is_noticed() {
+    const POST: &str = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\ncomment = '(~CommentText~)'\n\
+        line = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n\
+        program-start = '\\\\\\~*~Head~*'\n";
+    let drawn = |name: &str| format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
+    let mut outdated = 0;
+    for time in 1..6 {
+        let drawings = [("lib/8001.1P.dxf", drawn("8001.1P")), ("lib/8002.1P.dxf", drawn("8002.1P"))];
+        let drawings = drawings.each_ref().map(|(file, text)| (*file, text.as_str()));
+        let configuration = format!("post = \"my.toml\"\n{EMITTING}");
+        let place = OnDisk::configured(&configuration, &drawings);
+        fs::write(place.path().join("my.toml"), POST).unwrap();
+        let with_macro = format!("{configuration}[macros]\nHead = \"head.nc\"\n");
+        fs::write(place.path().join("pathbuild.toml"), with_macro).unwrap();
+        let head = place.path().join("head.nc");
+        fs::write(&head, "(old)\n").unwrap();
+        let meanwhile = Mischief {
+            trigger: "head.nc".to_owned(),
+            countdown: AtomicI64::new(time),
+            lasts: false,
+            is_before: false,
+            event: Event::Change,
+            victim: head.clone(),
+            bytes: b"(new)\n".to_vec(),
+        };
+        place.emit_posted(Arc::new(meanwhile), true);
+        if fs::read_to_string(&head).unwrap() != "(new)\n" {
+            continue;
+        }
+        place.emit_posted(Arc::new(OsSystem), true);
+        for program in ["lib/8001.1P_Milling.nc", "lib/8002.1P_Milling.nc"] {
+            let text = fs::read_to_string(place.path().join(program)).unwrap();
+            assert!(text.contains("(new)"), "time {time}: {program}: {text}");
+        }
+        outdated += 1;
+    }
+    assert!(outdated >= 2, "the file changed {outdated} times");
+}
+
 /// A machine on which what is begun when the clock is looked at for the n-th time has taken long already.
 fn busy(time: i64) -> Arc<Mischief> {
     Arc::new(Mischief {

@@ -12,6 +12,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::{Workshop, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
 use tempfile::TempDir;
 
@@ -122,6 +123,22 @@ impl OnDisk {
             join: None,
             deps: None,
             removes_stale,
+        };
+        request.run(&mut request.session(&workspace)).unwrap()
+    }
+
+    /// The same through the post that the configuration names.
+    pub(crate) fn emit_posted(&self, system: Arc<dyn System>, is_kept: bool) -> Emission {
+        let inputs = Inputs::default();
+        let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
+        let poster = PostProcessor::of_run(&workspace, None, PostArguments::default()).unwrap();
+        let request = emit::Request {
+            inputs: &inputs,
+            task: Task::Write { force: false },
+            poster: poster.as_ref(),
+            join: None,
+            deps: None,
+            removes_stale: false,
         };
         request.run(&mut request.session(&workspace)).unwrap()
     }

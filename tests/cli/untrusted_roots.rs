@@ -1,0 +1,126 @@
+//! `--untrusted`: what a run may not leave where there are several trees, links between them, and a cache in one. (book: reference/configuration)
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::time::Duration;
+
+use crate::support::{Place, Run};
+use pathbuild_testkit::sheet;
+
+const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
+
+fn dxf(name: &str) -> Vec<u8> {
+    let drawn = format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
+    sheet(&drawn).unwrap().to_dxf()
+}
+
+/// Two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` leads.
+fn trees() -> Place {
+    let place = Place::new()
+        .file("one/.git/HEAD", "")
+        .file("one/1201.1P.dxf", dxf("1201.1P"))
+        .file("two/.git/HEAD", "")
+        .file("two/1202.1P.dxf", dxf("1202.1P"))
+        .file("own/pathbuild.toml", CONFIGURATION)
+        .file("outside/1204.1P.dxf", dxf("1204.1P"));
+    symlink("../outside/1204.1P.dxf", place.path().join("two/1204.1P.dxf")).unwrap();
+    place
+}
+
+#[track_caller]
+fn assert_status(run: &Run, status: i32, code: &str) {
+    assert_eq!((run.status, run.stderr.contains(code)), (Some(status), !code.is_empty()), "{run}");
+}
+
+/// The configuration may be a person's own, and the tree of another argument a stranger's.
+#[test]
+fn each_argument_is_confined_to_its_own_repository() {
+    for arguments in ["check one two", "check two one", "check two", "--config own/pathbuild.toml check two"]
+    {
+        let run = trees().run(&format!("--untrusted {arguments}"));
+        assert_eq!(run.status, Some(1), "{arguments}: {run}");
+        assert!(run.stderr.contains("PB001") && run.stderr.contains("1204.1P.dxf"), "{arguments}: {run}");
+        // Trusted, the link is one like any other.
+        let run = trees().run(arguments);
+        assert_eq!(run.status, Some(0), "{arguments}: {run}");
+    }
+}
+
+#[test]
+fn one_tree_that_is_not_trusted_makes_the_run_untrusted() {
+    let trusting = |trusted: &[&str]| {
+        let place = trees();
+        let roots: Vec<String> = trusted.iter().map(|it| format!("{:?}", place.path().join(it))).collect();
+        place.users(&format!("[trust]\nroots = [{}]\n", roots.join(", "))).run("check one two")
+    };
+    assert_eq!(trusting(&["one", "two"]).status, Some(0));
+    assert_status(&trusting(&["one"]), 1, "PB001");
+    assert_status(&trusting(&["two"]), 1, "PB001");
+}
+
+/// Else whoever may put a link into a tree says which tree is read and written.
+#[test]
+fn a_link_in_a_repository_leads_to_no_other_one() {
+    let place = || {
+        let place = Place::new()
+            .file("tree/.git/HEAD", "")
+            .file("tree/pathbuild.toml", CONFIGURATION)
+            .file("other/.git/HEAD", "")
+            .file("other/pathbuild.toml", CONFIGURATION)
+            .file("other/1204.1P.dxf", dxf("1204.1P"));
+        symlink("../other", place.path().join("tree/components")).unwrap();
+        // A person's own way to a tree, from where no repository is.
+        symlink("other", place.path().join("mine")).unwrap();
+        place
+    };
+    let program = |place: &Place| place.path().join("other/1204.1P_Milling.gcode").exists();
+    let led = place();
+    let run = led.run_in("tree", &["--untrusted", "emit", "components"]);
+    assert!(run.status != Some(0) && !program(&led), "{run}");
+    let own = place();
+    assert_eq!(own.run("--untrusted emit mine").status, Some(0));
+    assert!(program(&own));
+}
+
+/// A pull request may bring results that its drawings do not have.
+#[test]
+fn a_cache_in_a_strangers_tree_is_not_used() {
+    for (cache, is_used) in [("../cache", true), (".cache", false), ("link/cache", false)] {
+        let place = Place::new()
+            .file("tree/.git/HEAD", "")
+            .file("tree/pathbuild.toml", CONFIGURATION)
+            .file("tree/1202.1P.dxf", dxf("1202.1P"))
+            .file("outside/file", "");
+        symlink("../outside", place.path().join("tree/link")).unwrap();
+        let run = |options: &str| {
+            let options: Vec<&str> = options.split_whitespace().collect();
+            place.run_in("tree", &[&["--cache-dir", cache, "check", "."], &*options].concat())
+        };
+        let found = run("--untrusted");
+        assert_eq!(found.status, Some(0), "{cache}: {found}");
+        assert_eq!(found.stderr.contains("is not trusted"), !is_used, "{cache}: {found}");
+        assert_eq!(place.path().join("tree").join(cache).exists(), is_used, "{cache}");
+        // In one's own tree it is used wherever it lies.
+        run("");
+        assert!(place.path().join("tree").join(cache).exists(), "{cache}");
+    }
+}
+
+/// The bytes and the stamp of a file are the same behind a link.
+#[test]
+fn what_is_known_of_a_drawing_is_not_known_of_it_behind_a_link() {
+    let place = Place::new()
+        .file("tree/.git/HEAD", "")
+        .file("tree/pathbuild.toml", CONFIGURATION)
+        .file("tree/sub/1202.1P.dxf", dxf("1202.1P"));
+    // Its stamp is kept once it has rested.
+    std::thread::sleep(Duration::from_secs(4));
+    let check = || place.run_in("tree", &["--untrusted", "check", "sub/1202.1P.dxf"]);
+    assert_eq!(check().status, Some(0));
+    assert_eq!(check().status, Some(0));
+    let sub = place.path().join("tree/sub");
+    fs::rename(&sub, place.path().join("outside")).unwrap();
+    symlink("../outside", &sub).unwrap();
+    assert_status(&check(), 1, "PB001");
+}
