@@ -234,7 +234,7 @@ fn a_q_project_is_not_written_into_a_file_named_by_a_dash() {
     let run = place.run("q-project 1234.dxf -o -");
     assert_eq!(run.status, Some(2), "{run}");
     assert!(run.stderr.contains("`-o -`") && !place.path().join("-").exists(), "{run}");
-    let run = place.run("q-project 1234.dxf -o -.dxf");
+    let run = place.run("q-project 1234.dxf -o q.dxf");
     assert_eq!(run.status, Some(0), "{run}");
-    assert!(place.path().join("-.dxf").exists(), "{run}");
+    assert!(place.path().join("q.dxf").exists(), "{run}");
 }
