@@ -212,17 +212,24 @@ start 0,0 "T5 O2 MPlate"
 subpath 0,0 40,0 ">1234.1P"
 subpath 40,0 80,0 ">1234.2P"
 end 80,0
+== 8002.dxf ==
+layer 8002.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 80,0 ">8001.1P"
+end 80,0
 "#;
 
 #[test]
 fn what_is_beyond_the_limit_of_paths_is_not_too_deep() {
     let run = |most: u32| {
         let place = Place::of(PROJECT).file("pathbuild.toml", limits(&format!("embedded-paths = {most}")));
-        place.run("deps 8001.1P")
+        place.run("deps 8002.1P")
     };
-    let inside = run(2);
+    let inside = run(4);
     assert_eq!(inside.status, Some(0), "{inside}");
     assert!(!inside.stdout.contains("PB"), "{inside}");
+    assert_exceeds(&run(3), 1, "embedded-paths");
+    // Of the second path it is not looked at what it embeds.
     let outside = run(1);
     assert_exceeds(&outside, 1, "embedded-paths");
     assert!(outside.stdout.contains("PB005") && !outside.stdout.contains("PB508"), "{outside}");
