@@ -17,6 +17,7 @@ mod conformance;
 mod depfiles;
 mod diagnostics;
 mod diff;
+mod diff_limits;
 mod documents;
 mod elsewhere;
 mod emit;

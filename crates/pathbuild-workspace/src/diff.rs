@@ -40,6 +40,17 @@ pub struct Comparison {
     pub problems: [Vec<Diagnostic>; 2],
 }
 
+impl Comparison {
+    /// Whether errors of a path are among the problems of a side: they are told with the comparison.
+    pub fn tells_of(&self, path: &PathDiff) -> bool {
+        let is_of = |problem: &Diagnostic| {
+            let name = problem.path.as_deref().map(PathName::new);
+            problem.is_error() && name == Some(PathName::new(&path.name))
+        };
+        self.problems.iter().flatten().any(is_of)
+    }
+}
+
 /// A path that is not the same on both sides.
 #[derive(Debug)]
 pub struct PathDiff {
@@ -121,13 +132,14 @@ pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pi
 fn settled(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
     let (was, old_problems) = old.paths();
     let (is, new_problems) = new.paths();
+    let mut problems = [old_problems, new_problems];
     let looked_at = is.len();
     let mut paths: Vec<PathDiff> = pairs(was, is)
         .into_iter()
-        .filter_map(|pair| pair.judged(old.session, new.session, pictures))
+        .filter_map(|pair| pair.judged([old.session, new.session], pictures, &mut problems))
         .collect();
     paths.sort_by(|a, b| by_name(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
-    Comparison { paths, looked_at, problems: [old_problems, new_problems] }
+    Comparison { paths, looked_at, problems }
 }
 
 /// A path of a side.
@@ -137,7 +149,7 @@ struct Known {
     /// Below the root.
     place: Utf8PathBuf,
     name: PathName,
-    /// A hash of its program's moves; `None` where it has errors.
+    /// A hash of its program's moves; `None` where it has errors, or its program could not be made.
     moves: Option<Box<str>>,
 }
 
@@ -152,16 +164,23 @@ impl Tree<'_, '_> {
             session.read_ahead(files);
             let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
             problems.extend(broken.filter(|problem| problem.is_error()).cloned());
-            known(session, files, &root)
+            known(session, files, &root, &mut problems)
         });
         (found, problems)
     }
 }
 
-fn known(session: &Session<'_>, files: &[SourceFile], root: &Utf8Path) -> Vec<Known> {
+fn known(
+    session: &Session<'_>,
+    files: &[SourceFile],
+    root: &Utf8Path,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<Known> {
     let db = session.db();
     let programs = session.move_hashes(files);
-    let known = programs.into_iter().map(|(file, name, moves)| {
+    let known = programs.into_iter().map(|hashed| {
+        problems.extend(hashed.problems);
+        let (file, name, moves) = (hashed.file, hashed.name, hashed.moves);
         let path = file.path(db);
         Known { file, place: path.strip_prefix(root).unwrap_or(path).to_owned(), name, moves }
     });
@@ -206,9 +225,9 @@ fn pairs(old: Vec<Known>, new: Vec<Known>) -> Vec<Pair> {
 impl Pair {
     fn judged(
         self,
-        old_session: &Session<'_>,
-        new_session: &Session<'_>,
+        sessions: [&Session<'_>; 2],
         pictures: Option<Pictures>,
+        problems: &mut [Vec<Diagnostic>; 2],
     ) -> Option<PathDiff> {
         let Self { old, new } = self;
         let outcome = match (&old, &new) {
@@ -216,9 +235,8 @@ impl Pair {
                 (Some(before), Some(after)) if before == after && was.place == is.place => return None,
                 (Some(before), Some(after)) if before == after => Outcome::OtherDrawing,
                 (Some(_), Some(_)) => {
-                    let [was, is] =
-                        [(old_session, was), (new_session, is)].map(|(session, known)| seen(session, known));
-                    Outcome::Changed(Box::new(programs(&was, &is, pictures)))
+                    let [before, after] = sessions;
+                    changed([seen(before, was), seen(after, is)], pictures, problems)
                 }
                 (Some(_), None) => Outcome::Broken,
                 (None, Some(_)) => Outcome::Mended,
@@ -234,7 +252,32 @@ impl Pair {
     }
 }
 
-fn seen(session: &Session<'_>, known: &Known) -> ScenePath {
+/// What became of a path whose moves are not the same. A side that a limit kept from being seen has no moves to compare, and says why.
+fn changed(
+    sides: [Result<ScenePath, Vec<Diagnostic>>; 2],
+    pictures: Option<Pictures>,
+    problems: &mut [Vec<Diagnostic>; 2],
+) -> Outcome {
+    let outcome = match &sides {
+        [Ok(was), Ok(is)] => Outcome::Changed(Box::new(programs(was, is, pictures))),
+        [Ok(_), Err(_)] => Outcome::Broken,
+        [Err(_), Ok(_)] => Outcome::Mended,
+        [Err(_), Err(_)] => Outcome::StillBroken,
+    };
+    for (problems, side) in problems.iter_mut().zip(sides) {
+        problems.extend(side.err().into_iter().flatten());
+    }
+    outcome
+}
+
+/// A path with its program.
+///
+/// # Errors
+/// What kept the program from being made: then there is but the drawing, which has no moves.
+fn seen(session: &Session<'_>, known: &Known) -> Result<ScenePath, Vec<Diagnostic>> {
     let seen = session.scene(known.file, std::slice::from_ref(&known.name));
-    seen.scene.paths.into_iter().next().unwrap_or_default()
+    let path = seen.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
+    // What is wrong with the drawing as a whole is told already.
+    let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
+    path.ok_or_else(|| seen.diagnostics.into_iter().filter(is_of_path).collect())
 }

@@ -132,4 +132,11 @@ messages! {
         help_en: "nothing was written under that name; check the directory's permissions and free space, and whether another program has the file open",
         help_de: "unter diesem Namen wurde nichts geschrieben; Rechte und freien Platz des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
     }
+    /// A program that was read and would fill the memory.
+    PROGRAM_TOO_LONG: LimitReached {
+        en: "this program comes to more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
+        de: "dieses Programm ergibt mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        help_en: "check how often cycles repeat (L or K) and their step Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "prüfen, wie oft Zyklen wiederholt werden (L oder K), und ihre Schrittweite Q; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
 }

@@ -16,6 +16,9 @@ const CENTRE_SHIFT: f64 = 0.05;
 /// Ends that are nearer than this, in mm, and not equal are doubtful where the arc goes nearly all round: the last digit decides.
 const NEAR_ENDS: f64 = 0.002;
 
+/// The most turns of one arc, so that a few bytes are no way to mill for days. The message of a P beyond names it.
+const MOST_TURNS: u32 = 100_000;
+
 impl Interpreter<'_> {
     pub(super) fn arc(&mut self, block: &Block<'_>, clockwise: bool) {
         let plane = self.state.plane;
@@ -69,9 +72,9 @@ impl Interpreter<'_> {
         }
         let Some(slot) = self.words.values.take_slot(b'P') else { return 0 };
         match whole(slot.value) {
-            Some(turns) if (1..=100_000).contains(&turns) => turns - 1,
+            Some(turns) if (1..=MOST_TURNS).contains(&turns) => turns - 1,
             _ => {
-                self.out_of_range(block, "P", slot, "a whole number of turns, 1 or more");
+                self.out_of_range(block, "P", slot, "a whole number of turns from 1 to 100000");
                 0
             }
         }

@@ -24,6 +24,8 @@ mod step;
 mod switches;
 mod words;
 
+use std::ops::ControlFlow;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 
@@ -71,7 +73,21 @@ pub fn interpret_each(
     options: &Options,
     each: &mut dyn FnMut(Step),
 ) -> Vec<Diagnostic> {
-    let (problems, has_words) = interpret_parts([text], dialect, options, each);
+    let mut all = |step| {
+        each(step);
+        ControlFlow::Continue(())
+    };
+    interpret_until(text, dialect, options, &mut all)
+}
+
+/// The same, until whoever takes the steps has enough. Of the lines after that nothing is said.
+pub fn interpret_until(
+    text: &[u8],
+    dialect: Dialect,
+    options: &Options,
+    each: &mut dyn FnMut(Step) -> ControlFlow<()>,
+) -> Vec<Diagnostic> {
+    let (problems, has_words) = interpret_parts_until([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
     if is_other { vec![no_g_code(text)] } else { problems }
 }
@@ -118,6 +134,19 @@ pub(crate) fn interpret_parts(
     options: &Options,
     each: &mut dyn FnMut(Step),
 ) -> (Vec<Diagnostic>, bool) {
+    let mut all = |step| {
+        each(step);
+        ControlFlow::Continue(())
+    };
+    interpret_parts_until(parts, dialect, options, &mut all)
+}
+
+fn interpret_parts_until(
+    parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    dialect: Dialect,
+    options: &Options,
+    each: &mut dyn FnMut(Step) -> ControlFlow<()>,
+) -> (Vec<Diagnostic>, bool) {
     let rules = dialect.rules();
     let mut interpreter = execute::Interpreter::new(rules, options);
     let mut has_words = false;
@@ -131,8 +160,8 @@ pub(crate) fn interpret_parts(
         while let Some(block) = reader.next_block() {
             has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
             interpreter.block(&block);
-            interpreter.out.drain(..).for_each(&mut *each);
-            if interpreter.has_ended() {
+            // What is not taken any more is not interpreted either.
+            if interpreter.out.drain(..).try_for_each(&mut *each).is_break() || interpreter.has_ended() {
                 reader.end_program();
             }
         }

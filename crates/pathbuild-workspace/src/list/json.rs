@@ -26,7 +26,7 @@ pub fn path_json(file: &str, row: &Row) -> Value {
         "errors": row.errors,
         "warnings": row.warnings,
         "program": match path.program {
-            ProgramState::None => None,
+            ProgramState::None | ProgramState::Unknown => None,
             ProgramState::Current => Some("current"),
             ProgramState::Stale => Some("stale"),
         },

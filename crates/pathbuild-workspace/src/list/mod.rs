@@ -99,6 +99,8 @@ pub enum ProgramState {
     Current,
     /// Something else.
     Stale,
+    /// Something. No program can be made now to hold against it: that is an error of the path.
+    Unknown,
 }
 
 impl Session<'_> {
@@ -162,7 +164,9 @@ impl Request<'_> {
             paths.extend(names.map(|name| (*file, name.clone())));
         }
         listed.drawings = files.len();
-        listed.paths = list_paths(session, &paths, self.poster);
+        let unmade;
+        (listed.paths, unmade) = list_paths(session, &paths, self.poster);
+        listed.diagnostics.extend(unmade);
         let unmet = asked
             .unmet(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).with("name", text));
@@ -180,7 +184,7 @@ pub fn of_path(
     poster: Option<&PostProcessor>,
 ) -> Vec<ListedPath> {
     let path = [(file, name.clone())];
-    session.settled(|session| list_paths(session, &path, poster))
+    session.settled(|session| list_paths(session, &path, poster).0)
 }
 
 /// What there is to list of every path of some drawings.
@@ -193,7 +197,7 @@ pub fn of_drawings(
         let names = files.iter().map(|file| (*file, path_names(session.db(), *file)));
         let paths = names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone())));
         let paths: Vec<(SourceFile, PathName)> = paths.collect();
-        list_paths(session, &paths, poster)
+        list_paths(session, &paths, poster).0
     })
 }
 
@@ -201,30 +205,45 @@ fn list_paths(
     session: &mut Session<'_>,
     paths: &[(SourceFile, PathName)],
     poster: Option<&PostProcessor>,
-) -> Vec<ListedPath> {
+) -> (Vec<ListedPath>, Vec<Diagnostic>) {
     let mut listed = session.in_batches_of_programs(paths, known);
-    compare(session, poster, paths, &mut listed);
-    listed
+    let unmade = compare(session, poster, paths, &mut listed);
+    (listed, unmade)
 }
 
-/// Holds the programs on disk against the paths.
+/// Holds the programs on disk against the paths; gives back what kept programs from being made, which no check finds.
 fn compare(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,
     paths: &[(SourceFile, PathName)],
     listed: &mut [ListedPath],
-) {
+) -> Vec<Diagnostic> {
     let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
     let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
     let targets: Vec<Target> = targets.collect();
     let states: HashMap<Target, bool> = emit::on_disk(session, poster, &targets);
+    let others: Vec<Target> =
+        targets.into_iter().filter(|target| states.get(target) == Some(&false)).collect();
+    let others = session.why_not_current(poster, &others);
+    let mut problems = Vec::new();
     for ((file, name), listed) in paths.iter().zip(listed) {
-        listed.program = match states.get(&session.target_in(*file, name, Role::Emitted)) {
+        let target = session.target_in(*file, name, Role::Emitted);
+        listed.program = match states.get(&target) {
             None => ProgramState::None,
             Some(true) => ProgramState::Current,
             Some(false) => ProgramState::Stale,
         };
+        match others.get(&target) {
+            Some(Ok(true)) => listed.program = ProgramState::Current,
+            Some(Err(found)) => {
+                listed.program = ProgramState::Unknown;
+                listed.diagnostics.extend_from_slice(found);
+                problems.extend_from_slice(found);
+            }
+            Some(Ok(false)) | None => {}
+        }
     }
+    problems
 }
 
 fn not_a_pattern(session: &Session<'_>, name: &str, reason: &str) -> String {

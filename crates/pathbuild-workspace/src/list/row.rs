@@ -55,7 +55,7 @@ impl Row {
             _ if self.errors > 0 => State::Errors,
             ProgramState::Stale => State::Stale,
             ProgramState::Current => State::Current,
-            ProgramState::None => State::Ok,
+            ProgramState::None | ProgramState::Unknown => State::Ok,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Which drawings and paths the arguments mean. (book: reference/commands)
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Db, SourceFile, holders, path_names};
+use pathbuild_db::{Db, SourceFile, check_file, holders, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
@@ -106,12 +106,24 @@ impl Session<'_> {
                     }
                     ([], None, None) => {
                         wanted.problems.extend(self.name_problems(found));
-                        wanted.problems.push(nowhere(name, &found.name_directories));
+                        let unread = self.unread(candidates, names);
+                        if unread.is_empty() {
+                            wanted.problems.push(nowhere(name, &found.name_directories));
+                        }
+                        wanted.problems.extend(unread);
                     }
                 }
             }
         }
         None
+    }
+
+    /// What kept drawings from being read that may define a path: those of which no path is known. The path may well be in one of them.
+    fn unread(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
+        let is_unread = |file: &SourceFile| names(*file).is_empty();
+        let files = self.different(candidates.iter().copied().filter(is_unread));
+        let problems = files.iter().flat_map(|file| check_file(&self.db, *file));
+        problems.filter(|problem| problem.is_error()).cloned().collect()
     }
 
     /// What may have kept a name from being found.

@@ -7,14 +7,15 @@ use pathbuild_db::{
     Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index, in_force,
     keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
 };
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{InForce, KeepOut, PathName};
 use pathbuild_toolpath::Correction;
 use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
 
-use super::{Session, Writing};
+use super::work::about;
+use super::{CheckedTarget, Session, Writing};
 use crate::emit::writing;
 use crate::findings::Findings;
 use crate::workspace::Workspace;
@@ -26,6 +27,19 @@ pub struct Seen {
     pub scene: Scene,
     /// What is wrong, located.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What is known of a path's moves without a picture of them.
+#[derive(Debug)]
+pub struct HashedPath {
+    /// The drawing that defines it.
+    pub file: SourceFile,
+    /// Its name.
+    pub name: PathName,
+    /// A hash of its program's moves; `None` where it has errors, or its program could not be made.
+    pub moves: Option<Box<str>>,
+    /// The limits and bugs that kept its program from being made.
+    pub problems: Vec<Diagnostic>,
 }
 
 impl Seen {
@@ -101,21 +115,36 @@ impl Session<'_> {
         (drawn, diagnostics, Vec::new())
     }
 
-    /// A hash of the moves of each path of some drawings, of the programs that [`scene`](Self::scene) shows; `None` where a path has errors.
-    pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<(SourceFile, PathName, Option<Box<str>>)> {
+    /// A hash of the moves of each path of some drawings, of the programs that [`scene`](Self::scene) shows.
+    pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let wanted: Vec<(SourceFile, PathName)> =
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
         let checked = self.each(&wanted, |asking, (file, name)| asking.check_as_known(*file, name));
-        let targets: Vec<Target> = checked.into_iter().map(|checked| checked.target).collect();
-        let hash = |db: &pathbuild_db::Database, target: &Target| {
-            program(db, *target)
+        let hash = |db: &pathbuild_db::Database, checked: &CheckedTarget| {
+            program(db, checked.target)
                 .as_deref()
                 .map(|program| Provenance::of_programs(&[program], &[], None).moves)
         };
-        let hashes = self.guarded(&targets, hash).into_iter().map(|hash| hash.ok().flatten());
-        wanted.into_iter().zip(hashes).map(|((file, name), hash)| (file, name, hash)).collect()
+        let hashes = self.guarded(&checked, hash);
+        let hashed = |(((file, name), checked), hash): ((_, CheckedTarget), Result<_, Box<Diagnostic>>)| {
+            let mut problems: Vec<Diagnostic> =
+                checked.diagnostics.into_iter().filter(stops_making).collect();
+            let moves = hash.unwrap_or_else(|problem| {
+                let problem = about(&self.db, checked.target, *problem);
+                // A check that took too long has said the same.
+                problems.extend((!problems.contains(&problem)).then_some(problem));
+                None
+            });
+            HashedPath { file, name, moves, problems }
+        };
+        wanted.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }
+}
+
+/// Whether a limit or a bug kept something from being made: then nothing is said of the drawing, which may be right.
+fn stops_making(problem: &Diagnostic) -> bool {
+    matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
 /// What is drawn in a drawing.

@@ -1,14 +1,17 @@
 //! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (book: program/reading)
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Evidence, Heights, Interpretation, Options, Step, Text, UnitCodes, guess, interpret_each,
+    Evidence, Heights, Interpretation, Options, Step, Text, UnitCodes, guess, interpret_until,
 };
 use pathbuild_gcode::read::quote;
+use pathbuild_toolpath::memory;
 
 use crate::args::{ReadingArgs, UnitCodesArg};
 use crate::context::Context;
@@ -40,8 +43,21 @@ impl Program {
         file: &Utf8Path,
         args: &ReadingArgs,
     ) -> Result<Self, Box<Diagnostic>> {
-        let mut steps = Vec::new();
-        let mut program = Self::open_each(context, file, args, &mut |step| steps.push(step))?;
+        let (mut steps, limit) = (Vec::new(), context.settings.limits.program_memory.value);
+        let mut stopped = None;
+        let mut program = Self::open_until(context, file, args, &mut |step| {
+            if memory(steps.len() as u64 + 1) > limit {
+                stopped = Some(step.line);
+                return ControlFlow::Break(());
+            }
+            steps.push(step);
+            ControlFlow::Continue(())
+        })?;
+        if let Some(line) = stopped {
+            let mut problem = too_much_memory(steps.len(), limit).at_line(line, None);
+            program.place(std::slice::from_mut(&mut problem));
+            return Err(Box::new(problem));
+        }
         program.read.steps = steps;
         Ok(program)
     }
@@ -56,13 +72,25 @@ impl Program {
         args: &ReadingArgs,
         each: &mut dyn FnMut(Step),
     ) -> Result<Self, Box<Diagnostic>> {
+        Self::open_until(context, file, args, &mut |step| {
+            each(step);
+            ControlFlow::Continue(())
+        })
+    }
+
+    fn open_until(
+        context: &Context,
+        file: &Utf8Path,
+        args: &ReadingArgs,
+        each: &mut dyn FnMut(Step) -> ControlFlow<()>,
+    ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
         let text =
             context.system.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let options = options(context, args);
-        let mut problems = interpret_each(&text, dialect, &options, each);
+        let mut problems = interpret_until(&text, dialect, &options, each);
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
@@ -105,6 +133,16 @@ impl Program {
     pub(super) fn lines(&self) -> usize {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
+}
+
+/// PB005: of a program's steps only so many may be kept, as many as an emitted program may have moves.
+fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
+    let count = count as u64;
+    Diagnostic::new(&files::PROGRAM_TOO_LONG)
+        .with("count", count)
+        .with("size", memory(count + 1))
+        .with("limit", limit)
+        .with("key", "program-memory")
 }
 
 fn options(context: &Context, args: &ReadingArgs) -> Options {

@@ -15,6 +15,13 @@ use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written where the drawing is not in order, or what would be written would not be.
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
+    // Elsewhere that is standard output. A drawing is read by a CAD, from a file.
+    if args.output.as_deref() == Some(Utf8Path::new("-")) {
+        return context.usage(context.choose(
+            "`-o -`: q-project writes a drawing, name a file for it",
+            "`-o -`: q-project schreibt eine Zeichnung, eine Datei dafür nennen",
+        ));
+    }
     let mut session = Session::new(context);
     let drawing = session.file(&args.drawing);
     let name = session.settled(|session| path_name(session, drawing, args.path_name.as_deref()));

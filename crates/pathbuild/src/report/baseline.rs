@@ -6,6 +6,7 @@ use std::fmt::Write;
 
 use camino::Utf8Path;
 use pathbuild_db::System;
+use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value, shown};
 
@@ -36,7 +37,11 @@ impl Baseline {
     /// What is wrong with it.
     pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
-            vec![Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason)]
+            vec![match system.read(file, limit) {
+                // The limit is named by its key, as that of every file is.
+                Err(error @ ReadError::TooLarge { .. }) => files::unreadable(file, &error, limit),
+                _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
+            }]
         })?;
         Self::parse(file, &text)
     }

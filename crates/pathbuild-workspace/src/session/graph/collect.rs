@@ -3,8 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Closure, Database, Destination, Instance, Role, Target, closure, path_index, summary};
-use pathbuild_diagnostic::Code;
+use pathbuild_db::{
+    Closure, Database, Destination, Instance, Role, Target, closure, locate, path_index, summary,
+};
+use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{Bindings, PathName};
 
 use super::{Embedding, End, Graph, Node};
@@ -18,7 +21,11 @@ impl Session<'_> {
         let mut parts = Vec::with_capacity(targets.len());
         for (made, target) in self.guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets) {
             match made {
-                Ok(part) => parts.push(part),
+                Ok(part) => {
+                    let located = part.problems.iter().map(|problem| locate(&self.db, problem.clone()));
+                    merged.graph.problems.extend(located);
+                    parts.push(part);
+                }
                 Err(problem) => merged.graph.problems.push(about(&self.db, *target, *problem)),
             }
         }
@@ -41,13 +48,15 @@ struct Part {
     /// The first is the target.
     nodes: Vec<Node>,
     embeddings: Vec<(usize, End)>,
+    /// Why not all is seen that it reaches.
+    problems: Vec<Diagnostic>,
 }
 
 impl Part {
-    /// The nodes of which something is left out because the target embeds it too deep.
+    /// The nodes of which something is left out because the target embeds it too deep, or too much.
     fn cut(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, End)| match to {
-            End::Nowhere(_, Code::NestingTooDeep) => Some(*from),
+            End::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
             _ => None,
         };
         self.embeddings.iter().filter_map(cut).collect()
@@ -59,7 +68,7 @@ impl Part {
 enum Reach {
     /// It is.
     Whole,
-    /// Some of it is too deep below the target. Another target may have shown it whole before.
+    /// Some of it is too deep below the target, or beyond a limit. Another target may have shown it whole before.
     Cut,
 }
 
@@ -73,16 +82,23 @@ fn part(db: &Database, target: Target) -> Part {
         nodes.push(node);
     }
     let number = number(reached);
+    let crowded = crowded(reached);
+    let beyond = if crowded.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
-        // A path that is embedded too deep is no part of what is reached.
-        Destination::Path(child) => number.get(&child).map_or_else(
-            || End::Nowhere(Some(node(db, child).name), Code::NestingTooDeep),
-            |to| End::Node(*to),
-        ),
+        // A path that is embedded too deep, or beyond a limit, is no part of what is reached.
+        Destination::Path(child) => number
+            .get(&child)
+            .map_or_else(|| End::Nowhere(Some(node(db, child).name), beyond), |to| End::Node(*to)),
         Destination::Nowhere { name, code } => End::Nowhere(name, code),
     };
     let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
-    Part { embeddings: embeddings.collect(), nodes }
+    Part { embeddings: embeddings.collect(), nodes, problems: crowded }
+}
+
+/// PB005, where a target embeds more paths than may be: not all of them are seen.
+fn crowded(closure: &Closure<'_>) -> Vec<Diagnostic> {
+    let is_it = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
+    closure.diagnostics.iter().filter(is_it).cloned().collect()
 }
 
 fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {

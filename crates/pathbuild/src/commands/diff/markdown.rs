@@ -5,18 +5,25 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Lang, shown};
 use pathbuild_workspace::diff::{Comparison, Outcome};
 
-use super::text::{details, either, outcome, place, summary};
+use super::text::{details, either, outcome, place, problems, summary};
 
 /// A table with a row for each path.
 pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
     let mut text = format!("**pathbuild**: {}\n", summary(comparison, lang));
+    let problems = problems(comparison, lang);
+    if !problems.is_empty() {
+        text.push('\n');
+    }
+    for problem in problems {
+        _ = writeln!(text, "- {}", escaped(&problem));
+    }
     if comparison.paths.is_empty() {
         return text;
     }
     let head = either(lang, "| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
     _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
     for path in &comparison.paths {
-        let mut cell = outcome(path, lang).to_owned();
+        let mut cell = outcome(path, comparison, lang).to_owned();
         if let Outcome::Changed(program) = &path.outcome {
             cell = details(program, lang).iter().map(|line| escaped(line)).collect::<Vec<_>>().join("<br>");
         }

@@ -69,9 +69,8 @@ fn single(old: side::Seen, new: side::Seen, pictures: Option<Pictures>) -> Compa
     Comparison { paths, looked_at: 1, problems: [old.problems, new.problems] }
 }
 
-fn finish(context: &Context, output: &Output, mut comparison: Comparison) -> ExitStatus {
-    let problems = comparison.problems.each_mut().map(std::mem::take);
-    let findings = context.findings(problems.into_iter().flatten().collect());
+fn finish(context: &Context, output: &Output, comparison: Comparison) -> ExitStatus {
+    let findings = context.findings(comparison.problems.concat());
     match context.format {
         Format::Json => json::rows(context, &comparison),
         format if format.is_for_machines() => {}

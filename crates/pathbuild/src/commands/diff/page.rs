@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_view::escaped;
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet};
 
-use super::text::{details, either, outcome, place, summary};
+use super::text::{details, either, outcome, place, problems, summary};
 
 const TEMPLATE: &str = include_str!("page.html");
 
@@ -16,20 +16,23 @@ pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
     let code = either(lang, "en", "de");
     let title = format!("pathbuild diff: {}", summary(comparison, lang));
     let mut page = before.replace("{{lang}}", code).replace("{{title}}", &escaped(&title));
+    for problem in problems(comparison, lang) {
+        _ = writeln!(page, "<p>{}</p>", escaped(&problem));
+    }
     for path in &comparison.paths {
-        section(&mut page, path, lang);
+        section(&mut page, path, comparison, lang);
     }
     page.push_str(behind);
     page
 }
 
-fn section(page: &mut String, path: &PathDiff, lang: Lang) {
+fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: Lang) {
     _ = writeln!(
         page,
         "<section>\n<h2>{} <small>{}</small></h2>\n<p>{}</p>",
         escaped(&path.name),
         escaped(&place(path)),
-        outcome(path, lang)
+        outcome(path, comparison, lang)
     );
     if let Outcome::Changed(program) = &path.outcome {
         page.push_str("<ul>\n");

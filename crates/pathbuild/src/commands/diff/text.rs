@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::numbers::counted;
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Lang, Number, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
 use pathbuild_view::{Group, Totals, moves, phrase};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, ProgramDiff};
 
@@ -17,7 +17,7 @@ pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
             "{} · {}: {}",
             shown::line(&path.name),
             shown::line(&place(path)),
-            outcome(path, lang)
+            outcome(path, comparison, lang)
         );
         if let Outcome::Changed(program) = &path.outcome {
             for line in details(program, lang) {
@@ -40,8 +40,10 @@ pub(super) fn place(path: &PathDiff) -> String {
 }
 
 /// What became of a path, in a few words.
-pub(super) fn outcome(path: &PathDiff, lang: Lang) -> &'static str {
+pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
+        // `check` makes no programs, and shows no limit that only a program meets.
+        Outcome::Broken if comparison.tells_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
         Outcome::Broken => {
@@ -55,6 +57,21 @@ pub(super) fn outcome(path: &PathDiff, lang: Lang) -> &'static str {
         Outcome::Changed(_) => ("changed", "geändert"),
     };
     either(lang, en, de)
+}
+
+/// What kept paths and drawings from being compared, a line each.
+pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
+    let errors = comparison.problems.iter().flatten().filter(|problem| problem.is_error());
+    let line = |problem: &Diagnostic| {
+        let file = problem.file.as_deref().map(Utf8Path::as_str);
+        let places: Vec<&str> = [file, problem.path.as_deref()].into_iter().flatten().collect();
+        let text = problem.text(lang);
+        match problem.help(lang) {
+            Some(help) => format!("{}: {}: {text} ({help})", places.join(" · "), problem.code()),
+            None => format!("{}: {}: {text}", places.join(" · "), problem.code()),
+        }
+    };
+    errors.map(line).collect()
 }
 
 /// A line for each kind of change, and one for the whole.
