@@ -65,13 +65,22 @@ impl Places {
 
     /// Whether a change under a name counts: those that lead somewhere have other names too.
     pub(super) fn regard(&self, path: &Utf8Path) -> bool {
-        let is_in = |directory: &Utf8Path| self.wanted.contains_key(directory);
-        self.names.contains(path) || path.parent().is_some_and(is_in) || self.is_below(path)
+        self.names.contains(path) || path.ancestors().skip(1).any(|directory| self.holds(directory, path))
+    }
+
+    /// Whether a name is in a directory that is watched, or below it where all below is.
+    fn holds(&self, directory: &Utf8Path, path: &Utf8Path) -> bool {
+        match self.wanted.get(directory) {
+            Some(RecursiveMode::Recursive) => path != directory && path.starts_with(directory),
+            Some(RecursiveMode::NonRecursive) => path.parent() == Some(directory),
+            None => false,
+        }
     }
 
     /// What the session calls what an event names. A drawing may have two names: as an argument, and where paths are looked for.
     pub(super) fn own_names(&self, path: &Utf8Path) -> Vec<Utf8PathBuf> {
-        let own = self.own_names.iter().filter_map(|[told, own]| Some(join(own, path.strip_prefix(told).ok()?)));
+        let pairs = self.own_names.iter().filter(|[told, _]| self.holds(told, path));
+        let own = pairs.filter_map(|[told, own]| Some(join(own, path.strip_prefix(told).ok()?)));
         let own: BTreeSet<Utf8PathBuf> = own.collect();
         if own.is_empty() { vec![path.to_owned()] } else { own.into_iter().collect() }
     }
@@ -79,10 +88,10 @@ impl Places {
     /// Whether after that event something else is to be watched than before it. Files that come and go are nothing of that kind, nor is what
     /// changes in a directory: programs may be written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &Utf8Path, system: &dyn System) -> bool {
-        if !comes_or_goes(kind) {
-            return self.refused.contains(path) && system.list(path).is_ok();
+        if comes_or_goes(kind) {
+            return self.names.contains(path);
         }
-        self.names.contains(path) || self.is_below(path) && is_linked_directory(path, system)
+        self.refused.contains(path) && system.list(path).is_ok()
     }
 
     /// Whether all below a directory above is watched.
@@ -142,13 +151,6 @@ fn is_refusal(error: &notify::Error) -> bool {
         ErrorKind::PathNotFound => true,
         _ => false,
     }
-}
-
-/// Whether a name is that of a link to a directory: where one comes, the system watches nothing by itself.
-fn is_linked_directory(path: &Utf8Path, system: &dyn System) -> bool {
-    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return false };
-    let is_directory = !Session::is_drawing(path) && system.kind(path) == FileKind::Directory;
-    is_directory && system.canonical(path) != system.canonical(parent).join(name)
 }
 
 /// The directories to watch: those that hold drawings, those that are searched, that of the configuration, and those of the post. Also those
