@@ -449,8 +449,7 @@ fn what_leads_to_a_directory_may_be_replaced() {
 /// Other directories come and go, also those that programs are written to, and nothing begins anew.
 #[test]
 fn other_directories_begin_nothing_anew() {
-    let place =
-        library().file("pathbuild.toml", CONFIGURATION.replace("[emit]", "[emit]\nout-dir = \"gcode\""));
+    let place = library().file("pathbuild.toml", format!("out-dir = \"gcode\"\n{CONFIGURATION}"));
     let watch = Watch::begin(&place, "watch --emit --format concise");
     watch.write("notes", "");
     fs::create_dir(place.path().join("other")).unwrap();
@@ -582,4 +581,20 @@ fn drawings_that_a_rule_hides_have_their_line() {
     watch.until("8002.dxf: removed");
     fs::remove_file(place.path().join("library/projects/.ignore")).unwrap();
     watch.until("8002.dxf: changed; 1 drawing checked");
+}
+
+/// The user's own configuration may be what is wrong.
+#[cfg(unix)]
+#[test]
+fn a_users_configuration_that_is_put_right_is_noticed() {
+    let place = library().users("lang = \"en\"\n");
+    let mut command = program();
+    command.env("XDG_CONFIG_HOME", place.configurations());
+    let watch = Watch::begin_in(&place, ".", command, "watch --format concise");
+    let own = place.configurations().join("pathbuild/config.toml");
+    fs::write(&own, "lang = \n").unwrap();
+    watch.write("pathbuild.toml", CONFIGURATION);
+    watch.until("put right");
+    fs::write(&own, "lang = \"en\"\n").unwrap();
+    watch.until("watching ");
 }

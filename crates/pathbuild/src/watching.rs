@@ -10,6 +10,7 @@ use crate::context_of;
 use crate::exit::ExitStatus;
 use crate::say_configuration_not_used;
 use crate::serving::Server;
+use crate::surroundings::user_configuration;
 use camino::Utf8PathBuf;
 
 /// How often a configuration that is wrong is looked at.
@@ -98,6 +99,7 @@ impl Sources {
             let bytes = context.system.read(&file, limit).ok();
             (file, bytes)
         };
-        Self(settings.file.clone().into_iter().chain([post]).map(read).collect())
+        let files = settings.file.clone().into_iter().chain([post]).chain(user_configuration());
+        Self(files.map(read).collect())
     }
 }

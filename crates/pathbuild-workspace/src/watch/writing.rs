@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
-use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_diagnostic::{Code, Diagnostic, Value};
 
 use super::{Listener, Request};
 use crate::emit::{self, Configured, Owners};
@@ -122,7 +122,7 @@ impl<'a> Writer<'a> {
         match emit::write(session, self.poster.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
                 self.listener.written(&emission.delivered);
-                self.keep(&emission.diagnostics);
+                self.keep(session, &emission.diagnostics);
                 Writing { before, now: emission.diagnostics }
             }
             Err(refusal) => {
@@ -132,9 +132,24 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn keep(&mut self, found: &[Diagnostic]) {
-        for (problem, file) in found.iter().filter_map(|problem| Some((problem, problem.file.clone()?))) {
-            self.found.entry(file).or_default().push(problem.clone());
+    fn keep(&mut self, session: &Session<'_>, found: &[Diagnostic]) {
+        for problem in found {
+            if let Some(drawing) = self.drawing_of(session, problem) {
+                self.found.entry(drawing).or_default().push(problem.clone());
+            }
+        }
+    }
+
+    /// The drawing that a problem is of. What is wrong with a file that is to be written names that file.
+    fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
+        let name = problem.arguments.iter().find_map(|argument| match argument {
+            ("name", Value::Text(name)) => Some(&**name),
+            _ => None,
+        });
+        let file = problem.file.as_ref().map(|file| file.as_str()).or(name)?;
+        match self.owners.get(&file.to_lowercase()) {
+            Some(owner) => Some(owner.file(session.db()).path(session.db()).clone()),
+            None => problem.file.clone(),
         }
     }
 }
