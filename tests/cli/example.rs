@@ -44,3 +44,24 @@ fn without_a_configuration_check_mentions_init() {
     let run = Place::new().file("pathbuild.toml", "feed = 150").run("check");
     assert!(run.stderr.contains("set `library` in pathbuild.toml") && !run.stderr.contains("init"), "{run}");
 }
+
+/// Where no file can be longer than 2 kB, as on a disk that is full: nothing stands in the way of the next try.
+#[cfg(unix)]
+#[test]
+fn files_that_cannot_be_written_whole_are_gone() {
+    for (blocks, arguments) in [(4, "init --example"), (1, "init")] {
+        let place = Place::new();
+        let program = crate::support::program();
+        let limited = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" {arguments}");
+        let mut shell = std::process::Command::new("sh");
+        shell.arg("-c").arg(limited).arg(program.get_program()).current_dir(place.path());
+        let run = shell.output().unwrap();
+        assert!(String::from_utf8_lossy(&run.stderr).contains("PB004"), "{run:?}");
+        let left = |directory: &str| {
+            let entries = std::fs::read_dir(place.path().join(directory)).into_iter().flatten();
+            entries.filter(|entry| entry.as_ref().unwrap().path().is_file()).count()
+        };
+        assert_eq!(["", "components", "templates"].map(left), [0; 3]);
+        assert_eq!(place.run(arguments).status, Some(0));
+    }
+}

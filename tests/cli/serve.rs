@@ -6,6 +6,7 @@ use std::net::{TcpListener, TcpStream};
 #[cfg(unix)]
 use std::process::Command;
 use std::process::{Child, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use pathbuild_testkit::sheet;
@@ -741,4 +742,52 @@ fn without_a_library_all_that_lies_there_is_shown() {
     assert_eq!(served.get("/api/library").json()["drawings"].as_array().unwrap().len(), 3);
     served.write("1010.dxf", dxf("1010.1P", 5));
     served.until("1010.dxf: changed");
+}
+
+/// What was checked under a configuration that is gone is not current.
+#[test]
+fn a_page_says_that_the_configuration_is_gone() {
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let file = place.path().join("pathbuild.toml");
+    fs::remove_file(&file).unwrap();
+    served.until("put right");
+    assert_eq!(served.get("/api/library").json()["halted"], "pathbuild.toml is missing");
+    served.write("pathbuild.toml", CONFIGURATION);
+    served.until("watching ");
+    assert_eq!(served.get("/api/library").json()["halted"], Value::Null);
+
+    fs::remove_file(&file).unwrap();
+    fs::create_dir(&file).unwrap();
+    served.until("put right");
+    assert_ne!(served.get("/api/library").json()["halted"], Value::Null);
+}
+
+/// Who looks at a picture again and again keeps no edit from being noticed.
+#[test]
+fn requests_without_end_hold_up_no_change() {
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let (port, is_over) = (served.port, AtomicBool::new(false));
+    let look = || {
+        let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+        let what = "/api/picture?file=library/1001.dxf&path=1001.1P";
+        write!(stream, "GET {what} HTTP/1.1\r\nHost: localhost:{port}\r\nConnection: close\r\n\r\n").unwrap();
+        stream.read_to_end(&mut Vec::new()).unwrap();
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..8 {
+            scope.spawn(|| {
+                while !is_over.load(Ordering::Relaxed) {
+                    look();
+                }
+            });
+        }
+        std::thread::sleep(Duration::from_millis(500));
+        let begun = Instant::now();
+        served.write("library/1002.dxf", dxf("1002.1P", 3));
+        served.until("1002.dxf: changed");
+        is_over.store(true, Ordering::Relaxed);
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+    });
 }

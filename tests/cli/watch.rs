@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
-use std::process::{Child, Stdio};
+#[cfg(target_os = "linux")]
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use crate::support::{Place, Said, program};
@@ -44,8 +46,12 @@ struct Watch<'a> {
 
 impl<'a> Watch<'a> {
     fn begin(place: &'a Place, arguments: &str) -> Self {
-        let mut command = program();
-        command.args(arguments.split_whitespace()).current_dir(place.path());
+        Self::begin_in(place, ".", program(), arguments)
+    }
+
+    /// In a directory below.
+    fn begin_in(place: &'a Place, directory: &str, mut command: Command, arguments: &str) -> Self {
+        command.args(arguments.split_whitespace()).current_dir(place.path().join(directory));
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let lines = Said::by(&mut child);
         let mut watch = Self { place, child, lines, beginning: Vec::new() };
@@ -61,6 +67,10 @@ impl<'a> Watch<'a> {
 
     fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         fs::write(self.place.path().join(name), bytes).unwrap();
+    }
+
+    fn rename(&self, from: &str, to: &str) {
+        fs::rename(self.place.path().join(from), self.place.path().join(to)).unwrap();
     }
 }
 
@@ -380,4 +390,211 @@ fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
     watch.until("watching ");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     watch.until("1001.dxf: changed");
+}
+
+const REPLACED: &str = "a directory that is watched came, went or was replaced";
+
+/// The system watches a directory, not its name: as Git and synchronising programs exchange it.
+#[test]
+fn a_directory_that_takes_the_place_of_one_is_watched() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.rename("library", "aside");
+    watch.until(REPLACED);
+    assert!(watch.until("watching ").iter().any(|line| line.contains("[PB003]")));
+    watch.rename("aside", "library");
+    watch.until("watching 4 paths");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    assert!(watch.until("parts/1001.dxf: changed").iter().any(|line| line.contains("PB506")));
+
+    fs::remove_dir_all(place.path().join("library")).unwrap();
+    watch.until("watching 0 paths");
+    fs::create_dir_all(place.path().join("library/parts")).unwrap();
+    watch.until(REPLACED);
+    watch.until("watching ");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
+    assert!(watch.until("parts/1001.dxf: changed").iter().any(|line| line.contains("PB503")));
+}
+
+/// The same where the new one is there at once, and is a link.
+#[cfg(unix)]
+#[test]
+fn a_link_that_takes_the_place_of_a_directory_is_watched() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.rename("library", "aside");
+    std::os::unix::fs::symlink("aside", place.path().join("library")).unwrap();
+    watch.until(REPLACED);
+    watch.until("watching 4 paths");
+    watch.write("aside/projects/8001.dxf", dxf("8001.1P", 5, &["1999.1P"]));
+    let said = watch.until("library/projects/8001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
+}
+
+/// Where only what leads to a watched directory is another.
+#[test]
+fn what_leads_to_a_directory_may_be_replaced() {
+    let configuration = CONFIGURATION.replace("library", "all/library").replace("all/library =", "library =");
+    let place = Place::new().file("pathbuild.toml", configuration);
+    let place = place.file("all/library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.rename("all", "aside");
+    watch.until("watching 0 paths");
+    watch.rename("aside", "all");
+    watch.until("watching 1 path");
+    watch.write("all/library/parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
+    watch.until("parts/1001.dxf: changed");
+}
+
+/// Other directories come and go, also those that programs are written to, and nothing begins anew.
+#[test]
+fn other_directories_begin_nothing_anew() {
+    let place = library().file("pathbuild.toml", format!("out-dir = \"gcode\"\n{CONFIGURATION}"));
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    watch.write("notes", "");
+    fs::create_dir(place.path().join("other")).unwrap();
+    fs::create_dir(place.path().join("library/parts/new")).unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    watch.write("library/parts/new/1003.dxf", dxf("1003.1P", 5, &["1999.1P"]));
+    let mut said = watch.until("1003.dxf: changed");
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1001.1P"]));
+    said.extend(watch.until("1002.dxf: changed"));
+    fs::remove_dir_all(place.path().join("gcode")).unwrap();
+    watch.write("library/parts/new/1003.dxf", dxf("1003.1P", 5, &[]));
+    said.extend(watch.until("1003.dxf: changed"));
+    assert!(!said.iter().any(|line| line.contains(REPLACED) || line.contains("watching ")), "{said:#?}");
+}
+
+#[test]
+fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
+    let place = Place::new().file("pathbuild.toml", CONFIGURATION);
+    let watch = Watch::begin(&place, "watch --format concise");
+    assert!(watch.beginning.iter().any(|line| line.contains("[PB003]")), "{:#?}", watch.beginning);
+    fs::create_dir_all(place.path().join("library/parts")).unwrap();
+    watch.until("watching ");
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    watch.until("1001.dxf: changed");
+    // The same of an argument, without any configuration.
+    let place = Place::new();
+    let watch = Watch::begin(&place, "watch parts --format concise");
+    fs::create_dir(place.path().join("parts")).unwrap();
+    watch.until("watching ");
+    watch.write("parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
+    watch.until("1001.dxf: changed");
+}
+
+/// From a directory beside it: events have no `..`.
+#[test]
+fn a_directory_above_is_watched() {
+    for arguments in ["watch ../library --format concise", "watch ../library/parts/1001.dxf --format concise"]
+    {
+        let place = library().file("beside/a.txt", "");
+        let watch = Watch::begin_in(&place, "beside", program(), arguments);
+        watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
+        let said = watch.until("1001.dxf: changed");
+        assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
+    }
+}
+
+#[test]
+fn a_post_whose_directory_is_exchanged_begins_anew() {
+    let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
+    let place = library()
+        .file("pathbuild.toml", format!("post = \"posts/my.cbpp\"\n{CONFIGURATION}"))
+        .file("posts/my.cbpp", post("bert"))
+        .file("others/my.cbpp", post("anna"));
+    let watch = Watch::begin(&place, "watch --emit");
+    watch.rename("posts", "before");
+    watch.rename("others", "posts");
+    watch.until("watching ");
+    assert!(place.read("library/projects/8001_Milling.nc").starts_with("(anna)"));
+}
+
+/// What cannot be written is told once, tried again after each change, and counted when it is mended.
+#[test]
+fn a_program_that_could_not_be_written_is_written_later() {
+    let place = library().file("library/projects/8001_Milling.gcode/x.txt", "");
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    assert!(watch.beginning.iter().any(|line| line.contains("[PB004]")), "{:#?}", watch.beginning);
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.last().unwrap().contains(" 0 new findings, 0 fixed"), "{said:#?}");
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &["1001.1P"]));
+    let said = watch.until("1002.dxf: changed");
+    assert!(said.last().unwrap().contains(" 0 new findings, 0 fixed"), "{said:#?}");
+
+    fs::remove_dir_all(place.path().join("library/projects/8001_Milling.gcode")).unwrap();
+    watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
+    let said = watch.until("8001.dxf: tried again");
+    assert!(said.iter().any(|line| line.contains("8001_Milling.gcode: written")), "{said:#?}");
+    assert!(said.last().unwrap().contains(" 0 new findings, 1 fixed"), "{said:#?}");
+}
+
+/// The program as somebody who may not do everything; `None` where nobody can be anybody else.
+#[cfg(target_os = "linux")]
+fn as_nobody() -> Option<Command> {
+    let nobody = || {
+        let mut command = Command::new("setpriv");
+        command.args(["--reuid=65534", "--regid=65534", "--clear-groups"]).env("LC_ALL", "C");
+        command.arg(program().get_program()).stdin(Stdio::null());
+        command
+    };
+    let version = nobody().arg("--version").output();
+    version.is_ok_and(|run| run.status.success()).then(nobody)
+}
+
+/// All but that directory is watched, which is told, and watched as soon as it can be listed.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_directory_that_cannot_be_listed_keeps_nothing_else_from_being_watched() {
+    let Some(command) = as_nobody() else { return };
+    let place = library().file("library/closed/1003.dxf", dxf("1003.1P", 5, &[]));
+    let allow = |name: &str, mode| {
+        fs::set_permissions(place.path().join(name), fs::Permissions::from_mode(mode)).unwrap();
+    };
+    allow(".", 0o755);
+    allow("library/closed", 0o700);
+    let watch = Watch::begin_in(&place, ".", command, "watch --no-cache --format concise");
+    assert!(
+        watch.beginning.iter().any(|line| line.contains("closed: error[PB001]")),
+        "{:#?}",
+        watch.beginning
+    );
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    watch.until("1001.dxf: changed");
+    fs::create_dir(place.path().join("library/new")).unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    watch.write("library/new/1004.dxf", dxf("1004.1P", 5, &[]));
+    watch.until("1004.dxf: changed");
+
+    allow("library/closed", 0o755);
+    watch.until("watching 6 paths");
+    watch.write("library/closed/1003.dxf", dxf("1003.1P", 5, &["1999.1P"]));
+    watch.until("1003.dxf: changed");
+}
+
+#[test]
+fn drawings_that_a_rule_hides_have_their_line() {
+    let place = library();
+    let watch = Watch::begin(&place, "watch --format concise");
+    watch.write("library/projects/.ignore", "8002.dxf\n");
+    watch.until("8002.dxf: removed");
+    fs::remove_file(place.path().join("library/projects/.ignore")).unwrap();
+    watch.until("8002.dxf: changed; 1 drawing checked");
+}
+
+/// The user's own configuration may be what is wrong.
+#[cfg(unix)]
+#[test]
+fn a_users_configuration_that_is_put_right_is_noticed() {
+    let place = library().users("lang = \"en\"\n");
+    let mut command = program();
+    command.env("XDG_CONFIG_HOME", place.configurations());
+    let watch = Watch::begin_in(&place, ".", command, "watch --format concise");
+    let own = place.configurations().join("pathbuild/config.toml");
+    fs::write(&own, "lang = \n").unwrap();
+    watch.write("pathbuild.toml", CONFIGURATION);
+    watch.until("put right");
+    fs::write(&own, "lang = \"en\"\n").unwrap();
+    watch.until("watching ");
 }

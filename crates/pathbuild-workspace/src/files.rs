@@ -38,7 +38,7 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     String::from_utf8(bytes).map_err(|_| Value::Word(&NOT_UTF_8))
 }
 
-/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there, none.
+/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there or cannot be written, none.
 ///
 /// # Errors
 /// For each file that cannot be written a diagnostic that says why.
@@ -48,14 +48,23 @@ pub fn create(files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
     if !old.is_empty() {
         return Err(old);
     }
-    files.iter().try_for_each(|(file, content)| {
-        create_new(file, content).map_err(|error| vec![cannot_write(file, reason(&error))])
-    })
+    for (index, (file, content)) in files.iter().enumerate() {
+        if let Err(error) = create_new(file, content) {
+            // Else the next try would find them there.
+            files[..index].iter().for_each(|(made, _)| _ = fs::remove_file(made));
+            return Err(vec![cannot_write(file, reason(&error))]);
+        }
+    }
+    Ok(())
 }
 
+/// Nothing is left under its name where it cannot be written whole.
 fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
     file.parent().map_or(Ok(()), fs::create_dir_all)?;
-    fs::File::create_new(file)?.write_all(content)
+    let mut made = fs::File::create_new(file)?;
+    let written = made.write_all(content);
+    drop(made);
+    written.inspect_err(|_| _ = fs::remove_file(file))
 }
 
 fn already_there(file: &Utf8Path) -> Diagnostic {

@@ -10,6 +10,7 @@ use crate::context_of;
 use crate::exit::ExitStatus;
 use crate::say_configuration_not_used;
 use crate::serving::Server;
+use crate::surroundings::user_configuration;
 use camino::Utf8PathBuf;
 
 /// How often a configuration that is wrong is looked at.
@@ -18,6 +19,7 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// Watches until nothing can be watched. What is wrong at the beginning ends the run; later it is waited for somebody who puts it right.
 pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
+    let mut had_file = false;
     let mut server = None;
     loop {
         // Before it is read for good: what changes from here on is noticed.
@@ -36,23 +38,28 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             }
         }
         let waits = server.as_ref().is_some_and(Server::waits);
-        let is_lost = has_begun && context.settings.file.is_none() && cli.common.config.is_none();
+        let is_lost = had_file && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {
             // An editor may remove the file before it writes the new one.
-            true if is_lost => Some(ExitStatus::Usage),
+            true if is_lost => {
+                if let Some(server) = &server {
+                    server.halt(&[], lost(&context));
+                }
+                Ok(ExitStatus::Usage)
+            }
             true => watch::run(&context, args, server.as_ref()),
             false => {
                 if let Some(server) = &server {
                     server.halt(&faults, "");
                 }
-                Some(context.refuse(faults))
+                Ok(context.refuse(faults))
             }
         };
         match ended {
-            Some(status) if !has_begun && !waits || status == ExitStatus::Success => {
+            Ok(status) if !has_begun && !waits || status == ExitStatus::Success => {
                 return context.printer.finish(status);
             }
-            Some(_) => {
+            Ok(_) => {
                 context.printer.status(context.choose(
                     "the configuration or its post is missing or wrong: nothing is checked until it is put right",
                     "die Konfiguration oder ihr Postprozessor fehlt oder ist falsch: nichts wird geprüft, bis das berichtigt ist",
@@ -64,15 +71,18 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     thread::sleep(PAUSE);
                 }
             }
-            None => {
+            Err(because) => {
                 has_begun = true;
-                context.printer.status(context.choose(
-                    "the configuration or its post changed",
-                    "die Konfiguration oder ihr Postprozessor wurde geändert",
-                ));
+                had_file |= context.settings.file.is_some();
+                context.printer.status(because);
             }
         }
     }
+}
+
+/// Why nothing is checked once there is no configuration any more.
+fn lost(context: &Context) -> &'static str {
+    context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }
 
 /// What a configuration consists of.
@@ -89,6 +99,7 @@ impl Sources {
             let bytes = context.system.read(&file, limit).ok();
             (file, bytes)
         };
-        Self(settings.file.clone().into_iter().chain([post]).map(read).collect())
+        let files = settings.file.clone().into_iter().chain([post]).chain(user_configuration());
+        Self(files.map(read).collect())
     }
 }

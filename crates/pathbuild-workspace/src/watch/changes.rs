@@ -7,13 +7,12 @@ use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{AccessKind, AccessMode, EventKind};
-use notify::{Config, Event, PollWatcher, RecommendedWatcher, RecursiveMode, Watcher as _};
+use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
 use pathbuild_db::System;
 
 use super::Request;
 use super::library::Library;
-use crate::Input;
-use crate::config::clean;
+use super::places::{Places, as_told};
 use crate::session::Session;
 
 /// Watches the directories of a library.
@@ -23,9 +22,9 @@ pub(super) struct Watcher {
     /// Kept, since nothing is watched once it is dropped.
     _source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    /// The configuration, and what belongs to it.
+    /// The configuration, and what belongs to it, as events name them.
     configuration: BTreeSet<Utf8PathBuf>,
-    working_directory: Utf8PathBuf,
+    places: Places,
     system: Arc<dyn System>,
     /// What came while a batch was worked on.
     news: Changes,
@@ -66,12 +65,21 @@ impl Bell {
 pub(super) enum Batch {
     /// Something changed.
     Changes(Changes),
-    /// The configuration did.
-    ConfigurationChanged,
+    /// Everything has to begin anew.
+    Anew(Anew),
     /// Somebody rang.
     Rung,
     /// Nothing more will come.
     Over,
+}
+
+/// Because of what everything has to begin anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Anew {
+    /// A directory that is watched, or leads to one, came, went or is another one.
+    Directories,
+    /// The configuration, or what belongs to it.
+    Configuration,
 }
 
 /// What changed: names that were written, made, renamed or removed, normalised.
@@ -80,6 +88,8 @@ pub(super) struct Changes {
     pub(super) paths: BTreeSet<Utf8PathBuf>,
     /// Whether more may have changed than is said.
     pub(super) is_incomplete: bool,
+    /// Whether everything has to begin anew.
+    anew: Option<Anew>,
 }
 
 /// How often is looked on network drives.
@@ -109,22 +119,20 @@ impl Watcher {
         } else {
             Box::new(RecommendedWatcher::new(tell, Config::default())?)
         };
-        let post: Vec<Utf8PathBuf> = post.iter().map(|file| session.normal(file)).collect();
-        for (directory, mode) in directories(session, request, &post) {
-            let place = if directory.as_str().is_empty() { Utf8Path::new(".") } else { &directory };
-            watcher.watch(place.as_std_path(), mode)?;
-        }
+        let mut places = Places::new(session, request, post);
+        places.watch(&mut *watcher, &*workspace.system)?;
+        let configuration = settings.file.iter().chain(post);
         Ok(Self {
             signals,
             bell,
             _source: watcher,
             debounce: settings.watch.debounce.value,
-            configuration: settings.file.iter().map(|file| session.normal(file)).chain(post).collect(),
+            configuration: configuration.map(|file| as_told(session, file)).collect(),
+            places,
             news: Changes::default(),
             due: Instant::now(),
             is_rung: false,
             is_over: false,
-            working_directory: workspace.working_directory.clone(),
             system: Arc::clone(&workspace.system),
             unfinished: BTreeMap::new(),
         })
@@ -135,42 +143,55 @@ impl Watcher {
         self.bell.clone()
     }
 
-    /// Waits for changes.
+    /// Waits for changes. What is due goes before who rings: a page may ring without end.
     pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
         loop {
+            self.look(library.session());
             if self.is_over {
                 return Batch::Over;
+            }
+            let patience = self.patience(library);
+            if patience.is_zero()
+                && let Some(batch) = self.take_due(library)
+            {
+                return batch;
             }
             if self.has_been_rung() {
                 return Batch::Rung;
             }
-            let is_idle = self.news.is_empty() && !library.is_behind();
-            let patience = match (is_idle, self.unfinished.is_empty()) {
-                (false, _) => self.due.saturating_duration_since(Instant::now()),
-                (true, false) => GLANCE,
-                (true, true) => Duration::MAX,
-            };
-            match self.wait(patience) {
+            match self.wait(self.patience(library)) {
                 Ok(signal) => self.add(signal, library.session()),
                 Err(RecvTimeoutError::Disconnected) => return Batch::Over,
-                Err(RecvTimeoutError::Timeout) => {
-                    if !self.configuration.is_disjoint(&self.news.paths) {
-                        return Batch::ConfigurationChanged;
-                    }
-                    let mut changes = std::mem::take(&mut self.news);
-                    self.hold_back(&mut changes);
-                    if !changes.is_empty() || library.is_behind() {
-                        return Batch::Changes(changes);
-                    }
-                }
+                Err(RecvTimeoutError::Timeout) => {}
             }
         }
+    }
+
+    /// How long it is until something is due, if nothing more comes.
+    fn patience(&self, library: &Library<'_>) -> Duration {
+        if self.news.is_empty() && self.unfinished.is_empty() && !library.is_behind() {
+            return Duration::MAX;
+        }
+        self.due.saturating_duration_since(Instant::now())
+    }
+
+    /// What has come to rest, but for drawings that are being written, which are looked at again soon.
+    fn take_due(&mut self, library: &Library<'_>) -> Option<Batch> {
+        let mut changes = std::mem::take(&mut self.news);
+        if let Some(anew) = changes.anew {
+            return Some(Batch::Anew(anew));
+        }
+        self.hold_back(&mut changes);
+        self.due = Instant::now() + GLANCE;
+        (!changes.is_empty() || library.is_behind()).then_some(Batch::Changes(changes))
     }
 
     /// Whether drawings changed since the last batch was given out, or it is to end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.look(session);
-        self.is_over || self.news.is_incomplete || self.news.paths.iter().any(|path| self.is_news(path))
+        let news = &self.news;
+        let has_drawings = news.paths.iter().any(|path| Session::is_drawing(path));
+        self.is_over || news.is_incomplete || news.anew.is_some() || has_drawings
     }
 
     /// Whether it is to end.
@@ -191,10 +212,6 @@ impl Watcher {
         }
     }
 
-    fn is_news(&self, path: &Utf8PathBuf) -> bool {
-        Session::is_drawing(path) || self.configuration.contains(path)
-    }
-
     fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
         if patience == Duration::MAX {
             return self.signals.recv().map_err(|_| RecvTimeoutError::Disconnected);
@@ -206,30 +223,46 @@ impl Watcher {
         match signal {
             Signal::Rung => self.is_rung = true,
             Signal::Over => self.is_over = true,
-            Signal::Changed(event) => {
-                self.add_event(event, session);
-                self.due = Instant::now() + self.debounce;
+            Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
+            // Some were lost.
+            Signal::Changed(_) => {
+                self.news.is_incomplete = true;
+                self.rest();
             }
         }
     }
 
-    fn add_event(&mut self, event: notify::Result<Event>, session: &Session<'_>) {
+    /// From now on nothing may come for a while before what came is due.
+    fn rest(&mut self) {
+        self.due = Instant::now() + self.debounce;
+    }
+
+    fn add_event(&mut self, event: Event, session: &Session<'_>) {
         // Whoever reads tells nothing.
-        let tells = |kind: EventKind| match kind {
-            EventKind::Access(AccessKind::Close(AccessMode::Write)) => true,
-            EventKind::Access(_) => false,
+        let tells = match event.kind {
+            EventKind::Access(kind) => kind == AccessKind::Close(AccessMode::Write),
             _ => true,
         };
-        match event {
-            Ok(event) if event.need_rescan() => self.news.is_incomplete = true,
-            Ok(event) if tells(event.kind) => {
-                let paths = event.paths.into_iter().filter_map(|path| Utf8PathBuf::from_path_buf(path).ok());
-                let paths = paths.map(|path| session.normal(&clean(&self.working_directory.join(path))));
-                let configuration = &self.configuration;
-                self.news.paths.extend(paths.filter(|path| matters(path) || configuration.contains(path)));
+        for path in event.paths.into_iter().filter(|_| tells) {
+            if let Ok(path) = Utf8PathBuf::from_path_buf(path) {
+                self.add_path(event.kind, &as_told(session, &path));
             }
-            Ok(_) => {}
-            Err(_) => self.news.is_incomplete = true,
+        }
+    }
+
+    fn add_path(&mut self, kind: EventKind, path: &Utf8Path) {
+        let anew = if self.configuration.contains(path) {
+            Some(Anew::Configuration)
+        } else {
+            self.places.are_changed(kind, path, &*self.system).then_some(Anew::Directories)
+        };
+        let is_change = matters(path) && self.places.regard(path);
+        if is_change {
+            self.news.paths.extend(self.places.own_names(path));
+        }
+        if anew.is_some() || is_change {
+            self.news.anew = self.news.anew.max(anew);
+            self.rest();
         }
     }
 
@@ -253,61 +286,8 @@ impl Watcher {
 
 impl Changes {
     fn is_empty(&self) -> bool {
-        self.paths.is_empty() && !self.is_incomplete
+        self.paths.is_empty() && !self.is_incomplete && self.anew.is_none()
     }
-}
-
-/// The directories to watch: those that hold drawings, those that are searched, that of the configuration, and those of the post.
-fn directories(
-    session: &Session<'_>,
-    request: &Request<'_>,
-    post: &[Utf8PathBuf],
-) -> Vec<(Utf8PathBuf, RecursiveMode)> {
-    let settings = &session.workspace().settings;
-    let general = &settings.general;
-    let mut all: BTreeMap<Utf8PathBuf, RecursiveMode> = BTreeMap::new();
-    let mut add = |directory: Utf8PathBuf, mode: RecursiveMode| {
-        let known = all.entry(directory).or_insert(mode);
-        if mode == RecursiveMode::Recursive {
-            *known = mode;
-        }
-    };
-    for input in request.inputs.iter() {
-        match input {
-            Input::Name(name) if session.is_directory(name.into()) => {
-                add(session.normal(name.into()), RecursiveMode::Recursive);
-                // There may be a path of that name as well.
-                add(Utf8PathBuf::new(), RecursiveMode::NonRecursive);
-            }
-            Input::Place(place) if session.is_directory(place) => {
-                add(session.normal(place), RecursiveMode::Recursive);
-            }
-            Input::Place(place) => {
-                add(
-                    session.normal(place).parent().unwrap_or(Utf8Path::new("")).to_owned(),
-                    RecursiveMode::NonRecursive,
-                );
-            }
-            Input::Name(name) => {
-                // What is no name of a path may be that of a directory.
-                if session.is_directory(Utf8Path::new(name)) {
-                    add(session.normal(Utf8Path::new(name)), RecursiveMode::Recursive);
-                }
-                add(Utf8PathBuf::new(), RecursiveMode::NonRecursive);
-            }
-        }
-    }
-    for directory in &general.library.value {
-        add(session.normal(directory), RecursiveMode::Recursive);
-    }
-    let beside = settings.directory().map(|directory| session.normal(directory));
-    let posts = post.iter().filter_map(|file| file.parent().map(Utf8Path::to_owned));
-    let searched = general.search.value.iter().map(|directory| session.normal(directory));
-    for directory in searched.chain(beside).chain(posts) {
-        add(directory, RecursiveMode::NonRecursive);
-    }
-    let is_there = |directory: &Utf8PathBuf| directory.as_str().is_empty() || session.is_directory(directory);
-    all.into_iter().filter(|(directory, _)| is_there(directory)).collect()
 }
 
 /// Whether a name can change a result: that of a drawing, of what says which drawings count, or of what may be a directory of them.

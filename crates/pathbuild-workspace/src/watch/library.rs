@@ -125,7 +125,7 @@ impl<'a> Library<'a> {
         });
         self.open.extend(concerned.map(|file| (file.path(db).clone(), file)));
         self.open.retain(|path, _| !update.removed.contains(path));
-        update.changed = files;
+        update.changed.extend(files);
         update.changed.append(&mut self.late);
         update
     }
@@ -265,6 +265,7 @@ impl<'a> Library<'a> {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;
             update.before.extend(result.diagnostics);
+            update.changed.insert(drawing.clone());
             update.removed.insert(drawing);
         }
         if self.problems != wanted.problems {

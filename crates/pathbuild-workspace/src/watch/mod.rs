@@ -6,6 +6,7 @@
 
 mod changes;
 mod library;
+mod places;
 mod reverse;
 mod writing;
 
@@ -23,7 +24,7 @@ use crate::session::Session;
 use crate::workspace::Workspace;
 
 pub use changes::Bell;
-use changes::{Batch, Watcher};
+use changes::{Anew, Batch, Watcher};
 use library::Library;
 use writing::Writer;
 
@@ -106,6 +107,8 @@ pub enum Ended {
     Over,
     /// The configuration, or a file of the post that it names, changed: everything has to begin anew.
     ConfigurationChanged,
+    /// A directory that is watched, or leads to one, came, went or is another one: the system watches the one before, or none.
+    DirectoriesChanged,
     /// Nothing is named, and the configuration has no library.
     NothingNamed,
     /// Programs are to be written, and the configuration names no targets.
@@ -162,7 +165,8 @@ impl Watching<'_> {
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
-                Batch::ConfigurationChanged => return Ended::ConfigurationChanged,
+                Batch::Anew(Anew::Configuration) => return Ended::ConfigurationChanged,
+                Batch::Anew(Anew::Directories) => return Ended::DirectoriesChanged,
                 Batch::Over => return Ended::Over,
                 Batch::Rung => self.listener.rung(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
@@ -199,7 +203,7 @@ impl Watching<'_> {
         let asked = self.work_on(found);
         // It may take as long as it is allowed to: whoever changed something does not wait for it.
         if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
-            let again = self.library.try_again(self.writer.passing(), &asked);
+            let again = self.library.try_again(&self.writer.passing(), &asked);
             if self.library.is_behind() || again.has_news() {
                 self.work_on(again);
             }
@@ -209,11 +213,13 @@ impl Watching<'_> {
     /// Asks what is open, writes its programs, and tells what came of it; which drawings were asked.
     fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
         let begun = Instant::now();
-        self.writer.release(self.library.session(), self.library.open(), &found.removed);
+        found.before.extend(self.writer.release(self.library.session(), self.library.open(), &found.removed));
         let mut written = Vec::new();
         while self.library.is_behind() {
             let portion = self.library.ask_portion(PORTION, &mut found);
-            written.extend(self.writer.write(self.library.session_mut(), &portion));
+            let writing = self.writer.write(self.library.session_mut(), &portion);
+            found.before.extend(writing.before);
+            written.extend(writing.now);
             self.tell(&portion);
             // What is still open may be something else by now.
             if self.watcher.has_news(self.library.session()) {

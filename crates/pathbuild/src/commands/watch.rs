@@ -18,8 +18,15 @@ use crate::numbers::counted;
 use crate::report::Findings;
 use crate::serving::Server;
 
-/// Runs the command. No status: the configuration changed, and everything has to begin anew.
-pub(crate) fn run(context: &Context, args: &WatchArgs, server: Option<&Server>) -> Option<ExitStatus> {
+/// Runs the command.
+///
+/// # Errors
+/// Because of what everything has to begin anew, in a sentence.
+pub(crate) fn run(
+    context: &Context,
+    args: &WatchArgs,
+    server: Option<&Server>,
+) -> Result<ExitStatus, &'static str> {
     let page = server.map(|server| server.page(context));
     let halt = |problems: &[Diagnostic], reason: &str| {
         if let Some(server) = server {
@@ -31,21 +38,32 @@ pub(crate) fn run(context: &Context, args: &WatchArgs, server: Option<&Server>) 
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
-    match request.run(context, &Shown { context, page }) {
-        Ended::ConfigurationChanged => None,
-        Ended::Over => Some(ExitStatus::Success),
-        Ended::NothingNamed => Some(context.nothing_named()),
+    Ok(match request.run(context, &Shown { context, page }) {
+        Ended::ConfigurationChanged => {
+            return Err(context.choose(
+                "the configuration or its post changed",
+                "die Konfiguration oder ihr Postprozessor wurde geändert",
+            ));
+        }
+        Ended::DirectoriesChanged => {
+            return Err(context.choose(
+                "a directory that is watched came, went or was replaced",
+                "ein beobachtetes Verzeichnis kam, ging oder wurde ersetzt",
+            ));
+        }
+        Ended::Over => ExitStatus::Success,
+        Ended::NothingNamed => context.nothing_named(),
         Ended::NoTargets => {
             let reason = context.choose(
                 "nothing to emit: set `[emit] targets` in pathbuild.toml",
                 "nichts zu schreiben: `[emit] targets` in pathbuild.toml setzen",
             );
             halt(&[], reason);
-            Some(context.usage(reason))
+            context.usage(reason)
         }
         Ended::BadPost(problems) => {
             halt(&problems, "");
-            Some(context.fail(problems))
+            context.fail(problems)
         }
         Ended::CannotWatch(reason) => {
             let advice = context.choose(
@@ -54,9 +72,9 @@ pub(crate) fn run(context: &Context, args: &WatchArgs, server: Option<&Server>) 
             );
             halt(&[], &reason);
             let cannot = context.choose("cannot watch", "kann nicht beobachten");
-            Some(context.usage(&format!("{cannot}: {reason}; {advice}")))
+            context.usage(&format!("{cannot}: {reason}; {advice}"))
         }
-    }
+    })
 }
 
 /// Prints at the beginning what a check prints, then a line for each file that changed. A page, where one is served, hears of all too.
