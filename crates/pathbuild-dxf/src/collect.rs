@@ -39,6 +39,13 @@ pub(crate) struct Collector<'d> {
 /// How many entities a drawing of paths usually has.
 const USUAL: usize = 64;
 
+/// So many faults and left-out curves count as one entity each. Nobody draws more; but one broken insertion has a fault on each of the layers
+/// in its block, and some kilobytes of them came to gigabytes.
+const CHEAP: usize = 10_000;
+
+/// What each further one counts as: about as many entities take as much memory.
+const DEAR: usize = 20;
+
 /// The configured limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -252,8 +259,9 @@ impl<'d> Collector<'d> {
     #[inline]
     fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
-        let count = drawing.entities.len() + drawing.faults.len() + drawing.left_out.len();
-        if count < self.limits.entities {
+        let troubles = drawing.faults.len() + drawing.left_out.len();
+        let dear = (DEAR - 1) * troubles.saturating_sub(CHEAP);
+        if drawing.entities.len() + troubles + dear < self.limits.entities {
             return Ok(());
         }
         Err(self.too_many())

@@ -12,12 +12,14 @@ pub(crate) fn plain_text(raw: &str) -> SmolStr {
         return raw.into();
     }
     let mut plain = SmolStrBuilder::new();
+    // Looked for once: thousands of commands that never end would each look through all the rest.
+    let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
     let mut rest = raw;
     while let Some(special) = rest.bytes().position(is_special) {
         plain.push_str(&rest[..special]);
         rest = &rest[special..];
         let length = match rest.as_bytes()[0] {
-            b'\\' => command(rest, &mut plain),
+            b'\\' => command(rest, rest.len() > behind_last, &mut plain),
             b'^' => caret(rest, &mut plain),
             _ => 1,
         };
@@ -32,8 +34,8 @@ fn is_special(byte: u8) -> bool {
     matches!(byte, b'\\' | b'{' | b'}' | b'^')
 }
 
-/// A command, which `text` begins with: adds what it stands for, and returns its length.
-fn command(text: &str, plain: &mut SmolStrBuilder) -> usize {
+/// A command, which `text` begins with: adds what it stands for, and returns its length. `may_end`: whether there is a `;` in the text.
+fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     let Some(letter) = text[1..].chars().next() else {
         plain.push('\\');
         return 1;
@@ -47,7 +49,7 @@ fn command(text: &str, plain: &mut SmolStrBuilder) -> usize {
         'L' | 'l' | 'O' | 'o' | 'K' | 'k' => {}
         'S' => return short + stacked(&text[short..], plain),
         _ => {
-            let Some(end) = text.find(';') else {
+            let Some(end) = may_end.then(|| text.find(';')).flatten() else {
                 plain.push('\\');
                 return 1;
             };

@@ -20,6 +20,10 @@ pub(crate) struct Interpolation<'a> {
     pub(crate) limit: usize,
 }
 
+/// Values refer to others so deep. More than people give names to with letters and digits; without an end, thousands of variables would
+/// make a round each over the whole text.
+const MOST_LEVELS: usize = 64;
+
 impl Bindings {
     /// Bindings of names to values; the first of a name holds.
     pub fn new(values: impl IntoIterator<Item = (char, SmolStr)>) -> Self {
@@ -37,7 +41,8 @@ impl Bindings {
 
     /// The value of a variable.
     pub fn get(&self, name: char) -> Option<&str> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str())
+        let index = self.0.binary_search_by_key(&name, |(known, _)| *known).ok()?;
+        Some(&self.0[index].1)
     }
 
     /// All names and values.
@@ -86,7 +91,7 @@ impl Interpolation<'_> {
     pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Box<Diagnostic>> {
         let mut filled = Cow::Borrowed(value);
         // Without a circle each round resolves at least one level, and there are no more levels than variables.
-        for _ in 0..=self.bindings.0.len() {
+        for _ in 0..=self.bindings.0.len().min(MOST_LEVELS) {
             if !filled.contains('=') {
                 return Ok(filled);
             }
@@ -96,9 +101,19 @@ impl Interpolation<'_> {
             None => Ok(filled),
             Some((_, rest)) => {
                 let name = rest.chars().next().map(String::from).unwrap_or_default();
-                Err(Box::new(Diagnostic::new(&messages::ENDLESS).with("variable", name)))
+                Err(self.endless(name))
             }
         }
+    }
+
+    /// PB305 for the variable whose value still has references.
+    fn endless(&self, name: String) -> Box<Diagnostic> {
+        let problem = if self.bindings.0.len() > MOST_LEVELS {
+            Diagnostic::new(&messages::TOO_DEEP).with("limit", MOST_LEVELS)
+        } else {
+            Diagnostic::new(&messages::ENDLESS)
+        };
+        Box::new(problem.with("variable", name))
     }
 
     fn fill_once(&self, value: &str) -> Result<String, Box<Diagnostic>> {

@@ -179,4 +179,18 @@ messages! {
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
+    /// A clamp with more texts than are named.
+    CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
+        en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
+        de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",
+        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and what is only a note to another layer",
+        help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
+    }
+    /// Too many elements around too many texts.
+    TEXTS_IN_A_CROWD: LimitReached {
+        en: "the texts of this path have so many elements around them that none was looked for after {limit} comparisons",
+        de: "die Texte dieses Pfads haben so viele Elemente um sich, dass nach {limit} Vergleichen keine mehr gesucht wurden",
+        help_en: "make the texts smaller, or move them away from elements that are not theirs",
+        help_de: "die Texte verkleinern, oder sie von Elementen wegschieben, die nicht ihre sind",
+    }
 }

@@ -74,4 +74,11 @@ messages! {
         en: "with {values} in path {name}, and with {others} more of {all} combinations",
         de: "mit {values} in Pfad {name}, und mit {others} weiteren von {all} Kombinationen",
     }
+    /// Values that refer to each other deeper than is followed; whether they end is not known.
+    TOO_DEEP: EndlessVariable {
+        en: "the value of \"{variable}\" leads back to itself, or values refer to others more than {limit} deep",
+        de: "der Wert von \"{variable}\" führt auf sich selbst zurück, oder Werte verweisen mehr als {limit} tief auf andere",
+        help_en: "a value may refer to other variables, but not in a circle; write long chains of them as one value",
+        help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis; lange Ketten davon als einen Wert schreiben",
+    }
 }

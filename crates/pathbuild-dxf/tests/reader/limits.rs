@@ -29,6 +29,19 @@ fn entities_are_limited() {
     }
 }
 
+/// Ten thousand count as one entity each, the others as twenty.
+#[test]
+fn many_faults_count_as_more_than_entities() {
+    let broken = "0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n";
+    let left_out = "0 POLYLINE\n8 A\n70 8\n";
+    for pairs in [broken.repeat(10_002), broken.repeat(10_001) + left_out] {
+        assert_eq!(said(&pairs, 10_021, 100), "");
+        assert_eq!(said(&pairs, 10_020, 100), "PB005 0 the number of entities exceeds the limit of 10020");
+    }
+    let first = broken.repeat(10_000) + "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n";
+    assert_eq!(said(&first, 10_001, 100), "");
+}
+
 #[test]
 fn pieces_of_curves_are_limited() {
     let ellipse = "0 ELLIPSE\n8 A\n10 0\n20 0\n11 100\n21 0\n40 0.3";

@@ -30,7 +30,7 @@ struct Four([f32x4; 4]);
 type Sides = [f32; 4];
 
 /// How many candidates are few.
-const FEW: usize = 128;
+pub(super) const FEW: usize = 128;
 
 /// So many are compared before those are taken that are touched.
 const BITS: usize = u64::BITS as usize;

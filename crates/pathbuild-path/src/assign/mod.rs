@@ -4,6 +4,8 @@ mod boxes;
 #[cfg(test)]
 mod tests;
 
+use std::cell::Cell;
+
 use pathbuild_diagnostic::ElementId;
 
 use crate::element::Shape;
@@ -49,9 +51,37 @@ pub(crate) struct Found {
     pub(crate) rival: Option<(usize, f64)>,
 }
 
+/// How many candidates are still looked at. Where each of thousands of texts overlaps each of thousands of elements there would be no end.
+pub(crate) struct Looks(Cell<usize>);
+
+impl Looks {
+    pub(crate) fn new(most: usize) -> Self {
+        Self(Cell::new(most))
+    }
+
+    /// Whether one more was looked for than there are: what was found since is not to be trusted.
+    pub(crate) fn are_over(&self) -> bool {
+        self.0.get() == 0
+    }
+
+    /// Takes one, unless it is the last.
+    fn take(&self) -> bool {
+        self.0.set(self.0.get().saturating_sub(1));
+        !self.are_over()
+    }
+}
+
 /// The candidate that a text with this circle belongs to: the nearest overlapped circle, else arc, else line; the first of several at
-/// the same distance.
-pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes) -> Option<Found> {
+/// the same distance. Nothing where the looks are over.
+pub(crate) fn find(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &Boxes,
+    looks: &Looks,
+) -> Option<Found> {
+    if looks.are_over() {
+        return None;
+    }
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
     let mut second: Option<(OverlapKind, f64, usize)> = None;
     let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
@@ -60,7 +90,7 @@ pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes)
     };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if candidate.is_taken {
+        if !looks.take() || candidate.is_taken {
             return;
         }
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
@@ -74,18 +104,27 @@ pub(crate) fn find(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes)
             second = Some(found);
         }
     });
-    nearest.map(|(kind, distance, candidate)| Found {
+    nearest.filter(|_| !looks.are_over()).map(|(kind, distance, candidate)| Found {
         candidate,
         rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
     })
 }
 
-/// The nearest free candidate to a text that overlaps none; the first of several.
-pub(crate) fn nearest_miss(circle: &TextCircle, candidates: &[Candidate], boxes: &Boxes) -> Option<Miss> {
+/// The nearest free candidate to a text that overlaps none; the first of several. Nothing where the looks are over.
+pub(crate) fn nearest_miss(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &Boxes,
+    looks: &Looks,
+) -> Option<Miss> {
     let mut nearest: Option<Miss> = None;
-    for (candidate, at_least) in boxes.nearest(circle.centre) {
+    for (number, (candidate, at_least)) in boxes.nearest(circle.centre).enumerate() {
         if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {
             break;
+        }
+        // A few are looked at for each text.
+        if number >= boxes::FEW && !looks.take() {
+            return None;
         }
         if candidates[candidate].is_taken {
             continue;

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::ElementId;
 use proptest::prelude::*;
 
-use super::{Boxes, Candidate, find, gap, nearest_miss, overlap};
+use super::{Boxes, Candidate, Looks, find, gap, nearest_miss, overlap};
 use crate::element::Shape;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::read::Owner;
@@ -52,10 +52,41 @@ proptest! {
             let rival = overlapped.get(1).filter(|rival| rival.0 == *kind);
             (*index, rival.map(|(_, other, index)| (*index, other - distance)))
         });
-        let found = find(&circle, &candidates, &boxes).map(|found| (found.candidate, found.rival));
+        let found = find(&circle, &candidates, &boxes, &Looks::new(1000)).map(|found| (found.candidate, found.rival));
         prop_assert_eq!(found, expected);
         let gaps = free().map(|(index, it)| (gap(&circle, &it.shape), index));
         let least = gaps.reduce(|best, other| if other < best { other } else { best });
-        prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes).map(|miss| (miss.distance, miss.candidate)), least);
+        prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &Looks::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);
     }
+}
+
+/// So many lines through one point.
+fn bundle(count: usize) -> Vec<Candidate> {
+    let line = Shape::Curve(Curve::Line(Line { start: Xy::new(-1.0, 0.0), end: Xy::new(1.0, 0.0) }));
+    (0..count).map(|_| candidate((line, false))).collect()
+}
+
+/// One look for each candidate, and one is left.
+#[test]
+fn what_is_found_when_the_looks_are_over_is_not_trusted() {
+    for count in [10, 200] {
+        let (circle, candidates) = (TextCircle { centre: Xy::origin(), radius: 0.5 }, bundle(count));
+        let boxes = Boxes::new(&candidates);
+        let finds = |most: usize| {
+            let looks = Looks::new(most);
+            (find(&circle, &candidates, &boxes, &looks).is_some(), looks.are_over())
+        };
+        assert_eq!((finds(count + 1), finds(count), finds(0)), ((true, false), (false, true), (false, true)));
+    }
+}
+
+/// Of 200 candidates a few are looked at for each text anyway.
+#[test]
+fn the_hint_of_the_nearest_is_given_up_when_the_looks_are_over() {
+    let (circle, candidates) = (TextCircle { centre: Xy::new(0.0, 9.0), radius: 0.5 }, bundle(200));
+    let boxes = Boxes::new(&candidates);
+    let misses = |most: usize| nearest_miss(&circle, &candidates, &boxes, &Looks::new(most)).is_some();
+    assert_eq!((misses(200 - 128 + 1), misses(200 - 128)), (true, false));
+    let few = bundle(128);
+    assert!(nearest_miss(&circle, &few, &Boxes::new(&few), &Looks::new(0)).is_some());
 }

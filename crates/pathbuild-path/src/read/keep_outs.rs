@@ -56,6 +56,17 @@ struct Reading<'d> {
     problems: Vec<Diagnostic>,
 }
 
+/// The texts of an outline.
+#[derive(Clone, Default)]
+struct Over<'d> {
+    /// The first few, with their entities.
+    first: Vec<(usize, AnyText<'d>)>,
+    count: usize,
+}
+
+/// So many texts of an outline are named: in a crowd each outline may have all texts.
+const MOST_NAMED: usize = 3;
+
 /// An outline before it is known how high it is.
 struct Closed {
     outline: Vec<Curve>,
@@ -173,7 +184,7 @@ impl Reading<'_> {
     fn heights(&mut self, entities: &[usize], outlines: &[Closed]) -> Vec<Option<f64>> {
         // Texts lie below any height.
         let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
-        let mut texts: Vec<Vec<(usize, AnyText<'_>)>> = vec![Vec::new(); outlines.len()];
+        let mut texts = vec![Over::default(); outlines.len()];
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
@@ -185,19 +196,24 @@ impl Reading<'_> {
                 self.report(problem);
             }
             for outline in over {
-                texts[outline].push((*number, text));
+                texts[outline].add(*number, text);
             }
         }
         outlines.iter().zip(texts).map(|(closed, texts)| self.height(closed, &texts)).collect()
     }
 
-    fn height(&mut self, closed: &Closed, texts: &[(usize, AnyText<'_>)]) -> Option<f64> {
-        let problem = match texts {
+    fn height(&mut self, closed: &Closed, texts: &Over<'_>) -> Option<f64> {
+        let problem = match &texts.first[..] {
             [(number, text)] => return self.height_in(*number, *text),
             [] => Diagnostic::new(&messages::CLAMP_WITHOUT_TEXT),
             several => {
                 let strings: Value = several.iter().map(|(_, text)| one_line(*text)).collect();
-                Diagnostic::new(&messages::CLAMP_WITH_TEXTS).with("texts", strings)
+                if several.len() == texts.count {
+                    Diagnostic::new(&messages::CLAMP_WITH_TEXTS).with("texts", strings)
+                } else {
+                    let problem = Diagnostic::new(&messages::CLAMP_WITH_MANY_TEXTS).with("texts", strings);
+                    problem.with("count", texts.count)
+                }
             }
         };
         let problem = self.at(closed.entity, closed.at, problem);
@@ -230,6 +246,15 @@ impl Reading<'_> {
             ..Place::default()
         };
         Diagnostic { place, ..problem }
+    }
+}
+
+impl<'d> Over<'d> {
+    fn add(&mut self, number: usize, text: AnyText<'d>) {
+        self.count += 1;
+        if self.first.len() < MOST_NAMED {
+            self.first.push((number, text));
+        }
     }
 }
 

@@ -5,14 +5,14 @@ use std::mem::discriminant;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId};
+use pathbuild_diagnostic::{Diagnostic, ElementId, Value};
 use pathbuild_dxf::{MText, Text};
 use smol_str::SmolStr;
 
 use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
 use crate::approx::near;
-use crate::assign::{Boxes, Candidate, Found, find, nearest_miss};
+use crate::assign::{Boxes, Candidate, Found, Looks, find, nearest_miss};
 use crate::element::{Element, Origin, Shape, Source, shown};
 use crate::geometry::Xy;
 use crate::matrix::Use;
@@ -34,6 +34,18 @@ struct LayerTexts<'d> {
     boxes: Boxes,
     texts: Vec<FoundText<'d>>,
 }
+
+/// So many layers are named on which a text would find its element.
+const MOST_NAMED: usize = 3;
+
+/// So many other layers are asked for that. A path of a person has a few; with thousands of them each lost text would ask each.
+const MOST_ASKED: usize = 100;
+
+/// So many elements are looked at for the texts of a path: thousands for each of thousands of texts.
+const MOST_LOOKS: usize = 50_000_000;
+
+/// So many more for hints at where texts without an element might belong.
+const MOST_LOOKS_FOR_HINTS: usize = 2_000_000;
 
 /// A text and what it belongs to.
 pub(crate) struct Match<'d> {
@@ -78,9 +90,10 @@ impl<'d> Texts<'d> {
     /// Each text with its circle and the candidates that it belongs to, layer by layer.
     pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
         let mut matched = Vec::new();
+        let looks = Looks::new(MOST_LOOKS);
         for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
-            layer.each_match(|layer, text, circle, owners, _| {
+            layer.each_match(&looks, |layer, text, circle, owners, _| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
                 let origin = layer.origin(text.source, text.anchor());
                 matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
@@ -93,8 +106,13 @@ impl<'d> Texts<'d> {
     /// Gives each text to its element; what finds none is PB107.
     /// `margin`: by how much it must be nearer to it than to another, in mm, else PB116.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
+        let looks = Looks::new(MOST_LOOKS);
         for layer in &mut self.layers {
-            layer.assign(path, margin);
+            if let Some(problem) = layer.assign(path, margin, &looks) {
+                // Which of the other texts have no element is not known.
+                path.diagnostics.push(problem);
+                return;
+            }
         }
         if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
@@ -102,10 +120,11 @@ impl<'d> Texts<'d> {
         for layer in &mut self.layers {
             layer.boxes = Boxes::new(&layer.candidates);
         }
+        let looks = Looks::new(MOST_LOOKS_FOR_HINTS);
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
-                let problem = layer.without_element(text, others.map(|(_, other)| other));
+                let problem = layer.without_element(text, others.map(|(_, other)| other), &looks);
                 path.diagnostics.push(problem);
             }
         }
@@ -117,9 +136,9 @@ impl<'d> LayerTexts<'d> {
         Origin::new(source, &self.name, point)
     }
 
-    /// Gives each text to its element. What finds no element stays in `texts`.
-    fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
-        self.each_match(|layer, text, _, owners, found| {
+    /// Gives each text to its element. What finds no element stays in `texts`. PB005 at the text at which the looks are over.
+    fn assign(&mut self, path: &mut Collected<'_>, margin: f64, looks: &Looks) -> Option<Diagnostic> {
+        let last = self.each_match(looks, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
             path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
             if has_owner {
@@ -128,23 +147,31 @@ impl<'d> LayerTexts<'d> {
             }
             has_owner
         });
+        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MOST_LOOKS);
+        last.map(|last| self.origin(last.source, last.anchor()).at(problem))
     }
 
     /// Goes through all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    /// What is not taken stays.
+    /// What is not taken stays. Ends at the text at which the looks are over, and returns it.
     fn each_match(
         &mut self,
+        looks: &Looks,
         mut is_taken: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>, Option<Found>) -> bool,
-    ) {
+    ) -> Option<FoundText<'d>> {
         if self.texts.is_empty() {
-            return;
+            return None;
         }
         self.boxes = Boxes::new(&self.candidates);
         let mut texts = std::mem::take(&mut self.texts);
         texts.sort_by_key(FoundText::is_mtext);
+        let mut last = None;
         texts.retain(|text| {
             let circle = text.circle();
-            let found = find(&circle, &self.candidates, &self.boxes);
+            let found = find(&circle, &self.candidates, &self.boxes, looks);
+            if looks.are_over() {
+                last.get_or_insert(*text);
+                return false;
+            }
             let owners = found.map_or(0..0, |found| self.parts(found.candidate));
             for owner in &mut self.candidates[owners.clone()] {
                 owner.is_taken = true;
@@ -152,6 +179,7 @@ impl<'d> LayerTexts<'d> {
             !is_taken(self, text, circle, owners, found)
         });
         self.texts = texts;
+        last
     }
 
     /// A candidate, and what is part of the same polyline: they were read one after the other.
@@ -214,6 +242,7 @@ impl<'d> LayerTexts<'d> {
         &self,
         text: &FoundText<'_>,
         elsewhere: impl Iterator<Item = &'a Self>,
+        looks: &Looks,
     ) -> Diagnostic
     where
         'd: 'a,
@@ -224,7 +253,7 @@ impl<'d> LayerTexts<'d> {
             .with("centre", shown(circle.centre))
             .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
-        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes) {
+        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, looks) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,
@@ -235,22 +264,21 @@ impl<'d> LayerTexts<'d> {
                 ],
             );
         }
-        let diagnostic = elsewhere.fold(diagnostic, |diagnostic, layer| layer.would_take(text, diagnostic));
+        let takers = elsewhere.take(MOST_ASKED).filter_map(|layer| layer.would_take(&circle, looks));
+        let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
+        let diagnostic = takers.take(MOST_NAMED).fold(diagnostic, note);
         self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
-    /// Notes that a text would have found its element, had it been on this layer.
-    fn would_take(&self, text: &FoundText<'_>, diagnostic: Diagnostic) -> Diagnostic {
-        let Some(found) = find(&text.circle(), &self.candidates, &self.boxes) else { return diagnostic };
+    /// What a text with this circle would have found, had it been on this layer.
+    fn would_take(&self, circle: &TextCircle, looks: &Looks) -> Option<Vec<(&'static str, Value)>> {
+        let found = find(circle, &self.candidates, &self.boxes, looks)?;
         let candidate = &self.candidates[found.candidate];
-        diagnostic.note(
-            &messages::ELEMENT_ON_OTHER_LAYER,
-            vec![
-                ("layer", (&*self.name).into()),
-                ("element", candidate_word(candidate).into()),
-                ("point", shown(candidate.shape.point()).into()),
-            ],
-        )
+        Some(vec![
+            ("layer", (&*self.name).into()),
+            ("element", candidate_word(candidate).into()),
+            ("point", shown(candidate.shape.point()).into()),
+        ])
     }
 }
 

@@ -111,6 +111,16 @@ fn heights_are_numbers_greater_than_0() {
 fn each_outline_has_one_text_inside_or_overlapping_it() {
     assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text says how high"]);
     assert_wrong(&format!("{SQUARE}text 12,7 \"Z30\"\n"), &["several texts"]);
+    // Three are named, and a fourth is counted.
+    let texts = |count: usize| format!("{SQUARE}{}", "text 12,7 \"Z30\"\n".repeat(count - 1));
+    assert_wrong(
+        &texts(3),
+        &["several texts are inside the outline of this clamp or overlap it: Z25, Z30, Z30"],
+    );
+    assert_wrong(
+        &texts(4),
+        &["4 texts are inside the outline of this clamp or overlap it, the first are Z25, Z30, Z30"],
+    );
     // The circle of the text, of 2.57 mm, touches the outline from outside, or not quite.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
     assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);

@@ -141,6 +141,22 @@ fn a_value_that_leads_back_to_itself_is_an_error() {
     assert_eq!(filled("=a", &[('a', "=b"), ('b', "=c"), ('c', "x")]), "x");
 }
 
+/// A chain of that many variables, each the value of the one before; the last is `x`.
+fn chained(count: u32) -> String {
+    let names: Vec<char> = (0..count).filter_map(|index| char::from_u32(0x4e00 + index)).collect();
+    let mut values: Vec<(char, String)> =
+        names.windows(2).map(|pair| (pair[0], format!("={}", pair[1]))).collect();
+    values.extend(names.last().map(|last| (*last, "x".to_owned())));
+    let values: Vec<(char, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    filled(&format!("={}", names[0]), &values)
+}
+
+/// Thousands of variables would make a round each.
+#[test]
+fn values_refer_to_others_up_to_a_depth() {
+    assert_eq!((chained(65), chained(66)), ("x".to_owned(), "PB305".to_owned()));
+}
+
 #[test]
 fn a_reference_to_nothing_is_an_error() {
     assert_eq!(filled("=x", &[('a', "1")]), "PB303");
