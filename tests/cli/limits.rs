@@ -214,6 +214,52 @@ fn work_grows_with_what_is_drawn() {
     }
 }
 
+/// The same where something is wrong with each thing.
+#[test]
+fn work_grows_with_what_is_wrong() {
+    for (name, kind, count) in [
+        ("lost texts before layers with an element for each", lost_texts as fn(usize) -> String, 300),
+        ("lost texts before layers with an element for one", lost_texts_apart, 300),
+        ("lost texts in a ring", lost_in_a_ring, 1000),
+        ("broken insertions of a block on many layers", broken_insertions, 150),
+        ("variables that lead back to themselves", circular_variables, 300),
+        ("commands that do not end", open_commands, 5000),
+    ] {
+        let check = |count: usize| {
+            let place = place("text-length = 1_000_000", "T5 O2 I1 B0 MX").file("1202.1P.dxf", kind(count));
+            let begun = time_of_runs();
+            let run = place.run("check 1202.1P.dxf --format concise");
+            assert!(matches!(run.status, Some(0 | 1)), "{name}: {run}");
+            (time_of_runs().saturating_sub(begun), run.stdout.len() + run.stderr.len())
+        };
+        let least = |count: usize| check(count).min(check(count));
+        let ((one, few), (four, many)) = (least(count), least(4 * count));
+        assert!(four < one * 6 + Duration::from_millis(500), "{name}: {one:?}, {four:?}");
+        assert!(many < 6 * few + 10_000, "{name}: {few}, {many}");
+    }
+}
+
+/// The same with programs: tools and feeds are noted once each.
+#[test]
+fn work_grows_with_what_a_program_uses() {
+    let tool = |number: usize| format!("T{0} M6\nG0 X{0}\nG1 Z9 F100\nG0 Z10\n", number + 1);
+    let feed = |number: usize| format!("G1 X{number} F{}\n", number + 1);
+    for (name, kind) in [("tools", &tool as &dyn Fn(usize) -> String), ("feeds", &feed)] {
+        let time = |count: usize| {
+            let head = "G17 G21 G40 G49 G54 G80 G90 G94\nT1 M6\nM3 S1000\nG0 Z10\n";
+            let lines: String = (0..count).map(kind).collect();
+            let place = Place::new().file("a.gcode", format!("{head}{lines}M30\n"));
+            let begun = time_of_runs();
+            let run = place.run("import a.gcode --dialect linuxcnc");
+            assert!(!run.stdout.is_empty(), "{name}: {run}");
+            time_of_runs().saturating_sub(begun)
+        };
+        let least = |count: usize| time(count).min(time(count));
+        let (one, four) = (least(2000), least(8000));
+        assert!(four < one * 6 + Duration::from_millis(500), "{name}: {one:?}, {four:?}");
+    }
+}
+
 /// What the runs so far took of the processors: other work on the machine is no part of it. Where the system does not tell, what time it is.
 fn time_of_runs() -> Duration {
     static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
@@ -300,4 +346,67 @@ fn polyline(count: usize) -> String {
     let vertices = vertices.concat();
     let drawn = format!("0\nLWPOLYLINE\n8\n1202.1P\n6\nCONTINUOUS\n90\n{}\n70\n0\n{vertices}", count + 1);
     entities(&drawn, at(count))
+}
+
+/// One of the path's layers.
+fn on_layer(number: usize, drawn: &str) -> String {
+    drawn.replace("\n8\n1202.1P\n", &format!("\n8\n1202.1P~A{number}\n"))
+}
+
+fn text((x, y): (f64, f64), text: &str) -> String {
+    format!("0\nTEXT\n8\n1202.1P\n10\n{x}\n20\n{y}\n40\n1\n1\n{text}\n72\n1\n11\n{x}\n21\n{y}\n73\n2\n")
+}
+
+fn with_line(drawn: &str) -> String {
+    entities(&(line((0.0, 0.0), (9.0, 0.0)) + drawn), (9.0, 0.0))
+}
+
+/// Layers with a line, and as many texts that lie on each.
+fn lost_texts(count: usize) -> String {
+    let lines: String = (0..count).map(|layer| on_layer(layer, &line((20.0, 0.0), (30.0, 0.0)))).collect();
+    with_line(&(lines + &on_layer(count, &text((25.0, 0.0), "B1")).repeat(count)))
+}
+
+/// Layers with a line, and a text for each on a layer of its own.
+fn lost_texts_apart(count: usize) -> String {
+    let height = |layer: usize| 9.0 * f64::from(u32::try_from(layer).unwrap());
+    let drawn = |layer: usize| {
+        on_layer(layer, &line((20.0, height(layer)), (30.0, height(layer))))
+            + &on_layer(count + layer, &text((25.0, height(layer)), "B1"))
+    };
+    with_line(&(0..count).map(drawn).collect::<String>())
+}
+
+/// Circles around as many texts, all equally far.
+fn lost_in_a_ring(count: usize) -> String {
+    let ring = |index: usize| {
+        let angle = f64::from(u32::try_from(index).unwrap());
+        let circle = circle((100.0 * angle.cos(), 100.0 * angle.sin()), 1.0).replace("PHANTOM", "CONTINUOUS");
+        circle + &text((0.5 + 1e-4 * angle, 3.0), "B1")
+    };
+    with_line(&(0..count).map(ring).collect::<String>())
+}
+
+fn broken_insertions(count: usize) -> String {
+    let insert = "0\nINSERT\n8\n1202.1P\n2\nX\n10\na\n20\n0\n".repeat(count);
+    let lines: String = (0..count).map(|layer| on_layer(layer, &line((0.0, 0.0), (1.0, 0.0)))).collect();
+    let block = format!("0\nBLOCK\n8\n0\n2\nX\n10\n0\n20\n0\n{lines}0\nENDBLK\n");
+    format!("0\nSECTION\n2\nBLOCKS\n{block}0\nENDSEC\n{}", with_line(&insert))
+}
+
+/// Each has itself as its value, and a text refers to the last often.
+fn circular_variables(count: usize) -> String {
+    let names: Vec<char> = (0x4e00..).map_while(char::from_u32).take(count).collect();
+    let defined: String = names.iter().map(|name| format!(" :{name}={name},={name}")).collect();
+    let drawn =
+        with_line(&text((4.5, 0.0), &format!("Q{}", format!("={}", names[count - 1]).repeat(2 * count))));
+    let header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1021\n0\nENDSEC\n";
+    format!("{header}{}", drawn.replacen("B0 MX", &format!("B0 MX{defined}"), 1))
+}
+
+fn open_commands(count: usize) -> String {
+    with_line(&format!(
+        "0\nMTEXT\n8\n1202.1P\n10\n4.5\n20\n0\n40\n0.001\n71\n5\n1\nB1 Q{}\n",
+        "\\A".repeat(count)
+    ))
 }

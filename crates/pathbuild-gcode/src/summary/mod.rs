@@ -2,6 +2,8 @@
 
 mod tally;
 
+use std::collections::{HashMap, HashSet};
+
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use pathbuild_toolpath::Program;
@@ -50,6 +52,7 @@ impl Summary {
     pub fn of(steps: &[Step], layers: bool) -> Self {
         let mut collector = Collector {
             summary: Self::default(),
+            known: HashMap::new(),
             has_changes: steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_))),
             layers,
             tool: layers.then_some(1),
@@ -64,11 +67,21 @@ impl Summary {
 
 struct Collector {
     summary: Summary,
+    /// Where the tools are in it, with what is noted of each.
+    known: HashMap<Option<u32>, Known>,
     /// M6 changes tools; in programs without it, T does.
     has_changes: bool,
     layers: bool,
     tool: Option<u32>,
     spindle: Spindle,
+}
+
+/// A tool that was used.
+struct Known {
+    /// Its place among the used ones.
+    index: usize,
+    feeds: HashSet<u64>,
+    speeds: HashSet<u64>,
 }
 
 impl Collector {
@@ -99,27 +112,27 @@ impl Collector {
             widen(&mut self.summary.cut, it);
         }
         let speed = self.spindle.speed;
-        let used = self.used();
+        let (used, known) = self.used();
         used.tally.add(it);
         if let Pace::Feed(feed) = it.pace {
-            note(&mut used.feeds, feed);
-            note(&mut used.speeds, speed);
+            note(&mut used.feeds, &mut known.feeds, feed);
+            note(&mut used.speeds, &mut known.speeds, speed);
         }
     }
 
-    fn used(&mut self) -> &mut Used {
+    fn used(&mut self) -> (&mut Used, &mut Known) {
         let tools = &mut self.summary.tools;
-        let index = tools.iter().position(|used| used.tool == self.tool).unwrap_or_else(|| {
+        let known = self.known.entry(self.tool).or_insert_with(|| {
             tools.push(Used { tool: self.tool, ..Used::default() });
-            tools.len() - 1
+            Known { index: tools.len() - 1, feeds: HashSet::new(), speeds: HashSet::new() }
         });
-        &mut tools[index]
+        (&mut tools[known.index], known)
     }
 }
 
-/// Adds a value that is new and says something.
-fn note(values: &mut Vec<f64>, value: f64) {
-    if value > 0.0 && !values.contains(&value) {
+/// Adds a value that is new and says something. Numbers above 0 are equal where their bits are.
+fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
+    if value > 0.0 && known.insert(value.to_bits()) {
         values.push(value);
     }
 }

@@ -236,8 +236,10 @@ impl<'a> Evaluator<'a> {
             self.at += 1;
             return form;
         }
-        let c_form =
-            rest.find([' ', '\t']).and_then(|blank| Some((blank, rest[..blank].parse::<CForm>().ok()?)));
+        // No form has a brace: behind the end of the statement there is none.
+        let end = rest.find([' ', '\t', '}', '{']);
+        let blank = end.filter(|end| !rest[*end..].starts_with(['}', '{']));
+        let c_form = blank.and_then(|blank| Some((blank, rest[..blank].parse::<CForm>().ok()?)));
         match c_form {
             Some((blank, form)) => {
                 self.at += blank;

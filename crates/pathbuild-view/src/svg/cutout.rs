@@ -25,6 +25,12 @@ const CIRCLE: f64 = 17.0;
 /// A text's place and its circle are as near as this, in mm, where the text itself is at fault.
 const NEAR: f64 = 1.0;
 
+/// So many of a drawing's first paths are in it also where nothing of them is near. Thousands of them would be in each picture.
+const MOST_EMPTY: usize = 200;
+
+/// So many texts are in it at most. There is no room for more, and looking for it takes long.
+const MOST_TEXTS: usize = 200;
+
 /// Where something is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
@@ -88,11 +94,26 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
         }
     };
     let is_clamp_near = |clamp: &&KeepOut| clamp.outline.iter().any(is_near);
+    let paths = scene.paths.iter().map(|path| path_near(path, is_near, is_in)).enumerate();
+    let is_shown = |(number, path): &(usize, ScenePath)| {
+        *number < MOST_EMPTY || !path.elements.is_empty() || !path.texts.is_empty()
+    };
+    let mut paths: Vec<ScenePath> = paths.filter(is_shown).map(|(_, path)| path).collect();
+    keep_first_texts(&mut paths);
     Scene {
-        paths: scene.paths.iter().map(|path| path_near(path, is_near, is_in)).collect(),
+        paths,
         other_layers: scene.other_layers.iter().filter(is_other_near).cloned().collect(),
         keep_outs: scene.keep_outs.iter().filter(is_clamp_near).cloned().collect(),
         ..Scene::new(&scene.title)
+    }
+}
+
+/// Drops texts that are more than a picture has.
+fn keep_first_texts(paths: &mut [ScenePath]) {
+    let mut left = MOST_TEXTS;
+    for path in paths {
+        path.texts.truncate(left);
+        left -= path.texts.len();
     }
 }
 

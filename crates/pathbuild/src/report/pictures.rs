@@ -12,6 +12,9 @@ use crate::context::Context;
 /// So many findings have pictures: nobody looks at more.
 const MOST: usize = 1000;
 
+/// So many bytes have all pictures together, and the one that reaches that: thousands of elements in each of them come to gigabytes.
+const MOST_BYTES: usize = 256 << 20;
+
 /// The picture of each finding, in their order; none where it has no place in a drawing.
 pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> = diagnostics.iter().take(MOST).filter_map(|it| drawing(it)).collect();
@@ -21,9 +24,12 @@ pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Opt
     let scene = |file: &Utf8Path| -> Option<&Scene> {
         scenes.get(files.binary_search(&file).ok()?).and_then(Option::as_ref)
     };
+    let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &Diagnostic)| {
-        let scene = scene(drawing(diagnostic).filter(|_| index < MOST)?)?;
-        Some(cutout_svg(scene, &spot(diagnostic)?, context.lang()))
+        let scene = scene(drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?)?;
+        let picture = cutout_svg(scene, &spot(diagnostic)?, context.lang());
+        bytes += picture.len();
+        Some(picture)
     };
     diagnostics.iter().enumerate().map(picture).collect()
 }
