@@ -348,9 +348,17 @@ fn polyline(count: usize) -> String {
     entities(&drawn, at(count))
 }
 
+/// A layer's number in letters: names of layers have no digits behind the tilde.
+fn letters(number: usize) -> String {
+    [number / 676, number / 26 % 26, number % 26]
+        .map(|digit| (b'A'..=b'Z').nth(digit).map_or('A', char::from))
+        .iter()
+        .collect()
+}
+
 /// One of the path's layers.
 fn on_layer(number: usize, drawn: &str) -> String {
-    drawn.replace("\n8\n1202.1P\n", &format!("\n8\n1202.1P~A{number}\n"))
+    drawn.replace("\n8\n1202.1P\n", &format!("\n8\n1202.1P~{}\n", letters(number)))
 }
 
 fn text((x, y): (f64, f64), text: &str) -> String {

@@ -117,6 +117,10 @@ pub(crate) fn nearest_miss(
     boxes: &Boxes,
     looks: &Looks,
 ) -> Option<Miss> {
+    // To begin with, a tree looks at more than it gives.
+    if candidates.len() > boxes::FEW && looks.are_over() {
+        return None;
+    }
     let mut nearest: Option<Miss> = None;
     for (number, (candidate, at_least)) in boxes.nearest(circle.centre).enumerate() {
         if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {

@@ -45,7 +45,7 @@ const MOST_ASKED: usize = 100;
 const MOST_LOOKS: usize = 50_000_000;
 
 /// So many more for hints at where texts without an element might belong.
-const MOST_LOOKS_FOR_HINTS: usize = 2_000_000;
+const MOST_LOOKS_FOR_HINTS: usize = 1_000_000;
 
 /// A text and what it belongs to.
 pub(crate) struct Match<'d> {

@@ -276,14 +276,23 @@ fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     );
 }
 
+/// A layer's number in letters: names of layers have no digits behind the tilde.
+fn letters(number: usize) -> String {
+    [number / 676, number / 26 % 26, number % 26]
+        .map(|digit| (b'A'..=b'Z').nth(digit).map_or('A', char::from))
+        .iter()
+        .collect()
+}
+
 /// Three are named, the first; and a hundred are asked.
 #[test]
 fn a_text_without_element_names_a_few_layers() {
     let layers = |empty: usize, full: usize| {
-        let empty: String =
-            (0..empty).map(|number| format!("layer 1234.1P~A{number}\nmill 0,90 40,90\n")).collect();
+        let empty: String = (0..empty)
+            .map(|number| format!("layer 1234.1P~A{}\nmill 0,90 40,90\n", letters(number)))
+            .collect();
         let full: String =
-            (0..full).map(|number| format!("layer 1234.1P~B{number}\nmill 0,0 40,0\n")).collect();
+            (0..full).map(|number| format!("layer 1234.1P~B{}\nmill 0,0 40,0\n", letters(number))).collect();
         let raw = drawing(&format!("{empty}{full}layer 1234.1P\n{}", text("20,1", "F100")));
         let notes = raw.diagnostics.iter().flat_map(|found| &found.notes);
         let notes = notes.map(|note| note.text(pathbuild_diagnostic::Lang::En));
@@ -291,9 +300,9 @@ fn a_text_without_element_names_a_few_layers() {
             .filter_map(|note| Some(note.strip_prefix("on layer 1234.1P~")?.split(' ').next()?.to_owned()));
         named.collect::<Vec<_>>()
     };
-    assert_eq!(layers(0, 3), ["B0", "B1", "B2"]);
-    assert_eq!(layers(0, 4), ["B0", "B1", "B2"]);
-    assert_eq!(layers(99, 2), ["B0"]);
+    assert_eq!(layers(0, 3), ["BAAA", "BAAB", "BAAC"]);
+    assert_eq!(layers(0, 4), ["BAAA", "BAAB", "BAAC"]);
+    assert_eq!(layers(99, 2), ["BAAA"]);
     assert_eq!(layers(100, 2), [""; 0]);
 }
 
