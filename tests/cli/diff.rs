@@ -218,3 +218,130 @@ fn names_are_no_markup() {
     assert!(markdown.contains("| `` parts/1001.1P [x](y) @z _b_ `&c.dxf `` |"), "{markdown}");
     assert!(read("d.html").contains("@z _b_ `&amp;c.dxf"));
 }
+
+// What is taken out of a revision.
+
+fn committed(place: Place) -> Place {
+    git(&place, &["init", "-q"]);
+    git(&place, &["add", "-A"]);
+    git(&place, &["commit", "-q", "-m", "all"]);
+    place
+}
+
+/// Runs with another directory for temporary files.
+fn run_with_temporary(place: &Place, temporary: &std::path::Path, arguments: &[&str]) -> String {
+    let mut program = crate::support::program();
+    program.env("TMPDIR", temporary).env("TEMP", temporary).env("TMP", temporary);
+    let output = program.args(arguments).current_dir(place.path()).output().unwrap();
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+#[test]
+fn what_lies_above_temporary_files_does_not_hold() {
+    let temporary = Place::new().file("pathbuild.toml", "path-pattern = 'X'\n");
+    // Without a configuration, and with one of its own.
+    for configuration in [None, Some("rapid = 1000\nlibrary = [\".\"]\n")] {
+        let mut place = Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE));
+        if let Some(configuration) = configuration {
+            place = place.file("pathbuild.toml", configuration);
+        }
+        let place = committed(place);
+        fs::write(place.path().join("1001.1P.dxf"), dxf("1001.1P", "0.5", LINE)).unwrap();
+        git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
+        let said = run_with_temporary(&place, temporary.path(), &["diff", "HEAD~1", "HEAD"]);
+        assert!(said.contains("0.5 mm deeper") && said.contains("1 of 1 path changed"), "{said}");
+        let left = fs::read_dir(temporary.path()).unwrap().count();
+        assert_eq!(left, 1, "nothing of it stays");
+    }
+}
+
+#[test]
+fn ignore_files_and_empty_directories_of_a_revision_hold() {
+    let place = Place::new()
+        .file("pathbuild.toml", "library = [\"parts\", \"empty\"]\n")
+        .file("empty/a.txt", "")
+        .file("parts/.gitignore", "1002*\n")
+        .file("parts/1001.1P.DXF", dxf("1001.1P", "1", LINE))
+        .file("parts/1002.1P.dxf", dxf("1002.1P", "1", LINE));
+    git(&place, &["init", "-q"]);
+    git(&place, &["add", "-f", "-A"]);
+    git(&place, &["commit", "-q", "-m", "all"]);
+    told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
+}
+
+/// Drawings that are links: to another file of the tree, and to one outside.
+#[cfg(unix)]
+#[test]
+fn links_of_a_revision_stay_in_its_tree() {
+    use std::os::unix::fs::symlink;
+
+    for (target, is_inside) in [
+        ("../store/a.bin", true),
+        ("./../store/../store/a.bin", false),
+        ("../../tree/store/a.bin", false),
+        ("../link/a.bin", true),
+        ("../../outside.dxf", false),
+        ("/outside.dxf", false),
+    ] {
+        let place = Place::new()
+            .file("pathbuild.toml", "rapid = 1000\nlibrary = [\"parts\"]\n")
+            .file("store/a.bin", dxf("1001.1P", "1", LINE))
+            .file("parts/1002.1P.dxf", dxf("1002.1P", "1", LINE));
+        symlink("store", place.path().join("link")).unwrap();
+        symlink(target, place.path().join("parts/1001.1P.dxf")).unwrap();
+        let place = committed(place);
+        let run = place.run("diff HEAD HEAD");
+        assert_eq!(run.stderr.contains("left out"), !is_inside, "{target}: {run}");
+        assert_eq!(run.stderr.contains("parts/1001.1P.dxf"), !is_inside, "{target}: {run}");
+    }
+}
+
+/// A tree with one drawing, under a name that Git itself may refuse.
+#[cfg(unix)]
+fn hostile_tree(place: &Place, name: &str) -> String {
+    use std::io::Write;
+    use std::process::Stdio;
+
+    let said = |arguments: &[&str], bytes: &[u8]| {
+        let mut command = Command::new("git");
+        command.args(arguments).current_dir(place.path()).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        child.stdin.take().unwrap().write_all(bytes).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{arguments:?}");
+        String::from_utf8(output.stdout).unwrap().trim().to_owned()
+    };
+    let blob = said(&["hash-object", "-w", "--stdin"], &dxf("1001.1P", "1", LINE));
+    let names: Vec<&str> = name.split('/').collect();
+    let id = |hex: &str| {
+        (0..20).map(|at| u8::from_str_radix(&hex[2 * at..2 * at + 2], 16).unwrap()).collect::<Vec<u8>>()
+    };
+    let mut below = (b"100644 ".to_vec(), blob);
+    for name in names.iter().rev() {
+        let tree = [&below.0[..], name.as_bytes(), b"\0", &id(&below.1)].concat();
+        let tree = said(&["hash-object", "-w", "-t", "tree", "--literally", "--stdin"], &tree);
+        below = (b"40000 ".to_vec(), tree);
+    }
+    below.1
+}
+
+#[cfg(unix)]
+#[test]
+fn names_of_a_revision_stay_in_its_tree() {
+    let temporary = Place::new();
+    for (name, is_plain) in [
+        ("a/1001.1P.dxf", true),
+        ("a..b/1001.1P.dxf", true),
+        ("../1001.1P.dxf", false),
+        ("a/../../../1001.1P.dxf", false),
+        (".GIT/1001.1P.dxf", false),
+        (".git/1001.1P.dxf", false),
+    ] {
+        let place = committed(Place::new().file("a.txt", ""));
+        let tree = hostile_tree(&place, name);
+        let said = run_with_temporary(&place, temporary.path(), &["diff", &tree, &tree]);
+        assert_eq!(said.contains("left out"), !is_plain, "{name}: {said}");
+        assert_eq!(said.contains("0 of 1 path changed"), is_plain, "{name}: {said}");
+        assert_eq!(fs::read_dir(temporary.path()).unwrap().count(), 0, "{name}");
+    }
+}

@@ -122,3 +122,278 @@ fn a_clone_that_does_not_reach_the_revision_is_called_shallow() {
     assert_eq!(run.status, Some(2), "{run}");
     assert!(!run.stderr.contains("shallow"), "a whole clone is not: {run}");
 }
+
+/// What kinds of changes there are: none, of one drawing, of everything.
+const NOTHING: &str = "0 paths in 0 drawings";
+const ONE: &str = "1 path in 1 drawing";
+const ALL: &str = "5 paths in 5 drawings";
+
+#[track_caller]
+fn since(place: &Place, expected: &str) {
+    for cache in ["", " --no-cache"] {
+        let run = place.run(&format!("check --changed-since HEAD{cache}"));
+        assert!(
+            run.stderr.lines().last().is_some_and(|line| line.starts_with(expected)),
+            "{expected}: {run}"
+        );
+        let is_all = expected == ALL;
+        assert_eq!(run.stderr.contains("everything is checked: "), is_all, "{run}");
+    }
+}
+
+fn commit(place: &Place) {
+    git(place, &["add", "-A"]);
+    git(place, &["commit", "-q", "-m", "more"]);
+}
+
+/// Git's own lists of what it does not look at are not pathbuild's.
+#[test]
+fn drawings_that_git_passes_over_are_checked() {
+    let place = library().file(".git/info/exclude", "2*\n");
+    since(&place, NOTHING);
+    since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), ONE);
+    let place = library().file("parts/.gitignore", "2*\n").file("parts/.ignore", "!2*\n");
+    commit(&place);
+    since(&place, NOTHING);
+    since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), ONE);
+    // What pathbuild passes over is not checked.
+    let place = library().file("parts/.gitignore", "2*\n");
+    commit(&place);
+    since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), NOTHING);
+}
+
+#[test]
+fn drawings_in_a_repository_of_their_own_have_changed() {
+    let place = library().file("parts/sub/2001.dxf", dxf("2001.1P", 5, None));
+    commit(&place);
+    since(&place, NOTHING);
+    let place = place.file("parts/other/2002.dxf", dxf("2002.1P", 5, None));
+    git(&place, &["init", "-q", "parts/other"]);
+    since(&place, ONE);
+}
+
+#[test]
+fn what_is_checked_and_how_concerns_everything() {
+    let configuration = "library = [\"parts\", \"projects\"]\nsearch = [\"parts\"]\n";
+    since(&library().file("pathbuild.toml", configuration), NOTHING);
+    since(&library().file("pathbuild.toml", format!("{configuration}[limits]\nentities = 10\n")), ALL);
+    // A new file of rules, one that other text has, and one that is gone.
+    for name in ["parts/.gitignore", "parts/.ignore"] {
+        let place = library().file(name, "# nothing\n");
+        since(&place, ALL);
+        commit(&place);
+        since(&place, NOTHING);
+        since(&place, NOTHING);
+        let place = place.file(name, "# still nothing\n");
+        since(&place, ALL);
+        fs::remove_file(place.path().join(name)).unwrap();
+        since(&place, ALL);
+    }
+    let german = library().file("parts/.ignore", "#\n").run("check --changed-since HEAD --lang de");
+    assert!(german.stderr.contains("alles wird geprüft: parts/.ignore"), "{german}");
+}
+
+#[cfg(unix)]
+mod links {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    use std::path::Path;
+
+    use super::*;
+
+    /// The library with a link among its drawings, or beside them.
+    fn linked(target: &str, link: &str) -> Place {
+        let place = library()
+            .file("store/a.bin", dxf("2001.1P", 5, None))
+            .file("store/b.bin", dxf("2001.1P", 5, None));
+        symlink(target, place.path().join(link)).unwrap();
+        commit(&place);
+        place
+    }
+
+    #[test]
+    fn a_drawing_that_is_a_link_changes_with_its_file() {
+        let place = linked("../store/a.bin", "parts/2001.dxf");
+        since(&place, NOTHING);
+        since(&place.file("store/b.bin", dxf("2001.1P", 4, None)), NOTHING);
+        let place = linked("../store/a.bin", "parts/2001.dxf");
+        since(&place.file("store/a.bin", dxf("2001.1P", 4, None)), ONE);
+        // A new link to an old file.
+        let place = linked("../store/a.bin", "parts/2001.dxf");
+        symlink("../store/b.bin", place.path().join("parts/2002.dxf")).unwrap();
+        since(&place, ONE);
+    }
+
+    #[test]
+    fn a_link_that_leads_elsewhere_concerns_everything() {
+        let place = linked("../store/a.bin", "parts/1003.dxf");
+        fs::remove_file(place.path().join("parts/1003.dxf")).unwrap();
+        symlink("../store/b.bin", place.path().join("parts/1003.dxf")).unwrap();
+        let run = place.run("check --changed-since HEAD");
+        assert!(run.stderr.contains("everything is checked: parts/1003.dxf"), "{run}");
+    }
+
+    #[test]
+    fn what_is_found_through_a_linked_directory_changes() {
+        let place = Place::new()
+            .file("pathbuild.toml", "library = [\"projects\"]\nsearch = [\"link\"]\n")
+            .file("parts/1001.dxf", dxf("1001.1P", 5, None))
+            .file("projects/8001.dxf", dxf("8001.1P", 5, Some("1001.1P")));
+        symlink("parts", place.path().join("link")).unwrap();
+        git(&place, &["init", "-q"]);
+        commit(&place);
+        since(&place, NOTHING);
+        since(&place.file("parts/1001.dxf", dxf("1001.1P", 4, None)), ONE);
+    }
+
+    #[test]
+    fn the_repository_is_that_of_the_argument() {
+        let place = library();
+        let other = Place::new().file("a.txt", "");
+        git(&other, &["init", "-q"]);
+        commit(&other);
+        symlink(place.path(), other.path().join("link")).unwrap();
+        let arguments = ["check", "link", "--no-cache", "--changed-since", "HEAD"];
+        let run = other.run_in(".", &arguments);
+        assert!(!run.stderr.contains(ONE), "{run}");
+        let place = place.file("parts/1002.dxf", dxf("1002.1P", 4, None));
+        let argument = place.path().to_str().unwrap();
+        let run = other.run_in(".", &["check", argument, "--no-cache", "--changed-since", "HEAD"]);
+        assert!(run.stderr.contains(ONE) && !run.stderr.contains("everything"), "{run}");
+    }
+
+    /// Writes a script that leaves a mark.
+    fn script(place: &Place, name: &str, mark: &Path) {
+        let file = place.path().join(name);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(&file, format!("#!/bin/sh\ntouch '{}'\nexit 1\n", mark.display())).unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
+    }
+
+    /// Everything that asks Git for something.
+    fn ask(place: &Place, directory: &str, revision: &str, mark: &Path) {
+        for option in [&[][..], &["--untrusted"]] {
+            for command in [&["check", ".", "--changed-since", revision][..], &["diff", revision, "."]] {
+                let arguments = [command, &["--no-cache"], option].concat();
+                let run = place.run_in(directory, &arguments);
+                assert!(matches!(run.status, Some(0 | 1)), "{run}");
+                assert!(!mark.exists(), "{run}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_that_a_repository_names_is_run() {
+        let place = library().file(".gitattributes", "* filter=mark diff=mark\n");
+        commit(&place);
+        let outside = Place::new();
+        let mark = outside.path().join("mark");
+        script(&place, ".git/mark.sh", &mark);
+        let names = ["post-checkout", "post-index-change", "reference-transaction", "fsmonitor-watchman"];
+        names.iter().for_each(|name| script(&place, &format!(".git/hooks/{name}"), &mark));
+        let own = fs::read_to_string(place.path().join(".git/config")).unwrap();
+        let configuration = "[core]\nfsmonitor = .git/mark.sh\nsshCommand = .git/mark.sh\npager = .git/mark.sh\n\
+            [filter \"mark\"]\nclean = .git/mark.sh\nsmudge = .git/mark.sh\nprocess = .git/mark.sh\nrequired = true\n\
+            [diff \"mark\"]\ncommand = .git/mark.sh\ntextconv = .git/mark.sh\n[diff]\nexternal = .git/mark.sh\n";
+        let place = place.file(".git/config", format!("{own}{configuration}"));
+        let place = place.file("parts/1001.dxf", dxf("1001.1P", 4, None));
+        ask(&place, ".", "HEAD", &mark);
+        since(&place, "3 paths in 3 drawings");
+        // Git itself would.
+        _ = Command::new("git").args(["diff", "HEAD"]).current_dir(place.path()).output().unwrap();
+        assert!(mark.exists());
+    }
+
+    /// A partial clone gets what it lacks with commands that its configuration names.
+    #[test]
+    fn nothing_is_fetched() {
+        let place = library();
+        let outside = Place::new();
+        let mark = outside.path().join("mark");
+        script(&place, ".git/mark.sh", &mark);
+        let blob =
+            Command::new("git").args(["rev-parse", "HEAD:parts/1001.dxf"]).current_dir(place.path()).output();
+        let blob = String::from_utf8(blob.unwrap().stdout).unwrap().trim().to_owned();
+        let (directory, name) = blob.split_at(2);
+        fs::remove_file(place.path().join(".git/objects").join(directory).join(name)).unwrap();
+        let own = fs::read_to_string(place.path().join(".git/config")).unwrap();
+        let configuration = "[extensions]\npartialClone = a\n[remote \"a\"]\nurl = ssh://nowhere.invalid/a\npromisor = true\n\
+            [core]\nsshCommand = .git/mark.sh\nrepositoryformatversion = 1\n[protocol \"ssh\"]\nallow = always\n";
+        let place = place.file(".git/config", format!("{own}{configuration}"));
+        since(&place, NOTHING);
+        assert_eq!(place.run("diff HEAD").status, Some(2));
+        assert!(!mark.exists());
+        _ = Command::new("git").args(["cat-file", "-p", &blob]).current_dir(place.path()).output().unwrap();
+        assert!(mark.exists());
+    }
+
+    /// A pull request can bring the layout of a bare repository, which Git takes for one.
+    #[test]
+    fn files_of_a_tree_are_no_repository() {
+        let place = library().file("cnc/3001.dxf", dxf("3001.1P", 5, None));
+        let place = place.file("cnc/pathbuild.toml", "library = [\".\"]\n");
+        commit(&place);
+        let base =
+            Command::new("git").args(["rev-parse", "HEAD"]).current_dir(place.path()).output().unwrap();
+        let base = String::from_utf8(base.stdout).unwrap().trim().to_owned();
+        let outside = Place::new();
+        let mark = outside.path().join("mark");
+        script(&place, "cnc/mark.sh", &mark);
+        let place = place
+            .file("cnc/HEAD", "ref: refs/heads/main\n")
+            .file("cnc/objects/info/alternates", "../../.git/objects\n")
+            .file("cnc/refs/heads/.keep", "")
+            .file("cnc/packed-refs", format!("{base} refs/heads/main\n"))
+            .file("cnc/config", "[core]\nbare = false\nworktree = .\nfsmonitor = ./mark.sh\n")
+            .file("cnc/3002.dxf", dxf("3002.1P", 5, None));
+        git(&place, &["-c", "safe.bareRepository=explicit", "add", "-A"]);
+        git(&place, &["commit", "-q", "-m", "pull request"]);
+        ask(&place, "cnc", &base, &mark);
+        let run = place.run_in("cnc", &["check", "--changed-since", &base]);
+        assert!(run.stderr.contains(ONE), "{run}");
+    }
+
+    /// A `.git` that leads out of a stranger's tree: followed only to where `git worktree` made it.
+    #[test]
+    fn a_strangers_repository_lies_in_its_tree() {
+        let place = library();
+        git(&place, &["worktree", "add", "-q", "../worktree"]);
+        let worktree = place.path().parent().unwrap().join("worktree");
+        let run = |place: &Place, directory: &str, option: &str| {
+            let arguments = ["check", "--no-cache", "--changed-since", "HEAD", option];
+            place.run_in(directory, &arguments[..if option.is_empty() { 4 } else { 5 }])
+        };
+        let other = Place::new().file("tree/pathbuild.toml", "library = [\".\"]\n");
+        for option in ["", "--untrusted"] {
+            let run = run(&place, worktree.to_str().unwrap(), option);
+            assert_eq!(run.stderr.lines().last().map(|line| line.starts_with(NOTHING)), Some(true), "{run}");
+        }
+        fs::remove_dir_all(worktree).unwrap();
+        let git_directory = place.path().join(".git");
+        for is_link in [true, false] {
+            let file = other.path().join("tree/.git");
+            if is_link {
+                symlink(&git_directory, &file).unwrap();
+            } else {
+                fs::write(&file, format!("gitdir: {}\n", git_directory.display())).unwrap();
+            }
+            let refused = run(&other, "tree", "--untrusted");
+            assert!(refused.status == Some(2) && refused.stderr.contains("leads out"), "{refused}");
+            assert_ne!(run(&other, "tree", "").status, Some(2));
+            fs::remove_file(file).unwrap();
+        }
+    }
+}
+
+/// The index is as it was: Git would write down that files only look newer.
+#[test]
+fn the_index_is_not_touched() {
+    let place = library();
+    let index = || fs::read(place.path().join(".git/index")).unwrap();
+    let before = index();
+    let drawing = fs::File::options().write(true).open(place.path().join("parts/1001.dxf")).unwrap();
+    drawing
+        .set_modified(std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000))
+        .unwrap();
+    since(&place, NOTHING);
+    assert!(before == index());
+}

@@ -4,9 +4,11 @@ mod changed;
 mod drawings;
 mod results;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
+use std::fmt::Debug;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::Diagnostic;
@@ -17,10 +19,10 @@ use crate::config::Concerns;
 use crate::session::timings::FINDING;
 use crate::session::{
     DrawingResult, Found, FreshResult, Question, ResultStore, Scope, Session, Wanted, WantedPath, by_place,
+    relative,
 };
 use crate::workspace::Workspace;
 
-use changed::Changed;
 pub use drawings::check_drawings;
 use drawings::check_paths;
 use results::{Concerned, Results, of};
@@ -32,8 +34,20 @@ pub struct Request<'a> {
     pub inputs: &'a Inputs,
     /// Whether with every combination of the variables' values, not with one example of each.
     pub with_all_values: bool,
-    /// Only what depends on these drawings is shown.
-    pub changed: Option<Vec<Utf8PathBuf>>,
+    /// Only what depends on drawings that changed since then is shown.
+    pub changed: Option<&'a dyn Past>,
+}
+
+/// The files as they were at another time, such as in a revision.
+pub trait Past: Debug {
+    /// Of each file whether it was another one then, or none. What is not known has changed.
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
+
+    /// The names of the drawings that were in a directory.
+    fn drawings(&self, directory: &Utf8Path) -> &[String];
+
+    /// A file that says what is checked and how, or where links lead, and says something else now. These directories were walked through.
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
 /// What came of a check.
@@ -105,16 +119,17 @@ fn check(
     found: &Found,
     results: &Results,
 ) -> Result<Checked, NotDirectories> {
-    let changed = request.changed.as_ref().map(|drawings| Changed::new(session, drawings));
     let Answers { wanted, each: answers, mut made } =
         session.settled(|session| answers(session, request, found, results));
-    if changed.is_some() && !(wanted.named.is_empty() && wanted.paths.is_empty()) {
+    if request.changed.is_some() && !(wanted.named.is_empty() && wanted.paths.is_empty()) {
         return Err(NotDirectories);
     }
     let (q_projects, made_of_pairs) = session.settled(|session| results.q_projects(session, &wanted));
     made.extend(made_of_pairs);
     results.keep(session, &made);
-    let concerned = Concerned::new(session, results, &made, changed.as_ref());
+    let names = answers.iter().map(|(asked, _)| of(&asked.drawing, asked.names.as_deref()));
+    let names = names.chain(q_projects.iter().map(|(of, _)| Cow::Borrowed(&**of)));
+    let concerned = Concerned::new(session, results, &made, since(session, request, found), names);
     let mut checked = Checked { diagnostics: found.problems.clone(), ..Checked::default() };
     checked.diagnostics.extend(wanted.problems);
     if !session.is_compatible() {
@@ -137,6 +152,21 @@ fn check(
     checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
     leave(made);
     Ok(checked)
+}
+
+/// Since when drawings have to be told apart: not at all where something changed that concerns all of them.
+fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &Found) -> Option<&'a dyn Past> {
+    let past = request.changed?;
+    let directories: Vec<Utf8PathBuf> =
+        found.directories().flat_map(|directory| &directory.directories).cloned().collect();
+    let Some(rule) = past.changed_rule(&directories) else { return Some(past) };
+    let context = session.workspace();
+    context.reporter.status(&context.phrase(
+        "everything is checked: {} has changed since the revision",
+        "alles wird geprüft: {} hat sich seit der Revision geändert",
+        relative(&rule, &context.working_directory).as_str(),
+    ));
+    None
 }
 
 /// What the arguments mean, and what is found in that.

@@ -8,12 +8,12 @@ use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use super::changed::Changed;
-use super::{Request, open};
+use super::changed::{Changed, Reached};
+use super::{Past, Request, open};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{
-    Drawing, DrawingResult, Drawings, Found, FreshResult, Pair, ResultStore, Scope, Session, Wanted,
-    q_project_pairs,
+    Dependencies, Drawing, DrawingResult, Drawings, Found, FreshResult, Pair, ResultStore, Scope, Session,
+    Wanted, q_project_pairs,
 };
 
 /// What earlier checks kept; nothing where nothing is kept.
@@ -133,26 +133,46 @@ pub(super) struct Concerned<'a> {
     session: &'a Session<'a>,
     results: &'a Results,
     made: HashMap<&'a str, &'a FreshResult>,
-    changed: Option<&'a Changed>,
+    /// `None`: all are.
+    changed: Option<Changed>,
 }
 
 impl<'a> Concerned<'a> {
-    pub(super) fn new(
+    /// Of the results of these names those that depend on what changed since then.
+    pub(super) fn new<'n>(
         session: &'a Session<'a>,
         results: &'a Results,
         made: &'a [FreshResult],
-        changed: Option<&'a Changed>,
+        past: Option<&dyn Past>,
+        names: impl Iterator<Item = Cow<'n, str>>,
     ) -> Self {
         let made = made.iter().map(|made| (&*made.of, made)).collect();
-        Self { session, results, made, changed }
+        let mut concerned = Self { session, results, made, changed: None };
+        concerned.changed = past.map(|past| Changed::new(session, past, concerned.reached(names)));
+        concerned
     }
 
     pub(super) fn contains(&self, of: &str) -> bool {
-        let Some(changed) = self.changed else { return true };
+        let Some(changed) = &self.changed else { return true };
         if let Some(made) = self.made.get(of) {
             return changed.concerns(self.session, &made.traces);
         }
-        let facts = self.results.0.as_ref().and_then(|result_store| result_store.facts(of));
-        facts.is_none_or(|facts| changed.concerns_kept(&facts))
+        self.facts(of).is_none_or(|facts| changed.concerns_kept(&facts))
+    }
+
+    fn reached<'n>(&self, names: impl Iterator<Item = Cow<'n, str>>) -> Reached {
+        let mut reached = Reached::default();
+        for of in names {
+            if let Some(made) = self.made.get(&*of) {
+                reached.add(self.session, &made.traces);
+            } else if let Some(facts) = self.facts(&of) {
+                reached.add_kept(&facts);
+            }
+        }
+        reached
+    }
+
+    fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
+        self.results.0.as_ref()?.facts(of)
     }
 }

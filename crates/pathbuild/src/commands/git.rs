@@ -1,36 +1,238 @@
-//! What Git says of revisions, for `check --changed-since` and `diff`.
+//! What Git says of revisions, for `check --changed-since` and `diff`. The repository may be a stranger's: Git only reads objects in it, and
+//! starts nothing that the repository names (filters, hooks, monitors, transports).
 
-use std::process::Command;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::{ChildStdout, Command, Stdio};
+use std::thread;
 
-use camino::Utf8Path;
-use pathbuild_workspace::Workspace;
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::FileKind;
+use pathbuild_workspace::{Workspace, config};
 
-/// Runs Git in a directory, with an index of its own where one is named.
-///
-/// # Errors
-/// What Git says first where it fails.
-pub(super) fn run(
-    workspace: &Workspace,
-    directory: &Utf8Path,
-    index: Option<&Utf8Path>,
-    arguments: &[&str],
-) -> Result<Vec<u8>, String> {
-    let mut command = Command::new("git");
-    if !directory.as_str().is_empty() {
-        command.current_dir(directory);
+/// A repository, and the tree that is checked out of it.
+#[derive(Debug)]
+pub(super) struct Repository<'a> {
+    workspace: &'a Workspace,
+    /// The tree, as it really lies.
+    pub(super) root: Utf8PathBuf,
+}
+
+/// A file in a revision.
+#[derive(Debug)]
+pub(super) struct Entry {
+    pub(super) kind: EntryKind,
+    /// Of its blob.
+    pub(super) id: String,
+    /// From the root, as Git spells it: it may be hostile.
+    pub(super) name: String,
+}
+
+/// What Git's mode says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum EntryKind {
+    File,
+    Link,
+    /// Of another repository, of which only the commit is known.
+    Submodule,
+}
+
+/// What is done with a blob's bytes.
+pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, &mut dyn Read) -> io::Result<()>;
+
+/// Bytes of a `.git` that is a file, and of what Git says before a blob.
+const LONGEST_LINE: u64 = 4096;
+
+/// Other repositories than the one that was found are not asked, whatever the environment says: in a hook it names that of the hook.
+const NOT_INHERITED: [&str; 5] =
+    ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
+
+/// A partial clone would fetch what it lacks, with commands that its configuration names. Older versions of Git know the second only.
+const NO_FETCHES: [(&str, &str); 3] =
+    [("GIT_NO_LAZY_FETCH", "1"), ("GIT_ALLOW_PROTOCOL", "none"), ("GIT_TERMINAL_PROMPT", "0")];
+
+const OPTIONS: [&str; 10] = [
+    "--no-pager",
+    "--no-optional-locks",
+    "-c",
+    "core.fsmonitor=false",
+    "-c",
+    if cfg!(windows) { "core.hooksPath=NUL" } else { "core.hooksPath=/dev/null" },
+    "-c",
+    "protocol.allow=never",
+    // Files of a tree can look like a repository without a working tree.
+    "-c",
+    "safe.bareRepository=explicit",
+];
+
+impl<'a> Repository<'a> {
+    /// That of a place: the nearest directory at or above it that has a `.git`. Without one Git itself says so.
+    ///
+    /// # Errors
+    /// It is a stranger's, and its `.git` leads elsewhere.
+    pub(super) fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
+        let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
+        let place = real(place);
+        let found = config::repository(&*workspace.system, &place);
+        let is_found = workspace.system.kind(&found.join(".git")) != FileKind::Missing;
+        let root = if is_found { found.to_owned() } else { real(Utf8Path::new("")) };
+        let repository = Self { workspace, root };
+        if workspace.settings.confined.is_some() && repository.leads_out() {
+            return Err(workspace.phrase(
+                "the .git in {} leads out of the repository, which is not trusted",
+                "das .git in {} führt aus dem Repository hinaus, dem nicht vertraut wird",
+                repository.root.as_str(),
+            ));
+        }
+        Ok(repository)
     }
-    if let Some(index) = index {
-        command.env("GIT_INDEX_FILE", index.as_str());
+
+    /// Whether `.git` means a repository elsewhere that knows nothing of this tree. One that `git worktree` made knows it.
+    fn leads_out(&self) -> bool {
+        let system = &self.workspace.system;
+        let git = self.root.join(".git");
+        let text = |file: &Utf8Path| {
+            let bytes = system.read(file, LONGEST_LINE).ok()?;
+            Some(String::from_utf8_lossy(&bytes).trim().to_owned())
+        };
+        let place = |text: &str| system.canonical(&self.root.join(text));
+        if !system.canonical(&git).starts_with(&self.root) {
+            return true;
+        }
+        let Some(link) = text(&git) else { return false };
+        let directory = place(link.trim_start_matches("gitdir:").trim_start());
+        let is_known = || text(&directory.join("gitdir")).is_some_and(|back| place(&back) == git);
+        !directory.starts_with(&self.root) && !is_known()
     }
-    let output = command.args(arguments).output().map_err(|error| {
-        workspace.phrase("git cannot be run: {}", "git lässt sich nicht starten: {}", &error.to_string())
-    })?;
-    if output.status.success() {
-        return Ok(output.stdout);
+
+    /// The tree of a revision.
+    ///
+    /// # Errors
+    /// What Git says where there is none.
+    pub(super) fn tree(&self, revision: &str) -> Result<String, String> {
+        let id = self.run(&["rev-parse", "--verify", "--end-of-options", &format!("{revision}^{{tree}}")])?;
+        Ok(String::from_utf8_lossy(&id).trim().to_owned())
     }
-    let said = String::from_utf8_lossy(&output.stderr);
-    let nothing = workspace.choose("it failed", "fehlgeschlagen");
-    Err(format!("git: {}", said.lines().next().unwrap_or(nothing)))
+
+    /// Every file in a tree.
+    ///
+    /// # Errors
+    /// What Git says where it cannot read the tree.
+    pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
+        let listed = self.run(&["ls-tree", "-r", "-z", "--full-tree", tree])?;
+        let lines = listed.split(|byte| *byte == 0);
+        Ok(lines.filter_map(|line| Entry::read(&String::from_utf8_lossy(line))).collect())
+    }
+
+    /// Hands out the bytes of blobs, in their order, as they were committed.
+    ///
+    /// # Errors
+    /// One is not there, or whoever takes the bytes fails.
+    pub(super) fn each_blob(&self, ids: &[&str], take: TakeBlob<'_>) -> Result<(), String> {
+        let lines: String = ids.iter().flat_map(|id| [id, "\n"]).collect();
+        self.fed(&["cat-file", "--batch"], lines.as_bytes(), |mut answers| {
+            (0..ids.len()).try_for_each(|index| blob(&mut answers, &mut |bytes| take(index, bytes)))
+        })
+    }
+
+    /// The ids that the bytes of files have as blobs; fewer where one of them cannot be read. They must be regular files without line breaks in
+    /// their names.
+    pub(super) fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
+        let lines: String = files.iter().flat_map(|file| [plain(file), "\n"]).collect();
+        let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
+        let mut ids = Vec::new();
+        // What cannot be told has changed: whoever asks sees that there are fewer.
+        _ = self.fed(&arguments, lines.as_bytes(), |answers| {
+            answers.lines().try_for_each(|line| line.map(|line| ids.push(line)))
+        });
+        ids
+    }
+
+    /// What to do where a clone does not reach a revision.
+    pub(super) fn too_shallow(&self, revision: &str) -> Option<String> {
+        let is_shallow = self.run(&["rev-parse", "--is-shallow-repository"]).ok()?;
+        let is_there = self.run(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
+        (is_shallow.trim_ascii() == b"true" && !is_there).then(|| {
+            self.workspace.phrase(
+                "this clone is too shallow: it does not reach {}; fetch more (git fetch --unshallow, `fetch-depth: 0` of \
+                 actions/checkout, GIT_DEPTH: \"0\" of GitLab)",
+                "dieser Klon reicht nicht bis {}; mehr holen (git fetch --unshallow, `fetch-depth: 0` von \
+                 actions/checkout, GIT_DEPTH: \"0\" von GitLab)",
+                revision,
+            )
+        })
+    }
+
+    fn run(&self, arguments: &[&str]) -> Result<Vec<u8>, String> {
+        let output = self.command(arguments).output().map_err(|error| self.not_run(&error))?;
+        if output.status.success() {
+            return Ok(output.stdout);
+        }
+        let said = String::from_utf8_lossy(&output.stderr);
+        let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
+        Err(format!("git: {}", said.lines().next().unwrap_or(nothing)))
+    }
+
+    /// Runs Git with something to read, and hands out what it answers.
+    fn fed<R>(
+        &self,
+        arguments: &[&str],
+        lines: &[u8],
+        take: impl FnOnce(BufReader<ChildStdout>) -> io::Result<R>,
+    ) -> Result<R, String> {
+        let mut command = self.command(arguments);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
+        let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
+        let taken = thread::scope(|scope| {
+            // It answers while it is asked: who only listened afterwards would wait for ever.
+            scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines)));
+            stdout.map(|stdout| take(BufReader::new(stdout)))
+        });
+        _ = child.wait();
+        taken
+            .unwrap_or_else(|| Err(io::ErrorKind::BrokenPipe.into()))
+            .map_err(|error| format!("git: {error}"))
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new("git");
+        if !self.root.as_str().is_empty() {
+            command.current_dir(plain(&self.root));
+        }
+        NOT_INHERITED.iter().for_each(|name| _ = command.env_remove(name));
+        // The repository begins here, or there is none.
+        let above = self.root.parent().map(plain).unwrap_or_default();
+        command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);
+        command.args(OPTIONS).args(arguments).stdin(Stdio::null());
+        command
+    }
+
+    fn not_run(&self, error: &io::Error) -> String {
+        let (en, de) = ("git cannot be run: {}", "git lässt sich nicht starten: {}");
+        self.workspace.phrase(en, de, &error.to_string())
+    }
+}
+
+impl Entry {
+    /// Reads a line of `ls-tree`.
+    fn read(line: &str) -> Option<Self> {
+        let (facts, name) = line.split_once('\t')?;
+        let mut facts = facts.split(' ');
+        let kind = match facts.next()? {
+            "120000" => EntryKind::Link,
+            "160000" => EntryKind::Submodule,
+            _ => EntryKind::File,
+        };
+        Some(Self { kind, id: facts.nth(1)?.to_owned(), name: name.to_owned() })
+    }
+
+    /// Whether its name is that of a file below the root, on every system. One that is no UTF-8 is none here.
+    pub(super) fn is_plain(&self) -> bool {
+        let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
+        let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");
+        !self.name.contains('\u{fffd}')
+            && !self.name.split('/').any(|part| is_special(part) || is_foreign(part))
+    }
 }
 
 /// Refuses what Git would take for an option.
@@ -44,18 +246,22 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
     Ok(name)
 }
 
-/// What to do where a clone does not reach a revision.
-pub(super) fn too_shallow(workspace: &Workspace, directory: &Utf8Path, revision: &str) -> Option<String> {
-    let git = |arguments: &[&str]| run(workspace, directory, None, arguments);
-    let is_shallow = git(&["rev-parse", "--is-shallow-repository"]).ok()?;
-    let is_there = git(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
-    (is_shallow.trim_ascii() == b"true" && !is_there).then(|| {
-        workspace.phrase(
-            "this clone is too shallow: it does not reach {}; fetch more (git fetch --unshallow, `fetch-depth: 0` of \
-             actions/checkout, GIT_DEPTH: \"0\" of GitLab)",
-            "dieser Klon reicht nicht bis {}; mehr holen (git fetch --unshallow, `fetch-depth: 0` von \
-             actions/checkout, GIT_DEPTH: \"0\" von GitLab)",
-            revision,
-        )
-    })
+/// One answer of `cat-file --batch`: a line that ends in the size, the bytes, and a line break.
+fn blob(
+    answers: &mut BufReader<ChildStdout>,
+    take: &mut dyn FnMut(&mut dyn Read) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut head = String::new();
+    answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
+    let size = head.trim_end().split_once(" blob ").and_then(|(_, size)| size.parse().ok());
+    let Some(size) = size else { return Err(io::Error::other(head.trim_end())) };
+    let mut bytes = answers.by_ref().take(size);
+    take(&mut bytes)?;
+    io::copy(&mut bytes, &mut io::sink())?;
+    answers.read_exact(&mut [0])
+}
+
+/// A path as Git reads it: it does not know how Windows marks long ones.
+fn plain(path: &Utf8Path) -> &str {
+    path.as_str().strip_prefix(r"\\?\").unwrap_or(path.as_str())
 }

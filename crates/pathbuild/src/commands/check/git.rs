@@ -1,26 +1,185 @@
-//! `check --changed-since REV`: the drawings that changed since a revision of Git.
+//! `check --changed-since REV`: what changed since a revision of Git.
+
+use std::collections::BTreeMap;
+use std::io::Read;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_workspace::config::clean;
+use pathbuild_db::system::{FileKind, join, spelt};
+use pathbuild_workspace::check::Past;
+use pathbuild_workspace::config::{FILE_NAME, clean};
 use pathbuild_workspace::session::Session;
+use pathbuild_workspace::{Input, Inputs};
 
-use crate::commands::git;
+use crate::commands::git::{self, EntryKind, Repository};
 use crate::context::Context;
 
-/// The drawings that Git names: in commits since then, not yet committed, and not yet added.
-///
-/// # Errors
-/// What Git says where it cannot tell.
-pub(super) fn changed_since(context: &Context, revision: &str) -> Result<Vec<Utf8PathBuf>, String> {
-    let revision = git::revision(context, revision)?;
-    let run = |directory: &Utf8Path, arguments: &[&str]| git::run(context, directory, None, arguments);
-    let directory = &context.working_directory;
-    let up = run(directory, &["rev-parse", "--show-cdup"])?;
-    let top = clean(&directory.join(String::from_utf8_lossy(&up).trim()));
-    let changed = run(&top, &["diff", "--name-only", "--no-renames", "-z", revision, "--"]);
-    let mut names = changed.map_err(|reason| git::too_shallow(context, &top, revision).unwrap_or(reason))?;
-    names.extend(run(&top, &["ls-files", "--others", "--exclude-standard", "-z"])?);
-    let names = names.split(|byte| *byte == 0).filter_map(|name| std::str::from_utf8(name).ok());
-    let drawings = names.map(Utf8Path::new).filter(|name| Session::is_drawing(name));
-    Ok(drawings.map(|name| top.join(name)).collect())
+/// A revision, of which names and ids are known. Files are named from the root.
+#[derive(Debug)]
+pub(super) struct Since<'a> {
+    context: &'a Context,
+    repository: Repository<'a>,
+    files: BTreeMap<Utf8PathBuf, String>,
+    links: BTreeMap<Utf8PathBuf, String>,
+    /// The names of drawings, by directory.
+    drawings: BTreeMap<Utf8PathBuf, Vec<String>>,
+}
+
+/// So many links after one another are followed, as systems do.
+const MOST_LINKS: usize = 40;
+
+/// Bytes of what a link says.
+const LONGEST_LINK: u64 = 4096;
+
+impl<'a> Since<'a> {
+    /// What a revision holds, of the repository of what is checked.
+    ///
+    /// # Errors
+    /// What Git says where it cannot tell.
+    pub(super) fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
+        let revision = git::revision(context, revision)?;
+        let repository = Repository::of(context, &place(context, inputs))?;
+        let tree = repository.tree(revision);
+        let tree = tree.map_err(|reason| repository.too_shallow(revision).unwrap_or(reason))?;
+        let entries = repository.entries(&tree)?;
+        let (files, links, drawings) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let mut since = Self { context, repository, files, links, drawings };
+        for entry in entries.into_iter().filter(git::Entry::is_plain) {
+            since.add(entry.kind, entry.name.into(), entry.id);
+        }
+        Ok(since)
+    }
+
+    fn add(&mut self, kind: EntryKind, file: Utf8PathBuf, id: String) {
+        if let (Some(directory), Some(name)) = (file.parent(), file.file_name())
+            && Session::is_drawing(&file)
+        {
+            self.drawings.entry(directory.to_owned()).or_default().push(name.to_owned());
+        }
+        match kind {
+            // Git for Windows writes links as files.
+            EntryKind::Link if cfg!(unix) => self.links.insert(file, id),
+            EntryKind::File | EntryKind::Link => self.files.insert(file, id),
+            // What changed in there is not known: every file of it is new.
+            EntryKind::Submodule => None,
+        };
+    }
+
+    /// Where a file really lies.
+    fn real(&self, file: &Utf8Path) -> Utf8PathBuf {
+        self.context.system.canonical(&clean(&self.context.working_directory.join(file)))
+    }
+
+    /// Its name from the root, if it lies below.
+    fn from_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
+        Some(spelt(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
+    }
+
+    /// A file that may be what it was: where it really lies, and the id that it had.
+    fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
+        let real = self.real(file);
+        let id = self.files.get(&self.from_root(&real)?)?;
+        // Git would wait for ever for what is no regular file, and asks for one a line.
+        let is_asked = !real.as_str().contains('\n') && self.context.system.head(&real, 1).is_ok();
+        (is_asked && self.has_old_links(file, &real)).then_some((real, id))
+    }
+
+    /// Whether a file is reached through links only that were there. What those say has not changed where this is asked.
+    fn has_old_links(&self, file: &Utf8Path, real: &Utf8Path) -> bool {
+        let spelt = clean(&self.context.working_directory.join(file));
+        if spelt == real {
+            return true;
+        }
+        let mut open = vec![spelt];
+        for _ in 0..MOST_LINKS {
+            let Some(path) = open.pop() else { return true };
+            for link in path.ancestors() {
+                let Ok(target) = link.read_link_utf8() else { continue };
+                let (Some(directory), Some(name)) = (link.parent(), link.file_name()) else { return false };
+                let directory = self.context.system.canonical(directory);
+                let in_tree = self.from_root(&join(&directory, name));
+                if in_tree.is_some_and(|link| !self.links.contains_key(&link)) {
+                    return false;
+                }
+                open.push(directory.join(target));
+            }
+        }
+        false
+    }
+
+    /// A link that was there and does not lead where it led.
+    fn changed_link(&self) -> Option<Utf8PathBuf> {
+        let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
+        let mut said = Vec::new();
+        let told = self.repository.each_blob(&ids, &mut |_, bytes| {
+            let mut text = String::new();
+            bytes.take(LONGEST_LINK).read_to_string(&mut text)?;
+            said.push(text);
+            Ok(())
+        });
+        let is_known = told.is_ok();
+        let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(0..);
+        let is_same = |link: &Utf8Path, index: usize| {
+            let now = link.read_link_utf8().ok();
+            is_known
+                && now.is_some()
+                && now.as_deref().map(Utf8Path::as_str) == said.get(index).map(|it| &**it)
+        };
+        links.find(|(link, index)| !is_same(link, *index)).map(|(link, _)| link)
+    }
+
+    /// The files that say what is checked and how: those of the revision, and those that hold now.
+    fn rules(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
+        let is_rule = |file: &&Utf8PathBuf| {
+            matches!(file.file_name(), Some(FILE_NAME | ".gitignore" | ".ignore"))
+                || file.extension().is_some_and(|it| it.eq_ignore_ascii_case("cbpp"))
+        };
+        let old = self.files.keys().filter(is_rule).map(|file| self.repository.root.join(file));
+        let ignoring = directories.iter().flat_map(|directory| {
+            [".gitignore", ".ignore"].map(|name| self.context.working_directory.join(directory).join(name))
+        });
+        let settings = &self.context.settings;
+        let post = settings.directory().map(|directory| directory.join(&*settings.general.post.value.name));
+        let now = ignoring.chain(settings.file.clone()).chain(post);
+        old.chain(now.filter(|file| self.context.system.kind(file) == FileKind::File)).collect()
+    }
+}
+
+impl Past for Since<'_> {
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
+        let known: Vec<_> = files.iter().map(|file| self.known(file)).collect();
+        let asked: Vec<&Utf8Path> = known.iter().flatten().map(|(real, _)| &**real).collect();
+        let mut ids = self.repository.ids(&asked).into_iter();
+        let is_same = |(_, id): &(Utf8PathBuf, &str)| ids.next().is_some_and(|now| now == *id);
+        let same: Vec<bool> = known.iter().flatten().map(is_same).collect();
+        let mut same = same.into_iter();
+        known.iter().map(|known| known.is_none() || same.next() != Some(true)).collect()
+    }
+
+    fn drawings(&self, directory: &Utf8Path) -> &[String] {
+        let directory = self.from_root(&self.real(directory));
+        directory.and_then(|directory| self.drawings.get(&directory)).map_or(&[], Vec::as_slice)
+    }
+
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
+        let rules = self.rules(directories);
+        let changed = self.changed(&rules).into_iter().zip(rules);
+        changed
+            .filter_map(|(is_changed, rule)| is_changed.then_some(rule))
+            .next()
+            .or_else(|| self.changed_link())
+    }
+}
+
+/// The place whose repository is asked: of a stranger's tree the one that is not left, else that of the first argument, of the configuration,
+/// or of the working directory.
+fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
+    if let Some(confined) = &context.settings.confined {
+        return confined.root().to_owned();
+    }
+    let is_directory = |name: &str| context.system.kind(Utf8Path::new(name)) == FileKind::Directory;
+    let named = inputs.iter().find_map(|input| match input {
+        Input::Place(place) => Some(place),
+        Input::Name(name) => is_directory(name).then_some(Utf8Path::new(name)),
+    });
+    named.or(context.settings.directory()).unwrap_or(Utf8Path::new("")).to_owned()
 }

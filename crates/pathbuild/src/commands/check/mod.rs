@@ -4,12 +4,14 @@ mod git;
 
 use std::time::Instant;
 
-use pathbuild_workspace::check::{NotDirectories, Request};
+use pathbuild_workspace::check::{NotDirectories, Past, Request};
 
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::conclude;
+
+use git::Since;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -17,11 +19,12 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !context.has_library() {
         return context.nothing_named();
     }
-    let since = |revision: &String| git::changed_since(context, revision);
-    let changed = match args.changed_since.as_ref().map(since).transpose() {
-        Ok(changed) => changed,
+    let since = |revision: &String| Since::new(context, &args.inputs, revision);
+    let since = match args.changed_since.as_ref().map(since).transpose() {
+        Ok(since) => since,
         Err(reason) => return context.usage(&reason),
     };
+    let changed = since.as_ref().map(|since| since as &dyn Past);
     let request = Request { inputs: &args.inputs, with_all_values: args.all_bindings, changed };
     let mut session = request.session(context);
     if args.timings {

@@ -1,12 +1,16 @@
 //! Drawings as they were in a revision of Git: taken out into a directory of their own, which goes when it is no longer needed.
+#![expect(clippy::disallowed_methods, reason = "the directory is our own, among the system's temporary ones")]
 
-use std::fs;
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{self, Read};
 
-use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_workspace::config::clean;
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_workspace::config::FILE_NAME;
+use pathbuild_workspace::session::Session;
 use tempfile::TempDir;
 
-use crate::commands::git;
+use crate::commands::git::{self, Entry, EntryKind, Repository};
 use crate::context::Context;
 
 /// What was taken out.
@@ -18,30 +22,42 @@ pub(super) struct Revision {
     _files: TempDir,
 }
 
+/// Bytes of what a link says.
+const LONGEST_LINK: u64 = 4096;
+
 /// Takes out a revision of the repository that the working directory lies in. Neither that nor its index is touched.
 ///
 /// # Errors
 /// What Git says where it knows no such revision.
 pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, String> {
     let name = git::revision(context, name)?;
-    let run = |directory: &Utf8Path, index: Option<&Utf8Path>, arguments: &[&str]| {
-        git::run(context, directory, index, arguments)
-    };
-    let directory = &context.working_directory;
-    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).trim().to_owned();
-    let commit =
-        run(directory, None, &["rev-parse", "--verify", "--end-of-options", &format!("{name}^{{tree}}")])
-            .map_err(|reason| {
-                let neither = context.phrase(
-                    "{} is neither a directory nor a program nor a revision",
-                    "{} ist weder ein Verzeichnis noch ein Programm noch eine Revision",
-                    &format!("{name:?}"),
-                );
-                git::too_shallow(context, directory, name).unwrap_or_else(|| format!("{neither} ({reason})"))
-            })?;
-    let (tree, below) = (text(commit), text(run(directory, None, &["rev-parse", "--show-prefix"])?));
-    let top = clean(&directory.join(text(run(directory, None, &["rev-parse", "--show-cdup"])?)));
+    let repository = Repository::of(context, Utf8Path::new(""))?;
+    let tree = repository.tree(name).map_err(|reason| {
+        let neither = context.phrase(
+            "{} is neither a directory nor a program nor a revision",
+            "{} ist weder ein Verzeichnis noch ein Programm noch eine Revision",
+            &format!("{name:?}"),
+        );
+        repository.too_shallow(name).unwrap_or_else(|| format!("{neither} ({reason})"))
+    })?;
+    let entries = repository.entries(&tree)?;
     let files = tempfile::Builder::new().prefix("pathbuild-").tempdir().map_err(|error| error.to_string())?;
+    let place = place_of(context, &files)?;
+    let whole = place.join("tree");
+    // It is a repository as much as the one it comes from: ignore files count, and nothing is followed out of it.
+    fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
+    // What is above is another's: a tree without a configuration has this one, which says nothing.
+    File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
+    let mut taken = Taking { repository: &repository, whole: &whole, left_out: Vec::new() };
+    taken.all(&entries)?;
+    say_left_out(context, &taken.left_out);
+    let directory = context.system.canonical(&context.working_directory);
+    let below = directory.strip_prefix(&repository.root).unwrap_or(Utf8Path::new(""));
+    let root = if below.as_str().is_empty() { whole } else { whole.join(below) };
+    Ok(Revision { name: name.to_owned(), root, _files: files })
+}
+
+fn place_of(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
     let place = Utf8Path::from_path(files.path()).ok_or_else(|| {
         let reason = context.choose(
             "the directory for temporary files has no UTF-8 name",
@@ -49,19 +65,134 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
         );
         reason.to_owned()
     })?;
-    let place = place.canonicalize_utf8().map_err(|error| error.to_string())?;
-    // What is above is another's.
-    let whole = place.join("tree");
-    let index = place.join("index");
-    // It is a repository as much as the one it comes from: ignore files count, and nothing is followed out of it.
-    make_directory(&whole.join(".git"))?;
-    run(&top, Some(&index), &["read-tree", &tree])?;
-    run(&top, Some(&index), &["checkout-index", "--all", &format!("--prefix={whole}/")])?;
-    let root = if below.is_empty() { whole } else { whole.join(below.trim_end_matches('/')) };
-    Ok(Revision { name: name.to_owned(), root, _files: files })
+    place.canonicalize_utf8().map_err(|error| error.to_string())
 }
 
-#[expect(clippy::disallowed_methods, reason = "the directory is our own, among the system's temporary ones")]
-fn make_directory(place: &Utf8Path) -> Result<(), String> {
-    fs::create_dir_all(place).map_err(|error| error.to_string())
+fn say_left_out(context: &Context, left_out: &[String]) {
+    if let Some(first) = left_out.first() {
+        let reason = context.choose(
+            "drawings left out, since their names or links do not stay in the tree",
+            "Zeichnungen weggelassen, weil ihre Namen oder Links nicht im Baum bleiben",
+        );
+        let more = if left_out.len() > 1 { ", ..." } else { "" };
+        context.printer.status(format!("{reason}: {} ({first}{more})", left_out.len()));
+    }
+}
+
+/// Writes the files of a tree.
+struct Taking<'a> {
+    repository: &'a Repository<'a>,
+    whole: &'a Utf8Path,
+    /// Drawings that cannot be there.
+    left_out: Vec<String>,
+}
+
+impl Taking<'_> {
+    /// Links come last, so that no file is written through one.
+    fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
+        let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());
+        hostile.iter().for_each(|entry| self.leave_out(entry));
+        self.directories(&plain).map_err(|error| error.to_string())?;
+        let of = |kind| plain.iter().copied().filter(move |entry| entry.kind == kind);
+        let links = self.targets(of(EntryKind::Link).collect())?;
+        // Whatever a drawing is a link to has to be there.
+        let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
+            Session::is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
+        };
+        let is_all_needed = links.iter().any(leads_elsewhere);
+        let files: Vec<&Entry> =
+            of(EntryKind::File).filter(|entry| is_all_needed || is_needed(&entry.name)).collect();
+        self.files(&files)?;
+        links.iter().for_each(|(entry, target)| self.link(entry, target.as_deref()));
+        Ok(())
+    }
+
+    /// What each link says; nothing of one that says too much.
+    fn targets<'e>(&self, links: Vec<&'e Entry>) -> Result<Vec<(&'e Entry, Option<String>)>, String> {
+        let mut targets = vec![None; links.len()];
+        self.repository.each_blob(&ids(&links), &mut |index, bytes| {
+            let mut target = String::new();
+            let is_read = bytes.take(LONGEST_LINK).read_to_string(&mut target).is_ok();
+            targets[index] = is_read.then_some(target);
+            Ok(())
+        })?;
+        Ok(links.into_iter().zip(targets).collect())
+    }
+
+    /// Also those without anything that is needed: a configuration may name them.
+    fn directories(&self, entries: &[&Entry]) -> io::Result<()> {
+        let directory = |entry: &&Entry| match entry.kind {
+            EntryKind::Submodule => Some(Utf8PathBuf::from(&entry.name)),
+            EntryKind::File | EntryKind::Link => Utf8Path::new(&entry.name).parent().map(Utf8Path::to_owned),
+        };
+        let directories: BTreeSet<Utf8PathBuf> = entries.iter().filter_map(directory).collect();
+        directories.iter().try_for_each(|directory| fs::create_dir_all(self.whole.join(directory)))
+    }
+
+    fn files(&mut self, entries: &[&Entry]) -> Result<(), String> {
+        let repository = self.repository;
+        repository.each_blob(&ids(entries), &mut |index, bytes| self.file(entries[index], bytes))
+    }
+
+    fn file(&mut self, entry: &Entry, bytes: &mut dyn Read) -> io::Result<()> {
+        match File::create_new(self.whole.join(&entry.name)) {
+            Ok(mut file) => io::copy(bytes, &mut file).map(|_| ()),
+            // Two names can be one where case does not count.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                self.leave_out(entry);
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn link(&mut self, entry: &Entry, target: Option<&str>) {
+        let link = self.whole.join(&entry.name);
+        let is_made = |target| stays_inside(&entry.name, target) && link_to(target, &link).is_ok();
+        if !target.is_some_and(is_made) {
+            self.leave_out(entry);
+        }
+    }
+
+    fn leave_out(&mut self, entry: &Entry) {
+        if Session::is_drawing(Utf8Path::new(&entry.name)) {
+            self.left_out.push(entry.name.clone());
+        }
+    }
+}
+
+fn ids<'e>(entries: &[&'e Entry]) -> Vec<&'e str> {
+    entries.iter().map(|entry| &*entry.id).collect()
+}
+
+#[cfg(unix)]
+fn link_to(target: &str, link: &Utf8Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(target, link)
+}
+
+#[cfg(not(unix))]
+fn link_to(_: &str, _: &Utf8Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Drawings, and what says how they are read. A large repository may hold much else.
+fn is_needed(name: &str) -> bool {
+    let name = Utf8Path::new(name);
+    let is_text = |it: &str| ["cbpp", "toml"].iter().any(|text| it.eq_ignore_ascii_case(text));
+    Session::is_drawing(name)
+        || name.extension().is_some_and(is_text)
+        || matches!(name.file_name(), Some(".gitignore" | ".ignore"))
+}
+
+/// Whether a link leads to something below the root, whatever other links it leads through: it goes up first, through directories that are none,
+/// and then only down.
+fn stays_inside(link: &str, target: &str) -> bool {
+    let depth = Utf8Path::new(link).components().count() - 1;
+    let mut parts =
+        Utf8Path::new(target).components().filter(|part| *part != Utf8Component::CurDir).peekable();
+    let mut up = 0;
+    while parts.next_if_eq(&Utf8Component::ParentDir).is_some() {
+        up += 1;
+    }
+    up <= depth && parts.all(|part| matches!(part, Utf8Component::Normal(_)))
 }
