@@ -220,7 +220,6 @@ fn work_grows_with_what_is_wrong() {
     for (name, kind, count) in [
         ("lost texts before layers with an element for each", lost_texts as fn(usize) -> String, 300),
         ("lost texts before layers with an element for one", lost_texts_apart, 300),
-        ("lost texts in a ring", lost_in_a_ring, 1000),
         ("broken insertions of a block on many layers", broken_insertions, 150),
         ("variables that lead back to themselves", circular_variables, 300),
         ("commands that do not end", open_commands, 5000),
@@ -386,15 +385,6 @@ fn lost_texts_apart(count: usize) -> String {
 }
 
 /// Circles around as many texts, all equally far.
-fn lost_in_a_ring(count: usize) -> String {
-    let ring = |index: usize| {
-        let angle = f64::from(u32::try_from(index).unwrap());
-        let circle = circle((100.0 * angle.cos(), 100.0 * angle.sin()), 1.0).replace("PHANTOM", "CONTINUOUS");
-        circle + &text((0.5 + 1e-4 * angle, 3.0), "B1")
-    };
-    with_line(&(0..count).map(ring).collect::<String>())
-}
-
 fn broken_insertions(count: usize) -> String {
     let insert = "0\nINSERT\n8\n1202.1P\n2\nX\n10\na\n20\n0\n".repeat(count);
     let lines: String = (0..count).map(|layer| on_layer(layer, &line((0.0, 0.0), (1.0, 0.0)))).collect();
@@ -405,7 +395,7 @@ fn broken_insertions(count: usize) -> String {
 /// Each has itself as its value, and a text refers to the last often.
 fn circular_variables(count: usize) -> String {
     let names: Vec<char> = (0x4e00..).map_while(char::from_u32).take(count).collect();
-    let defined: String = names.iter().map(|name| format!(" :{name}={name},={name}")).collect();
+    let defined = names.iter().map(|name| format!(" :{name}={name},={name}")).collect::<Vec<_>>().concat();
     let drawn =
         with_line(&text((4.5, 0.0), &format!("Q{}", format!("={}", names[count - 1]).repeat(2 * count))));
     let header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1021\n0\nENDSEC\n";

@@ -289,7 +289,9 @@ mod links {
         let mark = outside.path().join("mark");
         script(&place, ".git/mark.sh", &mark);
         let names = ["post-checkout", "post-index-change", "reference-transaction", "fsmonitor-watchman"];
-        names.iter().for_each(|name| script(&place, &format!(".git/hooks/{name}"), &mark));
+        for name in names {
+            script(&place, &format!(".git/hooks/{name}"), &mark);
+        }
         let own = fs::read_to_string(place.path().join(".git/config")).unwrap();
         let configuration = "[core]\nfsmonitor = .git/mark.sh\nsshCommand = .git/mark.sh\npager = .git/mark.sh\n\
             [filter \"mark\"]\nclean = .git/mark.sh\nsmudge = .git/mark.sh\nprocess = .git/mark.sh\nrequired = true\n\

@@ -301,8 +301,7 @@ impl<'db> Walk<'db> {
                 self.report_all(instance, &[origin.at(problem)])
             }
             Outcome::NotFound(problem) => self.report_all(instance, slice::from_ref(problem)),
-            Outcome::Unlisted(problems) => self.report_all(instance, problems),
-            Outcome::Unbound(problems) => self.report_all(instance, problems),
+            Outcome::Unlisted(problems) | Outcome::Unbound(problems) => self.report_all(instance, problems),
             Outcome::Found { child, .. } if self.is_open(*child, instance) => {
                 let problem = self.cycle(&frame, *child);
                 self.report_all(instance, &[origin.at(problem)])

@@ -288,11 +288,12 @@ fn letters(number: usize) -> String {
 #[test]
 fn a_text_without_element_names_a_few_layers() {
     let layers = |empty: usize, full: usize| {
-        let empty: String = (0..empty)
-            .map(|number| format!("layer 1234.1P~A{}\nmill 0,90 40,90\n", letters(number)))
-            .collect();
-        let full: String =
-            (0..full).map(|number| format!("layer 1234.1P~B{}\nmill 0,0 40,0\n", letters(number))).collect();
+        let each = |count: usize, name: char, line: &str| {
+            let layers =
+                (0..count).map(|number| format!("layer 1234.1P~{name}{}\n{line}\n", letters(number)));
+            layers.collect::<Vec<_>>().concat()
+        };
+        let (empty, full) = (each(empty, 'A', "mill 0,90 40,90"), each(full, 'B', "mill 0,0 40,0"));
         let raw = drawing(&format!("{empty}{full}layer 1234.1P\n{}", text("20,1", "F100")));
         let notes = raw.diagnostics.iter().flat_map(|found| &found.notes);
         let notes = notes.map(|note| note.text(pathbuild_diagnostic::Lang::En));

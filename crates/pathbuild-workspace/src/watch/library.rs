@@ -149,10 +149,10 @@ impl<'a> Library<'a> {
         self.open = open.map(|drawing| (drawing.path(db).clone(), drawing)).collect();
         if self.is_behind() {
             // What is said of a directory is that it could not be listed.
-            files.iter().for_each(|path| {
+            for path in &files {
                 self.session.touch_file(path);
                 self.session.touch_directory(as_listed(path));
-            });
+            }
         }
         let again = self.open.keys().filter(|path| !update.changed.contains(*path)).cloned();
         let listed = update.before.iter().filter(|problem| !update.now.contains(problem));

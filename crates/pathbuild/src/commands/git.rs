@@ -199,7 +199,9 @@ impl<'a> Repository<'a> {
         if !self.root.as_str().is_empty() {
             command.current_dir(plain(&self.root));
         }
-        NOT_INHERITED.iter().for_each(|name| _ = command.env_remove(name));
+        for name in NOT_INHERITED {
+            command.env_remove(name);
+        }
         // The repository begins here, or there is none.
         let above = self.root.parent().map(plain).unwrap_or_default();
         command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);

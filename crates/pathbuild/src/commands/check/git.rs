@@ -70,14 +70,14 @@ impl<'a> Since<'a> {
     }
 
     /// Its name from the root, if it lies below.
-    fn from_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
+    fn below_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
         Some(spelt(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
     }
 
     /// A file that may be what it was: where it really lies, and the id that it had.
     fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
-        let id = self.files.get(&self.from_root(&real)?)?;
+        let id = self.files.get(&self.below_root(&real)?)?;
         // Git would wait for ever for what is no regular file, and asks for one a line.
         let is_asked = !real.as_str().contains('\n') && self.context.system.head(&real, 1).is_ok();
         (is_asked && self.has_old_links(file, &real)).then_some((real, id))
@@ -96,7 +96,7 @@ impl<'a> Since<'a> {
                 let Ok(target) = link.read_link_utf8() else { continue };
                 let (Some(directory), Some(name)) = (link.parent(), link.file_name()) else { return false };
                 let directory = self.context.system.canonical(directory);
-                let in_tree = self.from_root(&join(&directory, name));
+                let in_tree = self.below_root(&join(&directory, name));
                 if in_tree.is_some_and(|link| !self.links.contains_key(&link)) {
                     return false;
                 }
@@ -156,17 +156,14 @@ impl Past for Since<'_> {
     }
 
     fn drawings(&self, directory: &Utf8Path) -> &[String] {
-        let directory = self.from_root(&self.real(directory));
+        let directory = self.below_root(&self.real(directory));
         directory.and_then(|directory| self.drawings.get(&directory)).map_or(&[], Vec::as_slice)
     }
 
     fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
         let rules = self.rules(directories);
-        let changed = self.changed(&rules).into_iter().zip(rules);
-        changed
-            .filter_map(|(is_changed, rule)| is_changed.then_some(rule))
-            .next()
-            .or_else(|| self.changed_link())
+        let mut changed = self.changed(&rules).into_iter().zip(rules);
+        changed.find_map(|(is_changed, rule)| is_changed.then_some(rule)).or_else(|| self.changed_link())
     }
 }
 

@@ -43,7 +43,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
         Err(Failure::Refused(faults)) => return context.refuse(faults),
         Err(Failure::Found(problems)) => return context.fail(problems),
     };
-    finish(context, &output, comparison)
+    finish(context, &output, &comparison)
 }
 
 fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Pictures>) -> Comparison {
@@ -69,15 +69,15 @@ fn single(old: side::Seen, new: side::Seen, pictures: Option<Pictures>) -> Compa
     Comparison { paths, looked_at: 1, problems: [old.problems, new.problems] }
 }
 
-fn finish(context: &Context, output: &Output, comparison: Comparison) -> ExitStatus {
+fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitStatus {
     let findings = context.findings(comparison.problems.concat());
     match context.format {
-        Format::Json => json::rows(context, &comparison),
+        Format::Json => json::rows(context, comparison),
         format if format.is_for_machines() => {}
-        _ => context.printer.result(text::text(&comparison, context.lang())),
+        _ => context.printer.result(text::text(comparison, context.lang())),
     }
     context.show(&findings);
-    if let Err(problem) = output.deliver(context, &comparison) {
+    if let Err(problem) = output.deliver(context, comparison) {
         return context.fail(vec![*problem]);
     }
     let is_broken = |path: &PathDiff| matches!(path.outcome, Outcome::Broken | Outcome::StillBroken);

@@ -91,7 +91,9 @@ impl Taking<'_> {
     /// Links come last, so that no file is written through one.
     fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
         let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());
-        hostile.iter().for_each(|entry| self.leave_out(entry));
+        for entry in hostile {
+            self.leave_out(entry);
+        }
         self.directories(&plain).map_err(|error| error.to_string())?;
         let of = |kind| plain.iter().copied().filter(move |entry| entry.kind == kind);
         let links = self.targets(of(EntryKind::Link).collect())?;
@@ -103,7 +105,9 @@ impl Taking<'_> {
         let files: Vec<&Entry> =
             of(EntryKind::File).filter(|entry| is_all_needed || is_needed(&entry.name)).collect();
         self.files(&files)?;
-        links.iter().for_each(|(entry, target)| self.link(entry, target.as_deref()));
+        for (entry, target) in &links {
+            self.link(entry, target.as_deref());
+        }
         Ok(())
     }
 
