@@ -61,10 +61,13 @@ pub fn create(files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
 /// Nothing is left under its name where it cannot be written whole.
 fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
     file.parent().map_or(Ok(()), fs::create_dir_all)?;
-    let mut made = fs::File::create_new(file)?;
-    let written = made.write_all(content);
-    drop(made);
-    written.inspect_err(|_| _ = fs::remove_file(file))
+    let made = fs::File::create_new(file)?;
+    write_whole(made, content).inspect_err(|_| _ = fs::remove_file(file))
+}
+
+/// The file is closed then: Windows removes no open one.
+fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
+    file.write_all(content)
 }
 
 fn already_there(file: &Utf8Path) -> Diagnostic {
