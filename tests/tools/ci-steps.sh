@@ -58,7 +58,7 @@ grep -q 'error' "$place/summary.md" || fail "no summary"
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["runs"][0]["results"]' "$repository/pathbuild.sarif"
 
 github Moves > /dev/null 2> "$place/log" || fail "a path with errors ends the comparison: $(cat "$place/log")"
-grep -q '^| 2050.1P | components/2050.1P.dxf | has errors now' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
+grep -q '^| ` 2050.1P ` | ` components/2050.1P.dxf ` | has errors now' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
 
 gitlab() {
   step "$root/templates/pathbuild.gitlab-ci.yml" pathbuild script 0 > "$place/step.sh"
@@ -81,7 +81,7 @@ git checkout -qb higher
 sed -i 's/B-0.2/B-0.1/' library/components/2050.1P.dxf
 git commit -qam "Raise the bottom"
 github Moves > /dev/null 2> "$place/log" || fail "the comparison ended with an error: $(cat "$place/log")"
-grep -q '^| 8001.1P | projects/8001.1P.dxf | 0.1 mm higher' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
+grep -q '^| ` 8001.1P ` | ` projects/8001.1P.dxf ` | 0.1 mm higher' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
 grep -q '<html' "$place/temp/pathbuild-moves.html" || fail "no pictures"
 github "Link to the pictures"
 grep -q '^\[Pictures of the changes\](https://example.invalid/artifact)' "$place/summary.md" || fail "no link to the pictures"
