@@ -90,7 +90,10 @@ fn a_directory_of_other_things_is_refused_and_stays() {
     let (_directory, base) = world();
     let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
-    assert_eq!(place.refusal().map(|it| it.en), Some("it holds other things and no CACHEDIR.TAG"));
+    assert_eq!(
+        place.refusal().map(|it| it.en),
+        Some("it holds other things and no CACHEDIR.TAG of pathbuild")
+    );
     assert!(place.clean().is_err());
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     store(&place);

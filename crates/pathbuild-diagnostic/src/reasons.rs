@@ -45,11 +45,11 @@ words! {
     /// Likewise.
     NOT_LOOKED_AT: "it cannot be looked at", "es lässt sich nicht einsehen";
     /// Likewise.
-    HOLDS_OTHERS: "it holds other things and no CACHEDIR.TAG", "es enthält anderes und keine CACHEDIR.TAG";
+    HOLDS_OTHERS: "it holds other things and no CACHEDIR.TAG of pathbuild", "es enthält anderes und keine CACHEDIR.TAG von pathbuild";
     /// Likewise.
     IN_STRANGERS_TREE: "it lies in a tree that is not trusted", "es liegt in einem Baum, dem nicht getraut wird";
     /// Likewise.
-    NO_CACHE: "it has no CACHEDIR.TAG, so it is no cache", "es hat keine CACHEDIR.TAG, ist also kein Cache";
+    NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is no cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
     /// As systems say it.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Likewise.

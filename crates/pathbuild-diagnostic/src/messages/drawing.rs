@@ -188,8 +188,8 @@ messages! {
     }
     /// Too many elements around too many texts.
     TEXTS_IN_A_CROWD: LimitReached {
-        en: "the texts of this path have so many elements around them that none was looked for after {limit} comparisons",
-        de: "die Texte dieses Pfads haben so viele Elemente um sich, dass nach {limit} Vergleichen keine mehr gesucht wurden",
+        en: "too many elements lie around the texts of this path: the search for the element of each text was given up after {limit} comparisons",
+        de: "um die Texte dieses Pfads liegen zu viele Elemente: die Suche nach dem Element jedes Textes wurde nach {limit} Vergleichen abgebrochen",
         help_en: "make the texts smaller, or move them away from elements that are not theirs",
         help_de: "die Texte verkleinern, oder sie von Elementen wegschieben, die nicht ihre sind",
     }
