@@ -1,7 +1,7 @@
 //! The page: one HTML file that asks the network for nothing. Its script is written in TypeScript (page/src) and built by esbuild; what is
 //! built is committed, and CI holds it against its source.
 
-use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_diagnostic::Lang;
 
 use crate::scene::Scene;
 use crate::svg::{Shown, escaped, svg};
@@ -25,7 +25,7 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
         .replace(" id=\"", " id=\"still-")
         .replace("=\"url(#frame)", "=\"url(#still-frame)");
     // Within a script's text only `<` could end it.
-    let data = shown::json(&scene.to_json()).replace('<', "\\u003c");
+    let data = scene.to_json().replace('<', "\\u003c");
     let viewer = filled(VIEWER, &|name| match name {
         "title" => &title,
         "svg" => &still,

@@ -6,6 +6,7 @@
 mod json;
 mod moves;
 
+use pathbuild_diagnostic::shown;
 use serde::Serialize;
 
 use json::{millimetres, point, points};
@@ -328,9 +329,9 @@ impl Scene {
         }
     }
 
-    /// The scene in JSON, on one line.
+    /// The scene in JSON, on one line, with characters that act escaped: the same for every one who shows it.
     pub fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("every part of a scene is plain data")
+        shown::json(&serde_json::to_string(self).expect("every part of a scene is plain data")).into_owned()
     }
 }
 

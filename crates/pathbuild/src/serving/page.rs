@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{SourceFile, check_file, path_names};
-use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use pathbuild_view::Shown;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
@@ -52,7 +52,7 @@ impl<'a> Page<'a> {
             Some(session.scene(file, &names).judged(self.context, file_name).0)
         })?;
         Some(match form {
-            Form::Scene => shown::json(&scene.to_json()).into_owned(),
+            Form::Scene => scene.to_json(),
             Form::Picture => pathbuild_view::svg(&scene, Shown::all(self.context.lang())),
         })
     }

@@ -69,7 +69,7 @@ impl Format {
     fn bytes(self, scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
         match self {
             Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
-            Self::Json => Ok((shown::json(&scene.to_json()).into_owned() + "\n").into_bytes()),
+            Self::Json => Ok((scene.to_json() + "\n").into_bytes()),
             #[cfg(feature = "pictures")]
             Self::Png => pathbuild_view::png(scene, shown),
             #[cfg(feature = "pictures")]
