@@ -43,8 +43,6 @@ pub struct Output {
     pub warnings: Vec<Diagnostic>,
     /// The command that the definition wants to be run on the file: the program, then its arguments, for no shell.
     pub post_build: Option<Vec<String>>,
-    /// The files that are part of the text, relative to the definition's directory: the text must be made again when they change.
-    pub inserted: Vec<Box<str>>,
 }
 
 /// Larger definitions are refused unread.
@@ -89,8 +87,8 @@ impl Post {
         }
     }
 
-    /// The files that are part of every text, relative to the definition's directory. Further ones may depend on the program, see
-    /// [`Output::inserted`].
+    /// The files that are part of every text, relative to the definition's directory. Further ones may depend on the program:
+    /// [`PostOptions::files`] is asked for every one.
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
@@ -126,7 +124,6 @@ impl Post {
             notes: Vec::new(),
             warnings: self.warnings.clone(),
             post_build: None,
-            inserted: Vec::new(),
         };
         let target = target.as_ref();
         let shadow = match &self.engine {
@@ -135,7 +132,6 @@ impl Post {
                 let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
-                output.inserted = written.inserted;
                 output.note_switches(definition, job, options.spin_up);
                 written.shadow
             }

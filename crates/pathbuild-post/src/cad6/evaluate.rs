@@ -20,9 +20,8 @@ pub(super) struct Surroundings<'a> {
     pub(super) variables: &'a mut Variables,
     /// Decimals of rounded numbers.
     pub(super) decimals: usize,
-    /// Files that may be inserted, and those that were.
+    /// Files that may be inserted.
     pub(super) files: &'a dyn PostFiles,
-    pub(super) inserted: &'a mut Vec<Box<str>>,
 }
 
 /// A line of a result.
@@ -151,7 +150,6 @@ impl<'a> Evaluator<'a> {
         let content = super::insert::read(&name, self.surroundings.files).map_err(|reason| {
             Fault::new(&posts::INSERTION_REFUSED, span).with("name", name.as_str()).with("reason", reason)
         })?;
-        self.surroundings.inserted.push(name.into());
         let line = self.line();
         line.is_inserted = true;
         line.text.extend(content.iter().map(|&byte| char_of(byte)));

@@ -46,8 +46,6 @@ pub(super) struct Written {
     pub(super) shadow: String,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
-    /// Files that are part of it.
-    pub(super) inserted: Vec<Box<str>>,
 }
 
 /// Writes a job that has operations.
@@ -61,9 +59,9 @@ pub(super) fn write(
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, options, &mut runner).map_err(|error| vec![*error])?;
-    let (text, warnings, inserted) = runner.finish();
+    let (text, warnings) = runner.finish();
     let shadow = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(Written { text, shadow, warnings, inserted })
+    Ok(Written { text, shadow, warnings })
 }
 
 fn shadow(text: &[u8], units: Units) -> String {

@@ -43,7 +43,6 @@ pub(super) struct Runner<'a> {
     /// Bytes that the texts may still come to, files that are inserted apart.
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
-    pub(super) inserted: Vec<Box<str>>,
 }
 
 impl<'a> Runner<'a> {
@@ -67,7 +66,6 @@ impl<'a> Runner<'a> {
             most_bytes,
             fuel: FUEL,
             warnings: Vec::new(),
-            inserted: Vec::new(),
         }
     }
 
@@ -151,7 +149,6 @@ impl<'a> Runner<'a> {
             variables: &mut self.variables,
             decimals: self.definition.settings.decimals,
             files: self.files,
-            inserted: &mut self.inserted,
         };
         let Outcome { lines, doubts } = run(&expanded, surroundings).map_err(|mut fault| {
             fault.span = in_text(&expanded, &fault.span, text.text.len());
@@ -191,8 +188,8 @@ impl<'a> Runner<'a> {
     }
 
     /// The content of the file.
-    pub(super) fn finish(self) -> (Vec<u8>, Vec<Diagnostic>, Vec<Box<str>>) {
-        (self.text, self.warnings, self.inserted)
+    pub(super) fn finish(self) -> (Vec<u8>, Vec<Diagnostic>) {
+        (self.text, self.warnings)
     }
 }
 
