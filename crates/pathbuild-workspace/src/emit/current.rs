@@ -1,21 +1,14 @@
 //! Whether a program on disk moves as its drawing says now. (book: language/probes)
 
-use std::collections::HashMap;
-
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
-use pathbuild_db::{Db, MissingOption, Role, Target, program};
+use pathbuild_db::{Db, MissingOption, Role, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{drawing_of_title, is_title, path_of_title};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
 
 use super::Provenances;
-use super::deliver::{Delivered, OutputSettings, State, Task};
-use super::job::{Job, Maker};
-use super::making::deliver;
-use crate::config::types::SheetFormat;
-use crate::posting::PostProcessor;
 use crate::session::{Session, WantedPath};
 
 /// What a program is, held against its drawing.
@@ -58,36 +51,6 @@ pub fn current(
         Ok(None) => Current::NoDrawing { drawing: drawing.into() },
         Err(problem) => Current::Wrong(vec![*problem]),
     })
-}
-
-impl Session<'_> {
-    /// Of targets whose programs on disk are not known to be current, whether they are, or what keeps a program from being made now. They are
-    /// made once more for that: few are to be asked about.
-    pub(crate) fn why_not_current(
-        &mut self,
-        poster: Option<&PostProcessor>,
-        targets: &[Target],
-    ) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
-        let checked = self.check(targets);
-        let maker = Maker { session: self, poster, join: None, sheet: SheetFormat::No };
-        let jobs = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
-        let jobs: Vec<Job> = jobs.collect();
-        let means = OutputSettings::new(self.workspace(), poster);
-        let delivered = deliver(self, &jobs, Task::Compare { moves_only: false }, &means);
-        jobs.iter().zip(delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
-    }
-}
-
-/// Whether all files of a program are current.
-///
-/// # Errors
-/// Why there are no files, where the program was not made.
-fn is_current(delivered: Delivered) -> Result<bool, Vec<Diagnostic>> {
-    if delivered.files.is_empty() && delivered.problems.iter().any(Diagnostic::is_error) {
-        return Err(delivered.problems);
-    }
-    let is_current = |(_, state): &(_, State)| matches!(state, State::Current);
-    Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
 }
 
 /// The path of that name in the drawing that a title means.

@@ -162,12 +162,12 @@ fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
     }
 }
 
-/// Of targets whose programs lie on disk, whether these are what would be written now.
+/// Of targets whose programs lie on disk, whether these are what would be written now, or what keeps a program from being made.
 pub(crate) fn on_disk(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,
     targets: &[Target],
-) -> HashMap<Target, bool> {
+) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
     let checked = session.check(targets);
     let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
     let made = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
@@ -176,11 +176,19 @@ pub(crate) fn on_disk(
     jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File));
     let means = OutputSettings::new(session.workspace(), poster);
     let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &means);
-    let is_current = |delivered: &Delivered| {
-        delivered.files.iter().all(|(_, state)| matches!(state, State::Current))
-            && !delivered.files.is_empty()
-    };
-    jobs.iter().zip(&delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
+    jobs.iter().zip(delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
+}
+
+/// Whether all files of a program are current.
+///
+/// # Errors
+/// Why there are no files, where the program was not made.
+fn is_current(delivered: Delivered) -> Result<bool, Vec<Diagnostic>> {
+    if delivered.files.is_empty() && delivered.problems.iter().any(Diagnostic::is_error) {
+        return Err(delivered.problems);
+    }
+    let is_current = |(_, state): &(_, State)| matches!(state, State::Current);
+    Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
 }
 
 /// Which path each file was written for, by its name without regard to case.

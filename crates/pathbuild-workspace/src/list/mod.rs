@@ -4,8 +4,6 @@ mod json;
 mod row;
 mod stats;
 
-use std::collections::HashMap;
-
 use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::Diagnostic;
@@ -221,27 +219,20 @@ fn compare(
     let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
     let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
     let targets: Vec<Target> = targets.collect();
-    let states: HashMap<Target, bool> = emit::on_disk(session, poster, &targets);
-    let others: Vec<Target> =
-        targets.into_iter().filter(|target| states.get(target) == Some(&false)).collect();
-    let others = session.why_not_current(poster, &others);
+    let states = emit::on_disk(session, poster, &targets);
     let mut problems = Vec::new();
     for ((file, name), listed) in paths.iter().zip(listed) {
         let target = session.target_in(*file, name, Role::Emitted);
         listed.program = match states.get(&target) {
             None => ProgramState::None,
-            Some(true) => ProgramState::Current,
-            Some(false) => ProgramState::Stale,
-        };
-        match others.get(&target) {
-            Some(Ok(true)) => listed.program = ProgramState::Current,
+            Some(Ok(true)) => ProgramState::Current,
+            Some(Ok(false)) => ProgramState::Stale,
             Some(Err(found)) => {
-                listed.program = ProgramState::Unknown;
                 listed.diagnostics.extend_from_slice(found);
                 problems.extend_from_slice(found);
+                ProgramState::Unknown
             }
-            Some(Ok(false)) | None => {}
-        }
+        };
     }
     problems
 }
