@@ -3,6 +3,7 @@
 mod common;
 
 use common::{changes, faults, faults_with, spelled_out, trace, trace_with};
+use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect::{
     self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
 };
@@ -892,10 +893,36 @@ fn a_number_of_holes_names_its_letter() {
     for (dialect, letter) in [(LinuxCnc, "L"), (Haas, "L"), (Fanuc, "K")] {
         let program = format!("{HEAD}G0 X0 Y0 Z5\nG98 G81 X2 Z-3 R1 {letter}0 F60\nG80\nM30\n");
         let problems = interpret(program.as_bytes(), dialect, &Options::default()).problems;
-        let texts: Vec<String> = problems.iter().map(|it| it.text(pathbuild_diagnostic::Lang::En)).collect();
+        let texts: Vec<String> = problems.iter().map(|it| it.text(Lang::En)).collect();
         assert!(
             texts.iter().any(|text| text.contains(&format!("{letter}0")) || text.starts_with(letter)),
             "{texts:?}"
         );
+    }
+}
+
+/// Whole messages are in one language.
+#[test]
+fn limits_of_values_are_said_in_both_languages() {
+    let help = |program: &str, lang| {
+        let program = format!("{HEAD}{program}\nM30\n");
+        let faults = interpret(program.as_bytes(), LinuxCnc, &Options::default()).problems;
+        faults.iter().find(|fault| fault.code().name() == "value-out-of-range").unwrap().help(lang).unwrap()
+    };
+    for (program, en, de) in [
+        ("G1 X1 F-5", "F is 0 or more", "F ist 0 oder mehr"),
+        ("T-1 M6", "T is a whole number, 0 or more", "T ist eine ganze Zahl ab 0"),
+        ("G4 P-1", "P is 0 seconds or more", "P ist 0 Sekunden oder mehr"),
+        (
+            "G0 X0 Y0 Z0\nG81 X1 Z-1 R1 L0 F9",
+            "L is a whole number of holes, 1 or more",
+            "L ist eine ganze Zahl von Bohrungen ab 1",
+        ),
+        ("G0 X0 Y0 Z0\nG83 X1 Z-1 R1 Q0 F9", "Q is more than 0", "Q ist größer als 0"),
+        ("G0 X0 Y0 Z0\nG81 X1 Z1 R0 F9", "R is not below Z", "R ist nicht unter Z"),
+        ("G10 L2 P11 X0", "P is 0 to 9", "P ist 0 bis 9"),
+    ] {
+        assert_eq!(help(program, Lang::En), en, "{program}");
+        assert_eq!(help(program, Lang::De), de, "{program}");
     }
 }

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::codes::Plane;
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
+use super::limits;
 use super::state::INCH;
 use super::step::{Arc, Move, Pace, Path, Position};
 use crate::dialect::RadiusTolerance;
@@ -74,7 +75,7 @@ impl Interpreter<'_> {
         match whole(slot.value) {
             Some(turns) if (1..=MOST_TURNS).contains(&turns) => turns - 1,
             _ => {
-                self.out_of_range(block, "P", slot, "a whole number of turns from 1 to 100000");
+                self.out_of_range(block, "P", slot, &limits::TURNS);
                 0
             }
         }

@@ -7,6 +7,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::codes::{self, Cycle};
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
+use super::limits;
 use super::state::CycleState;
 use super::step::{Action, Axes, Move, Pace, Path, Position};
 use crate::read::{Block, Span};
@@ -54,7 +55,7 @@ impl Interpreter<'_> {
             return self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
                 d.with("word", "Q, L")
                     .with("value", f64::from(repeats))
-                    .with("limits", "at most 100000 moves in all")
+                    .with("limits", &limits::MOVES_OF_A_CYCLE)
             });
         }
         for _ in 0..repeats {
@@ -79,7 +80,7 @@ impl Interpreter<'_> {
             Some(repeats) if repeats >= 1 => repeats,
             _ => {
                 let letter = if letter == b'L' { "L" } else { "K" };
-                self.out_of_range(block, letter, slot, "a whole number of holes, 1 or more");
+                self.out_of_range(block, letter, slot, &limits::HOLES);
                 1
             }
         }
@@ -124,14 +125,14 @@ impl Interpreter<'_> {
         if step <= 0.0 || dwell < 0.0 {
             let (word, value) = if step <= 0.0 { ("Q", step) } else { ("P", dwell) };
             self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.with("word", word).with("value", value).with("limits", "more than 0")
+                d.with("word", word).with("value", value).with("limits", &limits::POSITIVE)
             });
             return None;
         }
         let (r, bottom) = (r?, z?);
         if bottom > r {
             self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.with("word", "R").with("value", r).with("limits", "not below Z")
+                d.with("word", "R").with("value", r).with("limits", &limits::NOT_BELOW_Z)
             });
             return None;
         }

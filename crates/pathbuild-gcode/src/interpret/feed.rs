@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 
 use super::codes::{self, Command, FeedUnit, Group};
 use super::execute::Interpreter;
+use super::limits;
 use super::state::INCH;
 use super::step::Move;
 use super::switches::SPINDLE;
@@ -44,7 +45,7 @@ impl Interpreter<'_> {
         let Some(slot) = self.words.values.peek(b'S').filter(|_| !belongs_elsewhere) else { return };
         self.words.values.take(b'S');
         if slot.value < 0.0 {
-            return self.out_of_range(block, "S", slot, "0 or more");
+            return self.out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
         }
         self.state.spindle.speed = slot.value;
         if !self.rules.layers {

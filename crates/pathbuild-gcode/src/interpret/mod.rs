@@ -14,6 +14,7 @@ mod feed;
 mod gather;
 mod geometry;
 mod guess;
+mod limits;
 mod motion;
 mod offsets;
 mod options;

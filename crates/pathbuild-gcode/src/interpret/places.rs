@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::codes::{Command, Group, Origin, WorkSystem};
 use super::execute::{Interpreter, whole};
 use super::gather::Values;
+use super::limits;
 use super::step::{Action, Axes, Change, Move, Named, Pace, Path};
 use crate::read::{Block, Span};
 
@@ -64,7 +65,7 @@ impl Interpreter<'_> {
         };
         if number > 9 {
             return self.report(block, &say::OUT_OF_RANGE, span, |d| {
-                d.with("word", "P").with("value", f64::from(number)).with("limits", "0 to 9")
+                d.with("word", "P").with("value", f64::from(number)).with("limits", &limits::OFFSETS)
             });
         }
         if self.words.values.take(b'R').is_some() {

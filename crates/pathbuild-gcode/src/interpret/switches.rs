@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::codes::{self, Command, Group};
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
+use super::limits;
 use super::step::{Action, Change, Coolant, Corners, ToolLength, Turning};
 use crate::dialect::DwellUnit;
 use crate::read::Block;
@@ -28,7 +29,7 @@ impl Interpreter<'_> {
                         self.step(block, Action::SelectTool(number));
                     }
                 }
-                None => self.out_of_range(block, "T", slot, "a whole number, 0 or more"),
+                None => self.out_of_range(block, "T", slot, &limits::COUNT),
             }
         }
         let Some((_, span)) = change else { return };
@@ -101,7 +102,7 @@ impl Interpreter<'_> {
         let time = seconds.map(|slot| (slot, slot.value));
         match time.or_else(|| self.words.values.take_slot(b'P').map(|slot| (slot, self.seconds(block, slot))))
         {
-            Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, "0 seconds or more"),
+            Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, &limits::SECONDS),
             Some((_, time)) => self.step(block, Action::Dwell(time)),
             None => self.report(block, &say::NEEDS, span, |d| d.with("word", "G4").with("missing", "P")),
         }
@@ -121,7 +122,7 @@ impl Interpreter<'_> {
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
         if whole(slot.value).is_none_or(|number| number == 0) {
-            return self.out_of_range(block, "O", slot, "a whole number, 1 or more");
+            return self.out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
         }
         if std::mem::replace(&mut self.state.stated.program_number, true) {
             self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.with("word", "O"));

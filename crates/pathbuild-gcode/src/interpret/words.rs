@@ -6,6 +6,7 @@ use super::codes::{self, Command, Motion};
 use super::evaluate::{name_of, parameter_number};
 use super::execute::Interpreter;
 use super::gather::{Setting, Slot, ValueFault};
+use super::limits;
 use super::options::UnitCodes;
 use crate::dialect::Acceptance;
 use crate::read::{Block, Op, Span, Target, Value, Word};
@@ -106,7 +107,7 @@ impl Interpreter<'_> {
             return self.report(block, &say::AXIS_NOT_FOLLOWED, slot.span, |d| d.with("word", word));
         }
         if letter == b'F' && slot.value < 0.0 {
-            return self.out_of_range(block, "F", slot, "0 or more");
+            return self.out_of_range(block, "F", slot, &limits::NOT_NEGATIVE);
         }
         if !self.words.values.set(letter, slot) {
             self.report(block, &say::LETTER_TWICE, slot.span, |d| d.with("letter", char::from(letter)));
@@ -118,7 +119,7 @@ impl Interpreter<'_> {
         block: &Block<'_>,
         word: &'static str,
         slot: Slot,
-        limits: &'static str,
+        limits: &'static pathbuild_diagnostic::Word,
     ) {
         self.report(block, &say::OUT_OF_RANGE, slot.span, |d| {
             d.with("word", word).with("value", slot.value).with("limits", limits)
