@@ -371,6 +371,27 @@ fn a_cache_that_is_a_link_is_not_used() {
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
+/// Kept results would lie elsewhere, without a word.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_cache_whose_name_is_no_utf_8_is_refused() {
+    let place = library();
+    let with = |name: &[u8]| {
+        let name: &OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
+        let mut command = crate::support::program();
+        command.args(["check"]).current_dir(place.path()).env("PATHBUILD_CACHE_DIR", name);
+        let output = command.env("XDG_CACHE_HOME", place.caches()).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (status, stderr) = with(b"caf\xe9");
+    assert_eq!(status, Some(2), "{stderr}");
+    assert!(stderr.contains("PATHBUILD_CACHE_DIR: it is not UTF-8"), "{stderr}");
+    assert!(!place.cache().exists());
+    let (status, stderr) = with("café".as_bytes());
+    assert_eq!(status, Some(1), "{stderr}");
+    assert!(place.path().join("café").exists());
+}
+
 #[test]
 fn several_processes_at_once_do_each_other_no_harm() {
     let place = library();

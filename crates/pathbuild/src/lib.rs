@@ -96,7 +96,7 @@ fn execute(cli: &Cli) -> ExitStatus {
         return watching::run(cli, args);
     }
     let (context, faults) = context_of(cli);
-    if let Some(refusal) = context.output.refusal(&context) {
+    if let Some(refusal) = refusal(&context) {
         let status = context.usage(&refusal);
         return context.printer.finish(status);
     }
@@ -109,6 +109,11 @@ fn execute(cli: &Cli) -> ExitStatus {
     };
     let status = context.end(status);
     context.printer.finish(status)
+}
+
+/// Why options or the environment ask for what there is not.
+fn refusal(context: &Context) -> Option<String> {
+    context.output.refusal(context).or_else(|| surroundings::refusal(context))
 }
 
 /// Who works in a tree with a configuration expects that it holds: where it does not, that is said.

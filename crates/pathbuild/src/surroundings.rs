@@ -4,12 +4,15 @@
     reason = "the environment is asked where a person's own files are, which no result depends on"
 )]
 
-use std::env;
+use std::env::{self, VarError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Lang;
-use pathbuild_workspace::CacheHome;
 use pathbuild_workspace::config::clean;
+use pathbuild_workspace::{CacheHome, Workspace};
+
+/// Names the directory of kept results, as `--cache-dir` does.
+const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
 
 /// A person's `config.toml`, there or not; `None` where nobody says where it would be.
 pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
@@ -34,6 +37,12 @@ pub(crate) fn lang() -> Option<Lang> {
     }
 }
 
+/// Why the environment asks for what there is not: kept results would lie elsewhere than its owner believes.
+pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
+    let is_unreadable = matches!(env::var(CACHE_DIR), Err(VarError::NotUnicode(_)));
+    is_unreadable.then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR))
+}
+
 /// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the person's own, which `config.toml` may name; `None` where nobody says
 /// where it is.
 pub(crate) fn cache_home(
@@ -41,7 +50,7 @@ pub(crate) fn cache_home(
     configured: Option<Utf8PathBuf>,
     working_directory: &Utf8Path,
 ) -> Option<CacheHome> {
-    let named = named.map(Utf8Path::to_owned).or_else(|| directory("PATHBUILD_CACHE_DIR"));
+    let named = named.map(Utf8Path::to_owned).or_else(|| directory(CACHE_DIR));
     match named {
         Some(named) => Some(CacheHome::Named(clean(&working_directory.join(named)))),
         None => configured.or_else(user_caches).map(CacheHome::User),

@@ -6,11 +6,11 @@ use std::time::Duration;
 use crate::args::{Cli, WatchArgs};
 use crate::commands::watch;
 use crate::context::Context;
-use crate::context_of;
 use crate::exit::ExitStatus;
 use crate::say_configuration_not_used;
 use crate::serving::Server;
 use crate::surroundings::user_configuration;
+use crate::{context_of, refusal};
 use camino::Utf8PathBuf;
 
 /// How often a configuration that is wrong is looked at.
@@ -25,7 +25,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         // Before it is read for good: what changes from here on is noticed.
         let sources = Sources::of(&context_of(cli).0);
         let (context, faults) = context_of(cli);
-        if let Some(refusal) = context.output.refusal(&context) {
+        if let Some(refusal) = refusal(&context) {
             let status = context.usage(&refusal);
             return context.printer.finish(status);
         }
