@@ -259,6 +259,24 @@ fn work_grows_with_what_a_program_uses() {
     }
 }
 
+/// The same with probes: each move asks for those that are near.
+#[test]
+fn work_grows_with_the_probes() {
+    for model in ["idw4", "tin"] {
+        let settings = format!("feed = 150\nrapid = 1000\nsweep-height = 40\nz-model = \"{model}\"\n");
+        let time = |count: usize| {
+            let place = Place::new().file("pathbuild.toml", &settings).file("1202.1P.dxf", probed(count));
+            let begun = time_of_runs();
+            let run = place.run("emit 1202.1P.dxf");
+            assert!(run.stderr.contains("_Probing.gcode: written"), "{model}: {run}");
+            time_of_runs().saturating_sub(begun)
+        };
+        let least = |count: usize| time(count).min(time(count));
+        let (one, four) = (least(1000), least(4000));
+        assert!(four < one * 6 + Duration::from_millis(500), "{model}: {one:?}, {four:?}");
+    }
+}
+
 /// What the runs so far took of the processors: other work on the machine is no part of it. Where the system does not tell, what time it is.
 fn time_of_runs() -> Duration {
     static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
@@ -310,6 +328,17 @@ fn star(count: usize) -> String {
 
 fn chain(count: usize) -> String {
     entities(&(0..count).map(|index| line(at(index), at(index + 1))).collect::<String>(), at(count))
+}
+
+/// A chain, half of it among as many probes, in rows of 20.
+fn probed(count: usize) -> String {
+    let place = |index: usize| {
+        let [row, place] = [index / 20, index % 20].map(|it| 8.0 * f64::from(u32::try_from(it).unwrap()));
+        circle((row, 4.25 + place), 3.0)
+    };
+    let probes: String = (0..count).map(place).collect();
+    let lines: String = (0..count).map(|index| line(at(index), at(index + 1))).collect();
+    entities(&(probes + &lines), at(count))
 }
 
 /// Ends that do not quite meet.

@@ -26,7 +26,7 @@ fn grid() -> Vec<(f64, f64)> {
 /// Weights at a point, one for each probe.
 fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     let mut all = vec![0.0; points.len()];
-    for (probe, weight) in Surface::new(model, places(points)).weights(Xy::new(at.0, at.1)) {
+    for (probe, weight) in Surface::new(model, &places(points)).weights(Xy::new(at.0, at.1)) {
         all[probe] += weight;
     }
     all
@@ -157,7 +157,7 @@ fn places_far_out_do_no_harm() {
             assert_eq!(weights(model, &points, (1.0, 2.0)).len(), 5);
         }
     }
-    assert!(Surface::new(ZModel::Tin, Vec::new()).weights(Xy::origin()).is_empty());
+    assert!(Surface::new(ZModel::Tin, &[]).weights(Xy::origin()).is_empty());
 }
 
 // Programs.
@@ -444,4 +444,33 @@ fn fewer_than_three_probes_have_nothing_inside() {
 fn as_many_pieces_as_nobody_can_store_are_counted_without_making_them() {
     let program = program(&grid(), vec![line((1e300, 0.0), 1.0, (0.0, 0.0)); 3]);
     assert_eq!(TIN.count(&program), u64::MAX);
+}
+
+/// Points anywhere, the same in every run.
+fn scattered(count: usize, mut seed: u64) -> Vec<(f64, f64)> {
+    let mut coordinate = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from((seed >> 40) as u32 % 4000) / 16.0 - 100.0
+    };
+    (0..count).map(|_| (coordinate(), coordinate())).collect()
+}
+
+/// Probes are found by where they lie: the four nearest are those that a look at all of them finds, the first ones where equally near.
+#[test]
+fn the_four_nearest_are_found_wherever_they_lie() {
+    for (points, seed) in
+        [(grid(), 1), (scattered(300, 2), 3), (vec![(5.0, 5.0); 9], 4), (scattered(3, 5), 6)]
+    {
+        let model = Surface::new(ZModel::Idw4, &places(&points));
+        for at in points.iter().copied().chain(scattered(200, seed)) {
+            let weight = |(x, y): &(f64, f64)| 1.0 / ((Xy::new(*x, *y) - Xy::new(at.0, at.1)).norm() + 0.001);
+            let mut all: Vec<(usize, f64)> = points.iter().map(weight).enumerate().collect();
+            all.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+            all.truncate(4);
+            let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
+            let expected: Vec<(usize, f64)> =
+                all.iter().map(|(probe, weight)| (*probe, weight / sum)).collect();
+            assert_eq!(model.weights(Xy::new(at.0, at.1)), expected, "{at:?}");
+        }
+    }
 }

@@ -94,7 +94,7 @@ fn folded<P: Parts>(
     fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
     program.names = fold.names;
-    program.probes = probes::in_order(fold.probes);
+    program.probes = probes::in_order(&fold.probes);
     (program, fold.trace)
 }
 

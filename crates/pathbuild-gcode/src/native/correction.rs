@@ -21,10 +21,10 @@ const NOTHING: f64 = 0.000_000_5;
 impl<'a> Formulas<'a> {
     /// `None` for a program without probes.
     pub(super) fn new(program: &'a Program, correction: Correction) -> Option<Self> {
-        let places = program.probes.iter().map(|probe| probe.at).collect();
+        let places: Vec<_> = program.probes.iter().map(|probe| probe.at).collect();
         (!program.probes.is_empty()).then(|| Self {
             probes: &program.probes,
-            surface: Surface::new(correction.model, places),
+            surface: Surface::new(correction.model, &places),
             is_rounded: correction.is_compatible(),
         })
     }

@@ -44,11 +44,11 @@ enum Model {
 
 impl Surface {
     /// Fits a model to probes at these places.
-    pub fn new(model: ZModel, places: Vec<Xy>) -> Self {
+    pub fn new(model: ZModel, places: &[Xy]) -> Self {
         let model = match model {
             ZModel::Idw4 => Model::Nearest(Nearest::new(places)),
-            ZModel::Plane => Model::Plane(Plane::new(&places)),
-            ZModel::Tin => Model::Tin(Tin::new(&places)),
+            ZModel::Plane => Model::Plane(Plane::new(places)),
+            ZModel::Tin => Model::Tin(Tin::new(places)),
         };
         Self { model }
     }

@@ -2,6 +2,8 @@ use std::collections::BTreeMap;
 
 use delaunator::{Point, triangulate};
 use pathbuild_path::Xy;
+use rstar::primitives::{GeomWithData, Line, Rectangle};
+use rstar::{AABB, RTree};
 
 /// Triangles between the probes.
 #[derive(Clone, Debug)]
@@ -10,6 +12,10 @@ pub(crate) struct Tin {
     triangles: Vec<[usize; 3]>,
     /// The edges of the hull; the pieces of the line where all probes lie on one.
     border: Vec<[usize; 2]>,
+    /// Where the triangles lie, by number.
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    /// Where the edges lie, by number.
+    edges: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
 }
 
 /// One or more probes at one place.
@@ -22,6 +28,9 @@ struct ProbedPoint {
 /// How far outside a triangle a point may seem to be, as a part of the triangle, and still be taken for inside.
 const ROUNDING: f64 = 1e-9;
 
+/// Edges whose distances in mm² differ by less are as near as each other for the tree; their own distances decide.
+const AS_NEAR: f64 = 1e-12;
+
 impl Tin {
     pub(crate) fn new(probes: &[Xy]) -> Self {
         let places = places(probes);
@@ -32,26 +41,36 @@ impl Tin {
         if let ([first, .., last], false) = (&*net.hull, triangles.is_empty()) {
             border.push([*last, *first]);
         }
-        Self { places, triangles, border }
+        let corner = |place: &usize| [places[*place].at.x, places[*place].at.y];
+        let boxes = triangles.iter().map(|corners| wide(AABB::from_points(&corners.each_ref().map(corner))));
+        let edges =
+            border.iter().map(|edge| edge.each_ref().map(corner)).map(|[from, to]| Line::new(from, to));
+        Self { boxes: numbered(boxes), edges: numbered(edges), places, triangles, border }
     }
 
     pub(crate) fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
-        let inside = self.triangles.iter().find_map(|corners| Some((corners, self.inside(*corners, at)?)));
-        match inside {
-            Some((corners, parts)) => self.shared(corners.iter().copied().zip(parts)),
+        match self.around(at) {
+            Some((number, parts)) => self.shared(self.triangles[number].into_iter().zip(parts)),
             None => self.on_border(at),
         }
     }
 
     /// How far a point is from the triangles (or from the line, or the one probe), in mm; 0 inside.
     pub(crate) fn distance(&self, at: Xy) -> f64 {
-        if self.triangles.iter().any(|corners| self.inside(*corners, at).is_some()) {
+        if self.around(at).is_some() {
             return 0.0;
         }
         match self.nearest(at) {
             Some((_, _, distance)) => distance,
             None => self.places.first().map_or(0.0, |place| (place.at - at).norm()),
         }
+    }
+
+    /// The triangle around a point, the first of several, and the parts that its corners have in the point.
+    fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
+        let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
+        let around = near.filter_map(|it| Some((it.data, self.inside(self.triangles[it.data], at)?)));
+        around.min_by_key(|(number, _)| *number)
     }
 
     /// The parts that a triangle's corners have in a point inside it.
@@ -74,13 +93,21 @@ impl Tin {
 
     /// The nearest edge, the part of it at which its nearest point lies, and the distance; the first of several.
     fn nearest(&self, at: Xy) -> Option<([usize; 2], f64, f64)> {
-        let edges = self.border.iter().map(|edge| {
-            let [start, end] = edge.map(|place| self.places[place].at);
-            let way = end - start;
-            let along = ((at - start).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
-            (*edge, along, (start + way * along - at).norm())
-        });
-        edges.reduce(|best, other| if other.2 < best.2 { other } else { best })
+        let mut near = self.edges.nearest_neighbor_iter_with_distance_2([at.x, at.y]).peekable();
+        let (_, least) = *near.peek()?;
+        let near = near.take_while(|(_, distance)| *distance <= least * (1.0 + ROUNDING) + AS_NEAR);
+        let nearest = near.map(|(edge, _)| (self.along(edge.data, at), edge.data));
+        let first =
+            nearest.min_by(|((_, a), first), ((_, b), second)| a.total_cmp(b).then(first.cmp(second)));
+        first.map(|((along, distance), edge)| (self.border[edge], along, distance))
+    }
+
+    /// The part of an edge at which its nearest point lies, and how far that is.
+    fn along(&self, edge: usize, at: Xy) -> (f64, f64) {
+        let [start, end] = self.border[edge].map(|place| self.places[place].at);
+        let way = end - start;
+        let along = ((at - start).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+        (along, (start + way * along - at).norm())
     }
 
     /// Probes at one place share its part.
@@ -93,6 +120,18 @@ impl Tin {
         weights.sort_unstable_by_key(|(probe, _)| *probe);
         weights
     }
+}
+
+/// So much wider than what lies in it that no point is missed that seems to be inside.
+fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
+    let (lower, upper) = (tight.lower(), tight.upper());
+    let margin = 4.0 * ROUNDING * (upper[0] - lower[0]).max(upper[1] - lower[1]);
+    Rectangle::from_corners(lower.map(|it| it - margin), upper.map(|it| it + margin))
+}
+
+/// Shapes by where they lie, each with its number.
+fn numbered<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
+    RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }
 
 /// The places of probes. Probes whose places a program would write alike are at one.
