@@ -42,6 +42,9 @@ pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, &mut dyn Read) -> io::Re
 /// Bytes of a `.git` that is a file, and of what Git says before a blob.
 const LONGEST_LINE: u64 = 4096;
 
+/// Bytes of what a link says.
+const LONGEST_LINK: u64 = 4096;
+
 /// Other repositories than the one that was found are not asked, whatever the environment says: in a hook it names that of the hook.
 const NOT_INHERITED: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
@@ -132,6 +135,21 @@ impl<'a> Repository<'a> {
         self.fed(&["cat-file", "--batch"], lines.as_bytes(), |mut answers| {
             (0..ids.len()).try_for_each(|index| blob(&mut answers, &mut |bytes| take(index, bytes)))
         })
+    }
+
+    /// What links say, by the ids of their blobs; nothing of one that says too much, or is no UTF-8.
+    ///
+    /// # Errors
+    /// One is not there.
+    pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
+        let mut targets = Vec::with_capacity(ids.len());
+        self.each_blob(ids, &mut |_, bytes| {
+            let mut target = String::new();
+            let is_read = bytes.take(LONGEST_LINK).read_to_string(&mut target).is_ok();
+            targets.push(is_read.then_some(target));
+            Ok(())
+        })?;
+        Ok(targets)
     }
 
     /// The ids that the bytes of files have as blobs; fewer where one of them cannot be read. They must be regular files without line breaks in

@@ -1,7 +1,6 @@
 //! `check --changed-since REV`: what changed since a revision of Git.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join, spelt};
@@ -26,9 +25,6 @@ pub(super) struct Since<'a> {
 
 /// So many links after one another are followed, as systems do.
 const MOST_LINKS: usize = 40;
-
-/// Bytes of what a link says.
-const LONGEST_LINK: u64 = 4096;
 
 impl<'a> Since<'a> {
     /// What a revision holds, of the repository of what is checked.
@@ -109,22 +105,13 @@ impl<'a> Since<'a> {
     /// A link that was there and does not lead where it led.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
-        let mut said = Vec::new();
-        let told = self.repository.each_blob(&ids, &mut |_, bytes| {
-            let mut text = String::new();
-            bytes.take(LONGEST_LINK).read_to_string(&mut text)?;
-            said.push(text);
-            Ok(())
-        });
-        let is_known = told.is_ok();
-        let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(0..);
-        let is_same = |link: &Utf8Path, index: usize| {
-            let now = link.read_link_utf8().ok();
-            is_known
-                && now.is_some()
-                && now.as_deref().map(Utf8Path::as_str) == said.get(index).map(|it| &**it)
+        // What cannot be told has changed.
+        let targets = self.repository.targets(&ids).unwrap_or_else(|_| vec![None; ids.len()]);
+        let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(targets);
+        let is_same = |link: &Utf8Path, target: Option<&str>| {
+            target.is_some() && link.read_link_utf8().ok().as_deref().map(Utf8Path::as_str) == target
         };
-        links.find(|(link, index)| !is_same(link, *index)).map(|(link, _)| link)
+        links.find(|(link, target)| !is_same(link, target.as_deref())).map(|(link, _)| link)
     }
 
     /// The files that say what is checked and how: those of the revision, and those that hold now.

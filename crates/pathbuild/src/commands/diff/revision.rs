@@ -22,9 +22,6 @@ pub(super) struct Revision {
     _files: TempDir,
 }
 
-/// Bytes of what a link says.
-const LONGEST_LINK: u64 = 4096;
-
 /// Takes out a revision of the repository that the working directory lies in. Neither that nor its index is touched.
 ///
 /// # Errors
@@ -96,7 +93,9 @@ impl Taking<'_> {
         }
         self.directories(&plain).map_err(|error| error.to_string())?;
         let of = |kind| plain.iter().copied().filter(move |entry| entry.kind == kind);
-        let links = self.targets(of(EntryKind::Link).collect())?;
+        let links: Vec<&Entry> = of(EntryKind::Link).collect();
+        let targets = self.repository.targets(&ids(&links))?;
+        let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
         // Whatever a drawing is a link to has to be there.
         let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
             Session::is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
@@ -109,18 +108,6 @@ impl Taking<'_> {
             self.link(entry, target.as_deref());
         }
         Ok(())
-    }
-
-    /// What each link says; nothing of one that says too much.
-    fn targets<'e>(&self, links: Vec<&'e Entry>) -> Result<Vec<(&'e Entry, Option<String>)>, String> {
-        let mut targets = vec![None; links.len()];
-        self.repository.each_blob(&ids(&links), &mut |index, bytes| {
-            let mut target = String::new();
-            let is_read = bytes.take(LONGEST_LINK).read_to_string(&mut target).is_ok();
-            targets[index] = is_read.then_some(target);
-            Ok(())
-        })?;
-        Ok(links.into_iter().zip(targets).collect())
     }
 
     /// Also those without anything that is needed: a configuration may name them.
