@@ -6,14 +6,17 @@ mod said;
 
 use std::fmt;
 use std::fs;
+use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 use pathbuild_testkit::Fixture;
 pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
 pub use said::Said;
 use tempfile::TempDir;
+use wait4::Wait4 as _;
 
 /// A directory with files in it, in which the program is run.
 pub struct Place {
@@ -92,11 +95,37 @@ impl Place {
 
     /// Runs `pathbuild` in a directory below.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
+        self.said(arguments, self.command(directory, arguments).output().unwrap())
+    }
+
+    /// Runs `pathbuild` with arguments that are separated by blanks; with the time that this run, and nothing else, took of the processors.
+    pub fn run_timed(&self, arguments: &str) -> (Run, Duration) {
+        let arguments: Vec<&str> = arguments.split_whitespace().collect();
+        // Files: who waits for the end reads no pipe meanwhile.
+        let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().unwrap());
+        let mut command = self.command(".", &arguments);
+        command.stdout(stdout.try_clone().unwrap()).stderr(stderr.try_clone().unwrap());
+        let used = command.spawn().unwrap().wait4().unwrap();
+        let [stdout, stderr] = [&mut stdout, &mut stderr].map(|file| {
+            let mut bytes = Vec::new();
+            file.rewind().unwrap();
+            file.read_to_end(&mut bytes).unwrap();
+            bytes
+        });
+        let output = Output { status: used.status, stdout, stderr };
+        (self.said(&arguments, output), used.rusage.utime + used.rusage.stime)
+    }
+
+    fn command(&self, directory: &str, arguments: &[&str]) -> Command {
         let mut program = program();
         let (caches, configurations) =
             if cfg!(windows) { ("LOCALAPPDATA", "APPDATA") } else { ("XDG_CACHE_HOME", "XDG_CONFIG_HOME") };
         program.env(caches, self.caches.path()).env(configurations, self.configurations.path());
-        let output = program.args(arguments).current_dir(self.path().join(directory)).output().unwrap();
+        program.args(arguments).current_dir(self.path().join(directory));
+        program
+    }
+
+    fn said(&self, arguments: &[&str], output: Output) -> Run {
         let text = |bytes: Vec<u8>| {
             let text = String::from_utf8(bytes).unwrap().replace(&shown(self.path()), "<PLACE>");
             let text = text.replace(&shown(&self.cache()), "<CACHE>");

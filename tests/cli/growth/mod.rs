@@ -1,0 +1,99 @@
+//! Work grows with the input: four times as much takes at most six times as long, and a little more. (docs/reliability.md)
+
+pub mod drawings;
+
+use std::time::Duration;
+
+use drawings::{
+    broken_insertions, chain, circular_variables, fan, fan_behind_gap, gaps, lost_texts, lost_texts_apart,
+    open_commands, polyline, probed, spots, star,
+};
+
+use crate::support::{Place, Run};
+
+type Drawing = fn(usize) -> String;
+
+const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 40\nspindle = \"manual\"\n";
+
+#[test]
+fn work_grows_with_what_is_drawn() {
+    for (name, drawing, count) in [
+        ("a fan of lines", fan as Drawing, 1000),
+        ("a star with turn markers", star, 500),
+        ("a long chain", chain, 1000),
+        ("a chain with gaps", gaps, 500),
+        ("a chain with gaps to and fro between two spots", spots, 1000),
+        ("lines on each other behind a gap", fan_behind_gap, 1000),
+        ("a polyline", polyline, 1000),
+    ] {
+        let place = |count| drawn("join-tolerance = 0.01\n", &drawing(count));
+        for run in of_one_and_four(name, count, place, "emit 1202.1P.dxf --format concise") {
+            assert_eq!(run.status, Some(0), "{name}: {run}");
+        }
+    }
+}
+
+/// The same where something is wrong with each thing; what is said grows with it as well.
+#[test]
+fn work_grows_with_what_is_wrong() {
+    for (name, drawing, count) in [
+        ("lost texts before layers with an element for each", lost_texts as Drawing, 300),
+        ("lost texts before layers with an element for one", lost_texts_apart, 300),
+        ("broken insertions of a block on many layers", broken_insertions, 150),
+        ("variables that lead back to themselves", circular_variables, 300),
+        ("commands that do not end", open_commands, 5000),
+    ] {
+        let place = |count| drawn("[limits]\ntext-length = 1_000_000\n", &drawing(count));
+        let runs = of_one_and_four(name, count, place, "check 1202.1P.dxf --format concise");
+        let [few, many] = runs.map(|run| {
+            assert!(matches!(run.status, Some(0 | 1)), "{name}: {run}");
+            run.stdout.len() + run.stderr.len()
+        });
+        assert!(many < 6 * few + 10_000, "{name}: {few}, {many}");
+    }
+}
+
+/// The same with programs: tools and feeds are noted once each.
+#[test]
+fn work_grows_with_what_a_program_uses() {
+    let tool = |number: usize| format!("T{0} M6\nG0 X{0}\nG1 Z9 F100\nG0 Z10\n", number + 1);
+    let feed = |number: usize| format!("G1 X{number} F{}\n", number + 1);
+    for (name, kind) in [("tools", &tool as &dyn Fn(usize) -> String), ("feeds", &feed)] {
+        let place = |count| {
+            let head = "G17 G21 G40 G49 G54 G80 G90 G94\nT1 M6\nM3 S1000\nG0 Z10\n";
+            let lines: String = (0..count).map(kind).collect();
+            Place::new().file("a.gcode", format!("{head}{lines}M30\n"))
+        };
+        for run in of_one_and_four(name, 2000, place, "import a.gcode --dialect linuxcnc") {
+            assert!(!run.stdout.is_empty(), "{name}: {run}");
+        }
+    }
+}
+
+/// The same with probes: each move asks for those that are near.
+#[test]
+fn work_grows_with_the_probes() {
+    for model in ["idw4", "tin"] {
+        let place = |count| drawn(&format!("z-model = \"{model}\"\n"), &probed(count));
+        for run in of_one_and_four(model, 1000, place, "emit 1202.1P.dxf") {
+            assert!(run.stderr.contains("_Probing.gcode: written"), "{model}: {run}");
+        }
+    }
+}
+
+fn drawn(settings: &str, drawing: &str) -> Place {
+    Place::new().file("pathbuild.toml", format!("{CONFIGURATION}{settings}")).file("1202.1P.dxf", drawing)
+}
+
+/// A run with so much and one with four times as much; the latter must not take too long for that.
+#[track_caller]
+fn of_one_and_four(name: &str, count: usize, place: impl Fn(usize) -> Place, arguments: &str) -> [Run; 2] {
+    // The better of two: what else goes on makes a processor slower.
+    let better = |count: usize| {
+        let [one, other] = [(); 2].map(|()| place(count).run_timed(arguments));
+        if one.1 < other.1 { one } else { other }
+    };
+    let ((few, one), (many, four)) = (better(count), better(4 * count));
+    assert!(four < one * 6 + Duration::from_millis(500), "{name}: {one:?}, {four:?}");
+    [few, many]
+}
