@@ -7,6 +7,7 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect::{
     self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
 };
+use pathbuild_gcode::dialect::is_active_comment;
 use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
 
 const HEAD: &str = "G17 G21 G90 G94\n";
@@ -854,7 +855,13 @@ fn numbers_without_a_point_are_doubtful_where_they_may_count_thousandths() {
 fn linuxcnc_obeys_some_comments() {
     assert_eq!(wrong(LinuxCnc, "(LOGOPEN,a.txt)"), ["2 active-comment"]);
     assert_eq!(wrong(LinuxCnc, ";py,run()"), ["2 active-comment"]);
+    assert_eq!(wrong(LinuxCnc, "(PROBEOPEN a.txt)"), ["2 active-comment"]);
     assert_eq!(wrong(LinuxCnc, "( probeopen , a)"), ["2 active-comment"]);
+    for obeyed in ["PYRUN,a.py", "PYRELOAD", "LOG,a", "LOGAPPEND,a", "LOGCLOSE", "PROBECLOSE", "ABORT,a"] {
+        assert_eq!(wrong(LinuxCnc, &format!("({obeyed})")), ["2 active-comment"], "{obeyed}");
+        assert!(is_active_comment(obeyed), "{obeyed}");
+    }
+    assert_eq!(wrong(LinuxCnc, "(Pyramid)\n(Logo, abortive)\n(Preview)"), FINE);
     assert_eq!(wrong(LinuxCnc, "(drawing LOGOPEN,a)\n(LOGOPENING)\n(MSG, hello)"), FINE);
     assert_eq!(wrong(Native, "(LOGOPEN,a.txt)"), ["2 active-comment"], "LinuxCNC runs native programs");
     assert_eq!(wrong(Grbl, "(LOGOPEN,a.txt)"), FINE);

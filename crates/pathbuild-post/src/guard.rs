@@ -25,7 +25,8 @@ impl<'a> Guard<'a> {
         let plain = within_comment(text, self.target.map(|target| target.reader), self.charset);
         let is_title = line.trim_start().starts_with('%');
         match self.open_comment(line) {
-            Some(before) => {
+            Some((before, close)) => {
+                let plain = unclosing(&plain, close);
                 let all = format!("{before}{plain}");
                 let guard = if is_active_comment(&all) && !is_active_comment(before) { GUARD } else { "" };
                 Some(format!("{guard}{plain}"))
@@ -35,8 +36,8 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// The text of the comment that is open at the end of a line.
-    fn open_comment<'l>(&self, line: &'l str) -> Option<&'l str> {
+    /// The text of the comment that is open at the end of a line, and the sign that closes it.
+    fn open_comment<'l>(&self, line: &'l str) -> Option<(&'l str, &str)> {
         let mut at = 0;
         while let Some(c) = line[at..].chars().next() {
             match self.marks_at(&line[at..]) {
@@ -45,7 +46,7 @@ impl<'a> Guard<'a> {
                     let inside = &line[at + open..];
                     match inside.find(close).filter(|_| !close.is_empty()) {
                         Some(end) => at += open + end + close.len(),
-                        None => return Some(inside),
+                        None => return Some((inside, close)),
                     }
                 }
             }
@@ -65,8 +66,16 @@ impl<'a> Guard<'a> {
 /// What stands in front of a text that a control would take for a command to itself.
 const GUARD: &str = "text: ";
 
-/// Whether a text says nothing to a control outside comments either.
+/// A text with nothing of the sign that closes its comment: a definition's own may be any.
+fn unclosing(text: &str, close: &str) -> String {
+    let instead = if close.contains(' ') { "_" } else { " " };
+    text.replace(|c| close.contains(c), instead)
+}
+
+/// Whether a text says nothing to a control outside comments either, and opens none.
 fn is_inert(text: &str, marks: &CommentMarks) -> bool {
     words(text, marks).words.is_empty()
         && !text.contains(['#', '[', ']', '%', '$', '{', '}', '"', '<', '>', '='])
+        && !text.contains(|c| marks.open.contains(c))
+        && !text.contains("//")
 }

@@ -69,25 +69,33 @@ pub fn ascii(text: &str) -> String {
     ascii
 }
 
-/// Whether a control acts on a comment with this text: it opens a file, prints, or runs a program.
+/// Whether a control acts on a comment with this text: it opens a file, prints, hides moves or runs a program.
 pub fn is_active_comment(text: &str) -> bool {
-    let text: String = text.chars().filter(|c| !c.is_whitespace()).take(LONGEST_WORD).collect();
-    ACTIVE.iter().any(|word| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word)))
+    beginning_of(text, OBEYED).or_else(|| beginning_of(text, SHOWN)).is_some()
 }
 
-/// What active comments begin with, blanks aside.
-const ACTIVE: [&str; 12] = [
-    "MSG",
-    "DEBUG",
-    "PRINT",
-    "LOG",
+/// The word with which a comment begins, blanks and capitals aside.
+pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'static str> {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).take(LONGEST_WORD).collect();
+    let begins = |word: &str| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    words.iter().copied().find(|word| begins(word))
+}
+
+/// What LinuxCNC obeys: it writes files, runs programs or stops. With the comma where it acts with one only.
+pub(super) const OBEYED: &[&str] = &[
+    "LOG,",
+    "LOGOPEN,",
+    "LOGAPPEND,",
+    "LOGCLOSE",
     "PROBEOPEN",
     "PROBECLOSE",
     "PY,",
-    "ABORT",
-    "AXIS",
-    "STAT",
-    "TOUCH",
-    "PAUSE",
+    "PYRUN,",
+    "PYRELOAD",
+    "ABORT,",
 ];
+
+/// What changes what somebody sees, at one control or another: messages, and which moves a preview shows.
+const SHOWN: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];
+
 const LONGEST_WORD: usize = 16;

@@ -11,6 +11,7 @@ use std::fmt;
 use std::str::FromStr;
 
 pub use codes::{Acceptance, Letters, Words};
+pub(crate) use comment::beginning_of;
 pub use comment::{ascii, is_active_comment, within_comment};
 pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};

@@ -2,6 +2,7 @@
 
 use super::Dialect;
 use super::codes::{self, Words};
+use super::comment::OBEYED;
 use super::spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
 /// Everything in which a dialect differs from the others.
@@ -120,20 +121,6 @@ pub enum StartMotion {
 const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 };
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
 
-/// What LinuxCNC obeys in comments, beside what it only shows.
-const ACTIVE_COMMENTS: &[&str] = &[
-    "LOG",
-    "LOGOPEN",
-    "LOGAPPEND",
-    "LOGCLOSE",
-    "PROBEOPEN",
-    "PROBECLOSE",
-    "PY",
-    "PYRUN",
-    "PYRELOAD",
-    "ABORT",
-];
-
 const BASE_SPELLING: Spelling = Spelling {
     round_comments: Style::Usual,
     nested_comments: false,
@@ -204,7 +191,7 @@ pub(super) static LINUXCNC: Rules = Rules {
             parameters: 5602,
             o_words: true,
         }),
-        active_comments: ACTIVE_COMMENTS,
+        active_comments: OBEYED,
         ..BASE_SPELLING
     },
     words: &codes::LINUXCNC,
@@ -267,7 +254,7 @@ pub(super) static NATIVE: Rules = Rules {
         semicolon_comments: Style::Usual,
         block_numbers: Some(10_000_000),
         formulas: true,
-        active_comments: ACTIVE_COMMENTS,
+        active_comments: OBEYED,
         ..BASE_SPELLING
     },
     words: &codes::NATIVE,

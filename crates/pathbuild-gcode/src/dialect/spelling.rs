@@ -36,7 +36,7 @@ pub struct Spelling {
     pub bare_tool_number: bool,
     /// Bytes that act at once wherever they stand, comments included: `!`, `?`, `~` and everything above 127.
     pub real_time_bytes: bool,
-    /// What a comment begins with, up to a comma or its end, that the control obeys: it writes files, runs programs or stops.
+    /// What a comment begins with that the control obeys: it writes files, runs programs or stops.
     pub active_comments: &'static [&'static str],
     /// M codes behind which, and behind their S and P, the rest of the line is a message for the person at the machine.
     pub message_codes: &'static [u16],

@@ -10,7 +10,7 @@ use super::gather::{Gathered, Slot};
 use super::options::{Heights, Options};
 use super::state::State;
 use super::step::{Action, Axes, Change, Move, Pace, Step};
-use crate::dialect::{Acceptance, Percent, Rules};
+use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
 use crate::read::{At, Block, Problems, Span};
 
 /// A program's state, and what its blocks do.
@@ -84,14 +84,8 @@ impl<'i> Interpreter<'i> {
 
     /// Some controls obey what a comment begins with.
     fn check_active(&mut self, block: &Block<'_>, text: Span) {
-        let words = self.rules.spelling.active_comments;
-        if words.is_empty() {
-            return;
-        }
-        let comment = block.text_of(text);
-        let first = comment.split(',').next().unwrap_or_default().trim();
-        if let Some(word) = words.iter().find(|word| word.eq_ignore_ascii_case(first)) {
-            self.report(block, &say::ACTIVE_COMMENT, text, |d| d.with("word", *word));
+        if let Some(word) = beginning_of(&block.text_of(text), self.rules.spelling.active_comments) {
+            self.report(block, &say::ACTIVE_COMMENT, text, |d| d.with("word", word.trim_end_matches(',')));
         }
     }
 

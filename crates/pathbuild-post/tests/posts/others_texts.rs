@@ -4,9 +4,9 @@ use camino::Utf8Path;
 use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, Step};
 
 use crate::mutilated::program;
-use crate::support::{DIN, real_definitions, texts};
+use crate::support::{DIN, read, real_definitions, texts, unchecked};
 
-const HOSTILE: [&str; 28] = [
+const HOSTILE: [&str; 31] = [
     "LOGOPEN,x",
     "log append, x",
     "MSG,x",
@@ -14,6 +14,9 @@ const HOSTILE: [&str; 28] = [
     "DEBUG,#1",
     "PRINT,x",
     "PY,import os",
+    "PYRUN,x",
+    "PYRELOAD",
+    "preview, hide",
     "PROBEOPEN x",
     "ABORT,x",
     ") G1 Z-99 (",
@@ -57,6 +60,46 @@ fn no_control_acts_on_a_text_of_others() {
                 }
             }
         }
+    }
+}
+
+/// Somebody who answers for a definition answers for none of the texts that it puts into comments.
+#[test]
+fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
+    let marks = [
+        ["{", "}"],
+        ["&lt;", "&gt;"],
+        ["'", "'"],
+        ["/*", "*/"],
+        ["[", "]"],
+        ["$", "$"],
+        ["--", " -"],
+        ["//", ""],
+    ];
+    for [open, close] in marks {
+        let definition = |mop: &str| {
+            let comments = format!("<Comment>{open}</Comment><EndComment>{close}</EndComment>");
+            let files = "<PostFile>{$mops}</PostFile>";
+            read(&format!("<PostProcessor>{comments}{files}<MOP>{mop}</MOP></PostProcessor>")).unwrap()
+        };
+        let [open, close] = [open, close].map(|mark| mark.replace("&lt;", "<").replace("&gt;", ">"));
+        let written = |definition: &Post, name: &str| {
+            let mut job = program();
+            job.operations.truncate(1);
+            (job.operations[0].name, job.name) = (name.into(), format!("{close}G1 Z-99").into());
+            unchecked(definition, &job, &PostOptions::default())
+                .map(|output| String::from_utf8_lossy(&output.text).trim_end().to_owned())
+        };
+        let within = definition("{$comment}Path {$mop.name}{$cbfile.name}{$endcomment}");
+        let halves = close.char_indices().map(|(at, _)| close[..at].to_owned());
+        for name in halves.chain([format!("{close}G1 Z-99{open}"), format!("a{close}{close}b")]) {
+            let line = written(&within, &name).unwrap();
+            let inside = line.strip_prefix(&open).and_then(|line| line.strip_suffix(close.as_str()));
+            let inside = inside.unwrap_or_else(|| panic!("{name:?}: {line:?}"));
+            assert!(close.is_empty() || !inside.contains(&close), "{name:?}: {line:?}");
+            assert!(inside.contains("99") && !line.contains('\n'), "{name:?}: {line:?}");
+        }
+        assert!(written(&definition("{$mop.name} G0 X1"), &open).is_err(), "{open} in front of words");
     }
 }
 
@@ -134,7 +177,10 @@ fn code_of(line: &str, marks: &[&str], at: &str) -> String {
         assert!(mark != "(" || !comment.contains('('), "{at}: nested in {line:?}");
         let word: String =
             comment.chars().filter(|c| !c.is_whitespace()).take(10).collect::<String>().to_uppercase();
-        let active = ["MSG,", "DEBUG,", "PRINT,", "LOG", "PROBE", "PY,", "ABORT,"];
+        let active = [
+            "MSG,", "DEBUG,", "PRINT,", "LOG", "PROBE", "PY,", "PYRUN,", "PYRELOAD", "ABORT,", "AXIS,",
+            "PREVIEW,",
+        ];
         assert!(!active.iter().any(|start| word.starts_with(start)), "{at}: active in {line:?}");
         rest = after;
     }
