@@ -72,6 +72,16 @@ coolant = "mist"
 }
 
 #[test]
+fn what_would_be_escaped_is_shown_where_escapes_are_read() {
+    let shown = |pattern: &str| {
+        let place = Place::new().file("pathbuild.toml", format!("keep-out = '{pattern}'\n"));
+        line(&place.run("config show"), "keep-out")
+    };
+    assert_eq!(shown("#[ab]"), "keep-out = '#[ab]'");
+    assert_eq!(shown("##[ab]"), "keep-out = \"#\\u0023[ab]\"");
+}
+
+#[test]
 fn what_is_shown_is_a_configuration_that_says_the_same() {
     let text = "feed = 150\n[severity]\nPB210 = \"ignore\"\n[[severity-in]]\nfiles = ['a\"b']\nPB112 = \"error\"\n[tool.a]\ndiameter = 2\n";
     let first = Place::new().file("pathbuild.toml", text).run("config show");

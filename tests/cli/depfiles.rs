@@ -99,6 +99,12 @@ fn names_that_no_rule_can_have_are_refused() {
         ("A=1301.1P", false),
         ("X!=touch${IFS}b|true 1301.1P", false),
         ("a%1301.1P", false),
+        ("a~1301.1P", true),
+        ("~/1301.1P", false),
+        ("x]/1301.1P", true),
+        ("[xy]/1301.1P", false),
+        ("a*1301.1P", false),
+        ("a?1301.1P", false),
     ];
     for (name, is_right) in names {
         let drawing = format!("{name}.dxf");
@@ -111,6 +117,21 @@ fn names_that_no_rule_can_have_are_refused() {
             "{run}"
         );
         assert_eq!(place.read("out.d") == "of before", !is_right, "{run}");
+    }
+}
+
+/// Names of configurations end as they like: else a backslash would join two lines, and a bracket make an archive of those before.
+#[test]
+fn ends_that_no_rule_can_have_are_refused() {
+    for (name, is_right) in [("c(x)d", true), ("c(x)", false), ("c\\d", true), ("c\\", false)] {
+        let place =
+            Place::new().file(name, CONFIGURATION).file("1301.1P.dxf", sheet(DRAWING).unwrap().to_dxf());
+        let run = place.run_with(&["emit", "1301.1P.dxf", "--config", name, "--deps", "out.d"]);
+        assert_eq!(
+            (run.status, run.stderr.contains("PB004")),
+            (Some(i32::from(!is_right)), !is_right),
+            "{run}"
+        );
     }
 }
 

@@ -219,6 +219,19 @@ fn names_are_no_markup() {
     assert!(read("d.html").contains("@z _b_ `&amp;c.dxf"));
 }
 
+/// Nor does a CI runner act on what is printed of them.
+#[test]
+fn names_of_what_cannot_be_compared_are_no_markup() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    let parts = place.path().join("new/parts");
+    fs::rename(parts.join("1001.1P.dxf"), parts.join("1001.1P ##[group] a.dxf")).unwrap();
+    fs::write(parts.join("x www.example.com `z.dxf"), "no drawing").unwrap();
+    place.run("diff old new -o d.md");
+    let markdown = place.read("d.md");
+    assert!(markdown.contains("\n- `` new/parts/x www.example.com `z.dxf: PB002: "), "{markdown}");
+    assert!(markdown.contains("#\\u{23}[group] a.dxf") && !markdown.contains("##["), "{markdown}");
+}
+
 // What is taken out of a revision.
 
 fn committed(place: Place) -> Place {

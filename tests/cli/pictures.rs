@@ -117,6 +117,19 @@ fn what_a_drawing_says_is_no_markup_in_pages() {
     }
 }
 
+/// A system counts the bytes of a name.
+#[test]
+fn long_names_of_drawings_are_cut_in_those_of_pictures() {
+    let name = format!("{}1234.1P.dxf", "\u{20000}".repeat(56));
+    let place = Place::new().file(&name, dxf(GAP)).file("1235.1P.dxf", dxf(GAP));
+    let run = place.run("check . --pictures seen");
+    assert!(!run.stderr.contains("PB004"), "{run}");
+    let names: Vec<String> = pictures(&place, "seen").into_keys().collect();
+    let beginning = "\u{20000}".repeat(20);
+    assert!(names.iter().any(|name| name.starts_with(&format!("{beginning}-PB"))), "{names:?}");
+    assert!(names.iter().any(|name| name.starts_with("1235.1P-PB")), "{names:?}");
+}
+
 #[test]
 fn pages_are_files_for_people_in_their_language() {
     let place = Place::new().file("1234.1P.dxf", dxf(GAP));

@@ -146,6 +146,8 @@ fn no_text_of_others_leaves_its_comment() {
         "DEBUG,#1",
         "PY,x",
         "PYRUN,x",
+        "##[add-mask]x",
+        "a###[x",
         "PYRELOAD",
         "preview, hide",
         ") G1 Z-99 (",
@@ -178,6 +180,7 @@ fn no_text_of_others_leaves_its_comment() {
         for text in &texts {
             let found = all_of(text);
             assert!(found.is_ascii() && !found.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
+            assert!(!found.contains("##"), "{text:?}");
             assert_eq!(code_of(&found, compatible), expected, "{text:?}");
         }
     }

@@ -120,8 +120,8 @@ messages! {
     }
     /// A rule would be something else with it, a command at worst.
     UNNAMEABLE: CannotWrite {
-        en: "no rule for make can name {name}: it has `=`, `%` or `|`",
-        de: "keine Regel für make kann {name} nennen: darin steht `=`, `%` oder `|`",
+        en: "no rule for make can name {name}: it has one of `= % | * ? [`, begins with `~`, or ends with `)` or `\\`",
+        de: "keine Regel für make kann {name} nennen: darin steht `= % | * ?` oder `[`, am Anfang `~` oder am Ende `)` oder `\\`",
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }

@@ -35,7 +35,7 @@ pub(super) fn write(
         let sources = job.sources.iter().map(|source| source.path(db).as_path());
         let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
         let sources: Vec<&Utf8Path> = sources.chain(inserted.iter().map(Utf8PathBuf::as_path)).collect();
-        if let Some(name) = outputs.iter().chain(&sources).find(|name| name.as_str().contains(NO_SPELLING)) {
+        if let Some(name) = outputs.iter().chain(&sources).find(|name| has_no_spelling(name.as_str())) {
             let problem = Diagnostic::new(&messages::UNNAMEABLE).with("name", name.as_str());
             return Some(problem.in_file(&file));
         }
@@ -46,8 +46,11 @@ pub(super) fn write(
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
-/// What make takes for its own wherever it stands: an assignment, even of a command's output (`!=`), a pattern, and what need not be newer.
-const NO_SPELLING: [char; 3] = ['=', '%', '|'];
+/// What make takes for its own, however it is written: an assignment, even of a command's output (`!=`), patterns of rules and of files, what
+/// need not be newer, a home directory, a part of an archive, and a line that goes on.
+fn has_no_spelling(name: &str) -> bool {
+    name.contains(['=', '%', '|', '*', '?', '[']) || name.starts_with('~') || name.ends_with([')', '\\'])
+}
 
 /// A name in which nothing is taken for more than itself, as make reads it, and Ninja where it has a way to write it. There is none to write a
 /// line feed or another control character: escaped they name a file that is not there.

@@ -81,10 +81,14 @@ pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings
     problems
 }
 
+/// In bytes: a system counts those, and few of them.
+const LONGEST_STEM: usize = 80;
+
 /// `2050.1P-PB401-3f2a9c0d.svg`
 fn name(diagnostic: &Diagnostic, fingerprint: Fingerprint) -> Utf8PathBuf {
     let stem = diagnostic.file.as_deref().and_then(Utf8Path::file_stem).unwrap_or_default();
     let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | ' ' | '~');
-    let stem: String = stem.chars().map(|it| if is_plain(it) { it } else { '-' }).take(80).collect();
+    let stem: String = stem.chars().map(|it| if is_plain(it) { it } else { '-' }).collect();
+    let stem = &stem[..stem.floor_char_boundary(LONGEST_STEM)];
     format!("{stem}-{}-{}.svg", diagnostic.code(), &fingerprint.to_string()[..8]).into()
 }

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use regex::RegexBuilder;
 use serde_json::json;
 
-use super::text::{list, quoted, texts};
+use super::text::{is_literal, list, quoted, texts};
 use crate::config::kind::ValueType;
 use crate::config::reader::TomlReader;
 use crate::config::types::{Pattern, Restriction};
@@ -107,9 +107,5 @@ fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
 
 /// Patterns are easier to read without escapes.
 fn literal(text: &str) -> String {
-    if text.contains('\'') || text.contains(pathbuild_diagnostic::shown::acts) {
-        quoted(text)
-    } else {
-        format!("'{text}'")
-    }
+    if is_literal(text) { format!("'{text}'") } else { quoted(text) }
 }

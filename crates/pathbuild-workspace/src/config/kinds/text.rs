@@ -115,11 +115,15 @@ pub(in crate::config) fn texts<'v, 't>(
     }
 }
 
+/// Whether a text can stand in single quotes: nothing is escaped there.
+pub(in crate::config) fn is_literal(text: &str) -> bool {
+    !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts)
+}
+
 /// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too, but for those of characters
 /// beyond U+FFFF.
 pub(in crate::config) fn quoted(text: &str) -> String {
-    let is_plain = !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts);
-    if text.contains(['\\', '"']) && is_plain {
+    if text.contains(['\\', '"']) && is_literal(text) {
         return format!("'{text}'");
     }
     let mut quoted = String::with_capacity(text.len() + 2);

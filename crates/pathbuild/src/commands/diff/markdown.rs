@@ -15,11 +15,15 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
         text.push('\n');
     }
     for problem in problems {
-        _ = writeln!(text, "- {}", escaped(&problem));
+        _ = writeln!(text, "- {}", code(&problem));
     }
-    if comparison.paths.is_empty() {
-        return text;
+    if !comparison.paths.is_empty() {
+        table(&mut text, comparison, lang);
     }
+    shown::lines(&text).into_owned()
+}
+
+fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
     let head = either(lang, "| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
     _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
     for path in &comparison.paths {
@@ -27,9 +31,8 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
         if let Outcome::Changed(program) = &path.outcome {
             cell = details(program, lang).iter().map(|line| escaped(line)).collect::<Vec<_>>().join("<br>");
         }
-        _ = writeln!(text, "| {} | {} | {cell} |", code(&path.name), code(&place(path)));
+        _ = writeln!(text, "| {} | {} | {cell} |", cell_of(&path.name), cell_of(&place(path)));
     }
-    text
 }
 
 /// A text as Markdown shows it: whatever could be markup or a mention is written as a character's number.
@@ -47,9 +50,14 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A name as code in a cell of a table: GitHub makes links of addresses, numbers and hashes in any other text, however they are written.
+/// A name as code in a cell of a table.
+fn cell_of(name: &str) -> String {
+    code(name).replace('|', "\\|")
+}
+
+/// A text as code: GitHub makes links of addresses, numbers and hashes in any other, however they are written.
 fn code(text: &str) -> String {
-    let text = shown::line(text).replace('|', "\\|");
+    let text = shown::line(text);
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let ticks = "`".repeat(longest + 1);
     // The blanks next to them are taken away again.
