@@ -268,6 +268,20 @@ fn what_lies_above_temporary_files_does_not_hold() {
     }
 }
 
+/// Of what is larger than a drawing may be, no more is written than shows that.
+#[test]
+fn large_files_of_a_revision_are_not_written_whole() {
+    let limit = 1 << 20;
+    let configuration = format!("rapid = 1000\nlibrary = [\".\"]\n[limits]\nfile-size = {limit}\n");
+    for size in [limit, limit + 1, 3 * limit] {
+        let drawing = vec![b'\n'; size];
+        let place = Place::new().file("pathbuild.toml", &configuration).file("1001.1P.dxf", drawing);
+        let run = committed(place).run("diff HEAD HEAD");
+        let told = format!("the file's size of {} bytes", limit + 1);
+        assert_eq!(run.stderr.contains(&told), size > limit, "{size}: {run}");
+    }
+}
+
 #[test]
 fn ignore_files_and_empty_directories_of_a_revision_hold() {
     let place = Place::new()

@@ -90,6 +90,36 @@ fn what_git_cannot_tell_is_wrong_usage() {
     assert_eq!(run.status, Some(2), "{run}");
 }
 
+/// A few objects of Git can name any number of files.
+#[test]
+fn the_files_of_a_revision_are_counted() {
+    for (most, is_right) in [(6, true), (5, false)] {
+        let place = library();
+        let own = place.read("pathbuild.toml");
+        let place = place.file("pathbuild.toml", format!("{own}[limits]\nlibrary-entries = {most}\n"));
+        commit(&place);
+        for command in ["check --changed-since HEAD", "diff HEAD HEAD"] {
+            let run = place.run(command);
+            assert_eq!(run.stderr.contains("`library-entries`"), !is_right, "{command}: {run}");
+            assert_eq!(run.status == Some(2), !is_right, "{command}: {run}");
+        }
+    }
+}
+
+/// Git would read it to its end, which may take hours.
+#[cfg(unix)]
+#[test]
+fn a_drawing_that_is_too_large_has_changed() {
+    let place = library();
+    // Without content: it takes no room on disk.
+    let drawing = fs::File::create(place.path().join("parts/1002.dxf")).unwrap();
+    drawing.set_len(64 << 30).unwrap();
+    let begun = std::time::Instant::now();
+    let run = place.run("check --changed-since HEAD --format concise");
+    assert!(run.stderr.contains("PB005") && run.stderr.contains("1002.dxf"), "{run}");
+    assert!(begun.elapsed() < std::time::Duration::from_mins(1), "{:?}", begun.elapsed());
+}
+
 #[test]
 fn timings_name_the_phases_and_the_slowest_paths() {
     let place = library();

@@ -36,10 +36,10 @@ pub(super) enum EntryKind {
     Submodule,
 }
 
-/// What is done with a blob's bytes.
-pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, &mut dyn Read) -> io::Result<()>;
+/// What is done with a blob's bytes; there are none of one that is too large.
+pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Option<&mut dyn Read>) -> io::Result<()>;
 
-/// Bytes of a `.git` that is a file, and of what Git says before a blob.
+/// Bytes of a `.git` that is a file, and of what Git says before a blob and of a file: systems have no longer names.
 const LONGEST_LINE: u64 = 4096;
 
 /// Bytes of what a link says.
@@ -119,22 +119,42 @@ impl<'a> Repository<'a> {
     /// Every file in a tree.
     ///
     /// # Errors
-    /// What Git says where it cannot read the tree.
+    /// There are more than may be looked at: a few objects can hold any number. Or Git cannot read the tree.
     pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
-        let listed = self.run(&["ls-tree", "-r", "-z", "--full-tree", tree])?;
-        let lines = listed.split(|byte| *byte == 0);
-        Ok(lines.filter_map(|line| Entry::read(&String::from_utf8_lossy(line))).collect())
+        let most = self.workspace.settings.limits.library_entries.value;
+        let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
+        let (entries, is_whole) = self.fed(&arguments, "", |mut answers| entries(&mut answers, most))?;
+        let Some(entries) = entries else {
+            return Err(self.workspace.phrase(
+                "the revision has more than {} files: `library-entries` of [limits] is exceeded",
+                "die Revision hat mehr als {} Dateien: `library-entries` von [limits] ist überschritten",
+                &most.to_string(),
+            ));
+        };
+        if is_whole { Ok(entries) } else { Err(self.failed("")) }
     }
 
-    /// Hands out the bytes of blobs, in their order, as they were committed.
+    /// Hands out the bytes of blobs, in their order, as they were committed; of one that has more than `most`, that there are too many.
     ///
     /// # Errors
     /// One is not there, or whoever takes the bytes fails.
-    pub(super) fn each_blob(&self, ids: &[&str], take: TakeBlob<'_>) -> Result<(), String> {
-        let lines: String = ids.iter().flat_map(|id| [id, "\n"]).collect();
-        self.fed(&["cat-file", "--batch"], lines.as_bytes(), |mut answers| {
-            (0..ids.len()).try_for_each(|index| blob(&mut answers, &mut |bytes| take(index, bytes)))
+    pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
+        let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
+        let (sizes, _) =
+            self.fed(&["cat-file", "--batch-check"], &lines(&mut ids.iter().copied()), |mut answers| {
+                ids.iter().map(|_| size_of(&mut answers)).collect::<io::Result<Vec<u64>>>()
+            })?;
+        let mut small = ids.iter().zip(&sizes).filter(|(_, size)| **size <= most).map(|(id, _)| *id);
+        self.fed(&["cat-file", "--batch"], &lines(&mut small), |mut answers| {
+            sizes.iter().enumerate().try_for_each(|(index, size)| {
+                if *size > most {
+                    take(index, None)
+                } else {
+                    blob(&mut answers, &mut |bytes| take(index, Some(bytes)))
+                }
+            })
         })
+        .map(|_| ())
     }
 
     /// What links say, by the ids of their blobs; nothing of one that says too much, or is no UTF-8.
@@ -143,9 +163,9 @@ impl<'a> Repository<'a> {
     /// One is not there.
     pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
-        self.each_blob(ids, &mut |_, bytes| {
+        self.each_blob(ids, LONGEST_LINK, &mut |_, bytes| {
             let mut target = String::new();
-            let is_read = bytes.take(LONGEST_LINK).read_to_string(&mut target).is_ok();
+            let is_read = bytes.is_some_and(|bytes| bytes.read_to_string(&mut target).is_ok());
             targets.push(is_read.then_some(target));
             Ok(())
         })?;
@@ -159,7 +179,7 @@ impl<'a> Repository<'a> {
         let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
         let mut ids = Vec::new();
         // What cannot be told has changed: whoever asks sees that there are fewer.
-        _ = self.fed(&arguments, lines.as_bytes(), |answers| {
+        _ = self.fed(&arguments, &lines, |answers| {
             answers.lines().try_for_each(|line| line.map(|line| ids.push(line)))
         });
         ids
@@ -185,30 +205,34 @@ impl<'a> Repository<'a> {
         if output.status.success() {
             return Ok(output.stdout);
         }
-        let said = String::from_utf8_lossy(&output.stderr);
-        let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
-        Err(format!("git: {}", said.lines().next().unwrap_or(nothing)))
+        Err(self.failed(&String::from_utf8_lossy(&output.stderr)))
     }
 
-    /// Runs Git with something to read, and hands out what it answers.
+    fn failed(&self, said: &str) -> String {
+        let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
+        format!("git: {}", said.lines().next().unwrap_or(nothing))
+    }
+
+    /// Runs Git with something to read, and hands out what it answers; with whether it ended well.
     fn fed<R>(
         &self,
         arguments: &[&str],
-        lines: &[u8],
+        lines: &str,
         take: impl FnOnce(BufReader<ChildStdout>) -> io::Result<R>,
-    ) -> Result<R, String> {
+    ) -> Result<(R, bool), String> {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
         let taken = thread::scope(|scope| {
             // It answers while it is asked: who only listened afterwards would wait for ever.
-            scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines)));
+            scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines.as_bytes())));
             stdout.map(|stdout| take(BufReader::new(stdout)))
         });
-        _ = child.wait();
+        let is_well = child.wait().is_ok_and(|status| status.success());
         taken
             .unwrap_or_else(|| Err(io::ErrorKind::BrokenPipe.into()))
+            .map(|taken| (taken, is_well))
             .map_err(|error| format!("git: {error}"))
     }
 
@@ -266,15 +290,37 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
     Ok(name)
 }
 
+/// What `ls-tree -z` says; `None` of more files than so many.
+fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Option<Vec<Entry>>> {
+    let mut entries = Vec::new();
+    let mut line = Vec::new();
+    while answers.by_ref().take(LONGEST_LINE).read_until(0, &mut line)? > 0 {
+        if line.pop() != Some(0) {
+            return Err(io::Error::other("the name of a file in the revision is too long"));
+        }
+        if entries.len() as u64 == most {
+            return Ok(None);
+        }
+        entries.extend(Entry::read(&String::from_utf8_lossy(&line)));
+        line.clear();
+    }
+    Ok(Some(entries))
+}
+
+/// The end of a line that `cat-file` begins an answer with.
+fn size_of(answers: &mut impl BufRead) -> io::Result<u64> {
+    let mut head = String::new();
+    answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
+    let size = head.trim_end().split_once(" blob ").and_then(|(_, size)| size.parse().ok());
+    size.ok_or_else(|| io::Error::other(head.trim_end()))
+}
+
 /// One answer of `cat-file --batch`: a line that ends in the size, the bytes, and a line break.
 fn blob(
     answers: &mut BufReader<ChildStdout>,
     take: &mut dyn FnMut(&mut dyn Read) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut head = String::new();
-    answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
-    let size = head.trim_end().split_once(" blob ").and_then(|(_, size)| size.parse().ok());
-    let Some(size) = size else { return Err(io::Error::other(head.trim_end())) };
+    let size = size_of(answers)?;
     let mut bytes = answers.by_ref().take(size);
     take(&mut bytes)?;
     io::copy(&mut bytes, &mut io::sink())?;

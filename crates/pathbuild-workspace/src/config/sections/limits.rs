@@ -50,7 +50,7 @@ limits! {
     verify_pieces: u64 = "verify-pieces", COUNT, 5_000_000, "5_000_000", Neither;
     /// most different paths, each with its values, in a program
     embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000", Check;
-    /// most files and directories below one that is searched for drawings
+    /// most files and directories below one that is searched, and in a Git revision
     library_entries: u64 = "library-entries", COUNT, 200_000, "200_000", Neither;
     /// largest .gitignore or .ignore file
     ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#, Neither;

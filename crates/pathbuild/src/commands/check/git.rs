@@ -7,7 +7,7 @@ use pathbuild_db::system::{FileKind, join, spelt};
 use pathbuild_workspace::check::Past;
 use pathbuild_workspace::config::{FILE_NAME, clean};
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::{Input, Inputs};
+use pathbuild_workspace::{Input, Inputs, files};
 
 use crate::commands::git::{self, EntryKind, Repository};
 use crate::context::Context;
@@ -74,8 +74,12 @@ impl<'a> Since<'a> {
     fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
         let id = self.files.get(&self.below_root(&real)?)?;
-        // Git would wait for ever for what is no regular file, and asks for one a line.
-        let is_asked = !real.as_str().contains('\n') && self.context.system.head(&real, 1).is_ok();
+        // Git would wait for ever for what is no regular file or very large, and asks for one a line.
+        let largest = self.context.settings.limits.file_size.value;
+        let is_regular = self.context.system.head(&real, 1).is_ok();
+        let is_asked = is_regular
+            && !real.as_str().contains('\n')
+            && files::size(&real).is_some_and(|size| size <= largest);
         (is_asked && self.has_old_links(file, &real)).then_some((real, id))
     }
 
