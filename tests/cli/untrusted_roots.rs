@@ -86,13 +86,23 @@ fn a_link_in_a_repository_leads_to_no_other_one() {
 /// A pull request may bring results that its drawings do not have.
 #[test]
 fn a_cache_in_a_strangers_tree_is_not_used() {
-    for (cache, is_used) in [("../cache", true), (".cache", false), ("link/cache", false)] {
+    for (cache, is_used) in [
+        ("../cache", true),
+        (".cache", false),
+        ("link/cache", false),
+        // Links from outside lead into the tree.
+        ("../alias/.cache", false),
+        ("../outside/inner/deep/.cache", false),
+        ("../alias/../cache", true),
+    ] {
         let place = Place::new()
             .file("tree/.git/HEAD", "")
             .file("tree/pathbuild.toml", CONFIGURATION)
             .file("tree/1202.1P.dxf", dxf("1202.1P"))
             .file("outside/file", "");
         symlink("../outside", place.path().join("tree/link")).unwrap();
+        symlink("tree", place.path().join("alias")).unwrap();
+        symlink("../tree", place.path().join("outside/inner")).unwrap();
         let run = |options: &str| {
             let options: Vec<&str> = options.split_whitespace().collect();
             place.run_in("tree", &[&["--cache-dir", cache, "check", "."], &*options].concat())
@@ -104,6 +114,36 @@ fn a_cache_in_a_strangers_tree_is_not_used() {
         // In one's own tree it is used wherever it lies.
         run("");
         assert!(place.path().join("tree").join(cache).exists(), "{cache}");
+    }
+}
+
+/// The user's cache directory can be such a link, too.
+#[test]
+fn a_persons_cache_directory_in_a_strangers_tree_is_not_used() {
+    let place = Place::new()
+        .file("tree/.git/HEAD", "")
+        .file("tree/pathbuild.toml", CONFIGURATION)
+        .file("tree/1202.1P.dxf", dxf("1202.1P"));
+    symlink("tree", place.path().join("alias")).unwrap();
+    let mut program = crate::support::program();
+    program.env("XDG_CACHE_HOME", place.path().join("alias/xdg")).current_dir(place.path().join("tree"));
+    assert!(program.args(["--untrusted", "check", "."]).status().unwrap().success());
+    assert!(!place.path().join("tree/xdg").exists());
+}
+
+#[test]
+fn an_example_is_not_written_out_of_a_strangers_tree() {
+    for (options, is_written) in [("--untrusted", false), ("--quiet", true)] {
+        let place = Place::new().file("tree/.git/HEAD", "").file("outside/file", "");
+        symlink("../outside", place.path().join("tree/components")).unwrap();
+        let run = place.run_in("tree", &["init", "--example", options]);
+        assert_eq!(
+            (run.status, run.stderr.contains("PB004")),
+            (Some(i32::from(!is_written)), !is_written),
+            "{run}"
+        );
+        assert_eq!(place.path().join("outside/2001.1P.dxf").exists(), is_written, "{run}");
+        assert_eq!(place.path().join("tree/pathbuild.toml").exists(), is_written, "{run}");
     }
 }
 

@@ -62,8 +62,11 @@ pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value
     if !data.is_file() || !is_own(&data) {
         return Err(Value::Word(&NO_OWN_FILE));
     }
+    if data.len() > limit {
+        return Err(Value::Word(&NEVER_SO_LARGE));
+    }
     // It may grow while it is read.
-    let mut bytes = Vec::with_capacity(usize::try_from(data.len().min(limit)).unwrap_or_default());
+    let mut bytes = Vec::with_capacity(usize::try_from(data.len()).unwrap_or_default());
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| reason(&error))?;
     if bytes.len() as u64 > limit { Err(Value::Word(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
 }

@@ -23,6 +23,9 @@ pub struct Stamp([u8; Stamp::SIZE]);
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
+/// The name of the file whose time is looked at.
+pub(crate) const CLOCK: &str = "clock";
+
 /// The coarsest tick of a file system in use (FAT).
 const TICK: Duration = Duration::from_secs(2);
 
@@ -96,7 +99,7 @@ impl Clock {
     /// # Errors
     /// When none can be made.
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
-        let (probe, file) = private::create_beside(directory, "clock")?;
+        let (probe, file) = private::create_beside(directory, CLOCK)?;
         let time = file.metadata().and_then(|data| data.modified());
         // It may not even have been made.
         _ = fs::remove_file(&probe);

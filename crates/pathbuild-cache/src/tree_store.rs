@@ -41,7 +41,6 @@ pub(crate) const LARGEST: u64 = 1 << 30;
 pub(crate) const SMALL: u64 = 1 << 16;
 /// What marks a directory as a cache.
 pub(crate) const TAG: &str = "CACHEDIR.TAG";
-const SIGNATURE: &str = "Signature: 8a477f597d28d172789f06886806bc55";
 
 impl TreeStore {
     /// That of the tree whose configuration is in this directory. Nothing is made yet.
@@ -50,8 +49,7 @@ impl TreeStore {
             Home::Named(directory) => Self { directory: directory.clone(), tree: None },
             Home::User(caches) => {
                 let tree = tree.canonicalize_utf8().unwrap_or_else(|_| tree.to_owned());
-                let name = blake3::hash(tree.as_str().as_bytes()).to_hex();
-                Self { directory: caches.join(&name[..NAME_LENGTH]), tree: Some(tree) }
+                Self { directory: caches.join(name_of(&tree)), tree: Some(tree) }
             }
         }
     }
@@ -65,7 +63,7 @@ impl TreeStore {
     pub fn refusal(&self) -> Option<&'static Word> {
         let holds_others = || {
             let mut listed = self.directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
-            listed.any(|entry| !is_ours(entry.file_name()))
+            listed.any(|entry| !is_ours(&self.directory, entry.file_name()))
         };
         let is_right = || match private::read(&self.directory.join(TAG), SMALL) {
             Ok(Some(tag)) => is_own_tag(&tag),
@@ -117,8 +115,7 @@ impl TreeStore {
         let is_new = private::make_directory(&self.directory)?;
         let tag = private::read(&self.directory.join(TAG), SMALL);
         if tag.map_err(|_| io::Error::other("its CACHEDIR.TAG cannot be read"))?.is_none() {
-            let tag = format!("{SIGNATURE}\n{EXPLANATION}");
-            private::replace(&self.directory, TAG, tag.as_bytes())?;
+            private::replace(&self.directory, TAG, TAG_TEXT.as_bytes())?;
             if let Some(tree) = &self.tree {
                 private::replace(&self.directory, TREE, tree.as_str().as_bytes())?;
             }
@@ -129,14 +126,24 @@ impl TreeStore {
 
 /// Whether the file that marks a cache is pathbuild's: others mark theirs by the same signature.
 pub(crate) fn is_own_tag(tag: &[u8]) -> bool {
-    tag.strip_prefix(SIGNATURE.as_bytes()).is_some_and(|rest| rest.windows(OWN.len()).any(|word| word == OWN))
+    tag == TAG_TEXT.as_bytes()
 }
 
-/// The word by which pathbuild knows its own.
-const OWN: &[u8] = b"pathbuild";
+/// Whether the file that names a tree is pathbuild's: the directory has its name from that tree.
+pub(crate) fn is_own_tree(directory: &Utf8Path) -> bool {
+    let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
+    let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
+    tree.is_some_and(|tree| directory.file_name() == Some(name_of(Utf8Path::new(&tree)).as_str()))
+}
+
+/// The name of the directory in which results of a tree are kept in a user's cache directory.
+fn name_of(tree: &Utf8Path) -> String {
+    blake3::hash(tree.as_str().as_bytes()).to_hex()[..NAME_LENGTH].to_owned()
+}
 
 /// So many digits of a hash tell trees apart.
 const NAME_LENGTH: usize = 32;
 
-const EXPLANATION: &str = "# This directory holds results that pathbuild can make again. It may be deleted at any time.\n\
+const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
+    # This directory holds results that pathbuild can make again. It may be deleted at any time.\n\
     # https://bford.info/cachedir/\n";

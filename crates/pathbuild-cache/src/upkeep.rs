@@ -11,7 +11,8 @@ use pathbuild_diagnostic::reasons::{NO_CACHE, reason};
 
 use crate::format::{self, Key, Unusable};
 use crate::private;
-use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag};
+use crate::stamp::CLOCK;
+use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag, is_own_tree};
 
 /// A file of kept results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -106,15 +107,21 @@ impl Home {
     }
 }
 
-/// Whether a name is one that pathbuild gives in a directory of kept results.
-pub(crate) fn is_ours(name: &str) -> bool {
-    format::is_file_name(name) || is_temporary(name) || matches!(name, TAG | TREE)
+/// Whether a file in a directory of kept results is one that pathbuild makes there.
+pub(crate) fn is_ours(directory: &Utf8Path, name: &str) -> bool {
+    let is_named_so = format::is_file_name(name) || is_temporary(name) || name == TAG;
+    is_named_so || name == TREE && is_own_tree(directory)
 }
 
+/// As [`private::create_beside`] names what becomes one of those files.
 fn is_temporary(name: &str) -> bool {
     let word = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
-    word.and_then(|word| word.rsplit_once('.')).is_some_and(|(name, number)| {
-        !name.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-')
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    word.and_then(|word| word.rsplit_once('.')).is_some_and(|(name, numbers)| {
+        (format::is_file_name(name) || matches!(name, TAG | TREE | CLOCK))
+            && numbers
+                .split_once('-')
+                .is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
     })
 }
 
@@ -122,7 +129,8 @@ fn is_temporary(name: &str) -> bool {
 fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
     refuse_others(directory)?;
     // What says that it is a cache goes last.
-    for name in names(directory).filter(|name| is_ours(name) && name != TAG).chain([TAG.to_owned()]) {
+    let ours: Vec<String> = names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
+    for name in ours.into_iter().chain([TAG.to_owned()]) {
         remove(&directory.join(name))?;
     }
     match fs::remove_dir(directory) {
@@ -142,7 +150,8 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), NotRemoved> {
     let tag = directory.join(TAG);
     let tag = private::read(&tag, SMALL).map_err(|reason| NotRemoved { path: tag, reason })?;
     // Another run may be about to write it, or just have removed it: then there is nothing else but what pathbuild makes.
-    let is_cache = tag.map_or_else(|| names(directory).all(|name| is_ours(&name)), |tag| is_own_tag(&tag));
+    let is_cache =
+        tag.map_or_else(|| names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
     if !is_cache {
         return Err(refused(&NO_CACHE));
     }

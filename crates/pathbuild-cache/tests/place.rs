@@ -130,21 +130,62 @@ fn only_what_pathbuild_makes_is_removed() {
     let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     store(&place);
     let own = place.directory().join(build.file_name());
-    let of_others = ["probe1.results", "0123456789abcdef0123456g.results", "notes.tmp"];
+    let of_others = [
+        "probe1.results",
+        "0123456789abcdef0123456g.results",
+        "notes.tmp",
+        ".x..tmp",
+        ".thing.1-2.tmp",
+        "tree",
+    ];
     for name in of_others {
         fs::write(base.join("one").join(name), "mine").unwrap();
     }
     assert_eq!((place.refusal(), place.prune(&build)), (None, Ok(0)));
     let tag = base.join("one/CACHEDIR.TAG");
     let signature = fs::read_to_string(&tag).unwrap().lines().next().unwrap().to_owned();
-    fs::write(&tag, format!("{signature}\n# This file is a cache directory tag created by cargo.\n"))
-        .unwrap();
-    assert!(
-        place.refusal().is_some() && place.prune(&build).is_err() && place.clean().is_err() && own.exists()
-    );
-    fs::write(&tag, format!("{signature}\n# pathbuild\n")).unwrap();
+    let own_tag = fs::read(&tag).unwrap();
+    for maker in ["This file is a cache directory tag created by cargo.", "made by mypathbuilder"] {
+        fs::write(&tag, format!("{signature}\n# {maker}\n")).unwrap();
+        assert!(
+            place.refusal().is_some()
+                && place.prune(&build).is_err()
+                && place.clean().is_err()
+                && own.exists()
+        );
+    }
+    fs::write(&tag, own_tag).unwrap();
     assert!(place.clean().unwrap() && !own.exists());
     assert!(of_others.iter().all(|name| base.join("one").join(name).exists()));
+}
+
+/// Without its mark, a directory is pathbuild's only if nothing but what it makes is in it.
+#[test]
+fn a_directory_without_a_mark_may_be_anybodys() {
+    let (_directory, base) = world();
+    let home = Home::User(base.join("caches"));
+    let place = TreeStore::of_tree(&home, &base);
+    for name in ["tree", ".x..tmp", ".tree..tmp", ".clock.1.tmp", ".thing.1-2.tmp"] {
+        fs::create_dir_all(place.directory()).unwrap();
+        let file = place.directory().join(name);
+        fs::write(&file, "mine").unwrap();
+        assert!(place.refusal().is_some() && place.clean().is_err() && file.exists(), "{name}");
+        fs::remove_file(&file).unwrap();
+    }
+    // A run that was killed, or another that is about to write the mark.
+    let tree = base.canonicalize_utf8().unwrap();
+    let made = [
+        ("tree", tree.as_str()),
+        (".clock.1-2.tmp", ""),
+        (".CACHEDIR.TAG.12-0.tmp", ""),
+        (".tree.1-0.tmp", ""),
+    ];
+    for (name, content) in made {
+        fs::create_dir_all(place.directory()).unwrap();
+        fs::write(place.directory().join(name), content).unwrap();
+        assert_eq!((place.refusal(), place.clean()), (None, Ok(true)), "{name}");
+        assert!(!place.directory().exists(), "{name}");
+    }
 }
 
 /// Another tree's directory that is somebody else's does not keep the others from being looked after.

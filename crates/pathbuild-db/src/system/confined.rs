@@ -1,5 +1,6 @@
 //! A system in which nothing leads out of some directories: for trees of strangers. (book: reference/configuration, `--untrusted`)
 
+use std::io;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
@@ -65,9 +66,12 @@ impl Confined {
         self.roots.first().is_some_and(|root| self.spells(path, root) && self.leads_into(path, root))
     }
 
-    /// Whether a path lies in one of the directories, as it is spelt.
-    pub fn spells_inside(&self, path: &Utf8Path) -> bool {
-        self.roots.iter().any(|root| self.spells(path, root))
+    /// Whether a path may lie in one of the directories: as it is spelt, where it leads, or since nobody can say where that is.
+    pub fn may_hold(&self, path: &Utf8Path) -> bool {
+        let real = self.real(path);
+        // What cannot be followed may lead anywhere.
+        let leads = |root: &Root| matches!(&real, Some(real) if real.as_ref().map_or(true, |it| it.starts_with(&root.real)));
+        self.roots.iter().any(|root| self.spells(path, root) || leads(root))
     }
 
     fn spells(&self, path: &Utf8Path, root: &Root) -> bool {
@@ -75,13 +79,17 @@ impl Confined {
         path.starts_with(&root.spelt) || path.starts_with(&root.real)
     }
 
-    /// Of what is not there yet, where it would be.
     fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
+        // What cannot be followed may lead anywhere.
+        self.real(path).is_none_or(|real| real.is_ok_and(|it| it.starts_with(&root.real)))
+    }
+
+    /// Where a path leads; of what is not there yet, the nearest directory above that is.
+    fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
-        let there = ancestors.find(|path| self.below.kind(path) != FileKind::Missing);
-        // What cannot be followed may lead anywhere.
-        there.is_none_or(|there| there.canonicalize_utf8().is_ok_and(|it| it.starts_with(&root.real)))
+        let there = ancestors.find(|path| self.below.kind(path) != FileKind::Missing)?;
+        Some(there.canonicalize_utf8())
     }
 
     /// Whether a path may be read or written: it does not lead from inside to outside.

@@ -123,7 +123,7 @@ impl ResultStore {
         let base = context.settings.directory()?.to_owned();
         let place = context.cache_place()?;
         let confined = context.settings.confined.as_ref();
-        let is_strangers = confined.is_some_and(|confined| confined.spells_inside(place.directory()));
+        let is_strangers = confined.is_some_and(|confined| confined.may_hold(place.directory()));
         if let Some(reason) = is_strangers.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
             let phrase = context.choose("nothing is kept there", "dort wird nichts aufgehoben");
             let reason = context.choose(reason.en, reason.de);
