@@ -156,6 +156,38 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
     assert_eq!(scale(700), ["1:5", "1:5"][..1]);
 }
 
+/// `output-size` holds for all that belongs to a program: what was written is current, and nothing is written of what could not be compared.
+#[test]
+fn what_belongs_to_a_program_is_limited_too() {
+    let probes: String = (0..100).map(|index| format!("probe {index},30\n")).collect();
+    for (sheet, drawing, file) in [
+        ("html", DRAWING.to_owned(), "1234.1P_Sheet.html"),
+        ("svg", DRAWING.to_owned(), "1234.1P_Sheet.svg"),
+        ("pdf", DRAWING.to_owned(), "1234.1P_Sheet.pdf"),
+        ("none", format!("{DRAWING}{probes}"), "1234.1P_Probing.gcode"),
+    ] {
+        let sheet = if sheet == "none" { String::new() } else { format!("[emit]\nsheet = \"{sheet}\"\n") };
+        let place = |limits: &str| {
+            let place = place(&format!("probe-feed = 40\n{sheet}{limits}"));
+            place.file("1234.1P.dxf", dxf(&drawing))
+        };
+        let whole = place("");
+        let run = whole.run("emit 1234.1P");
+        assert_eq!(run.status, Some(0), "{run}");
+        let size = whole.path().join(file).metadata().unwrap().len();
+        let inside = place(&format!("[limits]\noutput-size = {size}\n"));
+        for command in ["emit 1234.1P", "emit 1234.1P --check", "emit 1234.1P --check --no-cache"] {
+            let run = inside.run(command);
+            assert_eq!(run.status, Some(0), "{file}: {run}");
+        }
+        let outside = place(&format!("[limits]\noutput-size = {}\n", size - 1));
+        let run = outside.run("emit 1234.1P");
+        assert!(run.status == Some(1) && run.stderr.contains("PB005") && run.stderr.contains(file), "{run}");
+        let programs = fs::read_dir(outside.path()).unwrap().map(|entry| entry.unwrap().file_name());
+        assert_eq!(programs.filter(|name| name.to_string_lossy().contains('_')).count(), 0, "{run}");
+    }
+}
+
 #[test]
 fn a_sheet_is_of_one_path_without_errors() {
     let drawing = DRAWING.replace("mill 0,20 0,0\n", "");

@@ -5,7 +5,7 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::os::unix::net::UnixListener;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::support::{Place, Run};
@@ -66,6 +66,40 @@ fn a_file_of_rules_must_be_a_file() {
     each(".gitignore", "check", 1, "not a regular file");
     each(".ignore", "check", 1, "not a regular file");
     each(".gitignore", "emit .", 1, "not a regular file");
+}
+
+/// Nobody waits until somebody reads a pipe; whoever reads it gets all.
+#[test]
+fn a_report_into_a_pipe_has_a_reader_or_is_refused() {
+    for arguments in ["--report json=pipe", "--baseline pipe --update-baseline"] {
+        let place = place("fifo", "pipe");
+        let run = place.run(&format!("check 1202.1P.dxf {arguments}"));
+        assert_eq!((run.status, run.stderr.contains("PB004")), (Some(1), true), "{run}");
+    }
+    let place = place("fifo", "pipe");
+    let reader =
+        Command::new("cat").arg("pipe").current_dir(place.path()).stdout(Stdio::piped()).spawn().unwrap();
+    // It is a reader once it runs.
+    let written = (0..100).any(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        place.run("check 1202.1P.dxf --report json=pipe").status == Some(0)
+    });
+    let read = reader.wait_with_output().unwrap().stdout;
+    assert!(
+        written && String::from_utf8_lossy(&read).contains("\"exit_status\":0"),
+        "{}",
+        String::from_utf8_lossy(&read)
+    );
+}
+
+#[test]
+fn a_configuration_that_leads_nowhere_is_none_that_can_be_read() {
+    let place = Place::new().file("pathbuild.toml", CONFIGURATION).file("sub/1202.1P.dxf", dxf());
+    let check = || place.run_in("sub", &["check", "."]);
+    assert_eq!(check().status, Some(0));
+    symlink("nowhere.toml", place.path().join("sub/pathbuild.toml")).unwrap();
+    let run = check();
+    assert_eq!((run.status, run.stderr.contains("PB003")), (Some(2), true), "{run}");
 }
 
 #[test]

@@ -9,7 +9,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::reasons::{IS_DIRECTORY, IS_THERE, NO_DIRECTORY, NO_FILE, NOT_UTF_8, reason};
+use pathbuild_diagnostic::reasons::{
+    IS_DIRECTORY, IS_THERE, LEADS_OUT, NO_DIRECTORY, NO_FILE, NOT_UTF_8, reason,
+};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::workspace::Workspace;
@@ -22,6 +24,11 @@ pub fn is_there(file: &Utf8Path) -> bool {
 /// Whether anything at all has that name, were it a link to nothing.
 pub fn is_named(file: &Utf8Path) -> bool {
     file.as_std_path().symlink_metadata().is_ok()
+}
+
+/// How many bytes it has.
+pub fn size(file: &Utf8Path) -> Option<u64> {
+    file.as_std_path().metadata().ok().map(|data| data.len())
 }
 
 /// The text of a file, in UTF-8.
@@ -38,11 +45,20 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     String::from_utf8(bytes).map_err(|_| Value::Word(&NOT_UTF_8))
 }
 
-/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there or cannot be written, none.
+/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there or cannot be written, none. Of a
+/// stranger's tree nothing leads out.
 ///
 /// # Errors
 /// For each file that cannot be written a diagnostic that says why.
-pub fn create(files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
+pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
+    let confined = context.settings.confined.as_ref();
+    let leads_out =
+        |(file, _): &&(Utf8PathBuf, &[u8])| confined.is_some_and(|confined| !confined.allows(file));
+    let outside: Vec<Diagnostic> =
+        files.iter().filter(leads_out).map(|(file, _)| cannot_write(file, Value::Word(&LEADS_OUT))).collect();
+    if !outside.is_empty() {
+        return Err(outside);
+    }
     let is_there = |(file, _): &&(Utf8PathBuf, &[u8])| file.as_std_path().symlink_metadata().is_ok();
     let old: Vec<Diagnostic> = files.iter().filter(is_there).map(|(file, _)| already_there(file)).collect();
     if !old.is_empty() {
@@ -85,11 +101,28 @@ pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), B
     let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
     let written = if is_stream && is_allowed {
-        fs::write(file, text).map_err(|error| reason(&error))
+        let written = open_stream(file).and_then(|stream| write_whole(stream, text.as_bytes()));
+        written.map_err(|error| reason(&error))
     } else {
         context.system.write(file, text.as_bytes()).map(|_| ())
     };
     written.map_err(|reason| Box::new(cannot_write(file, reason)))
+}
+
+/// Opens a device or a pipe to write into it. Nothing waits until somebody reads the pipe; whoever reads slowly is waited for.
+#[cfg(unix)]
+fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
+    use rustix::fs::{Mode, OFlags};
+
+    let flags = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    let stream = rustix::fs::open(path.as_str(), flags, Mode::empty())?;
+    rustix::fs::fcntl_setfl(&stream, OFlags::empty())?;
+    Ok(stream.into())
+}
+
+#[cfg(not(unix))]
+fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
+    fs::File::options().write(true).open(path)
 }
 
 /// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.

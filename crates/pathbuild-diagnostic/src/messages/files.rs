@@ -97,6 +97,13 @@ messages! {
         help_en: "check infeed I, depth B and the length of comments Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I, Tiefe B und die Länge der Kommentare Q prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// A sheet, a probing program or a file of values that would fill the disk.
+    FILE_TOO_LARGE: LimitReached {
+        en: "{name} comes to more than {limit} bytes; it is not written, nor is what belongs to it",
+        de: "{name} wird größer als {limit} Byte; das und was dazu gehört wird nicht geschrieben",
+        help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
     /// Too many paths in one program.
     TOO_MANY_PATHS: LimitReached {
         en: "the number of different paths (each with its values) that are embedded exceeds the limit of {limit}",

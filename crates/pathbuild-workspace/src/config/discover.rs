@@ -4,6 +4,7 @@ use pathbuild_db::system::{FileKind, clean, join};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 
+use crate::files;
 use crate::inputs::{Input, Inputs};
 
 /// The name of a configuration.
@@ -52,7 +53,13 @@ impl Discovery<'_> {
     /// The configuration of a directory: in it, or in the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, FILE_NAME));
-        files.find(|file| self.system.kind(file) == FileKind::File)
+        // A link to nothing is one that cannot be read.
+        let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
+            FileKind::File => true,
+            FileKind::Directory => false,
+            FileKind::Missing => files::is_named(file),
+        };
+        files.find(is_one)
     }
 
     /// Arguments that lie under another configuration than the one of the run.

@@ -163,6 +163,8 @@ pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobF
     let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
     let made = made.and_then(|mut outputs| {
         outputs.extend(sheets(db, job, means).map_err(|problem| vec![*problem])?);
+        let too_large = outputs.iter().find(|output| output.text.len() > means.writing.most_bytes);
+        too_large.map_or(Ok(()), |output| Err(vec![exceeding(db, job, output, &means.writing)]))?;
         Ok(outputs)
     });
     let outputs = made.unwrap_or_else(|problems| {
@@ -180,6 +182,16 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
         length: all.length + sum.length,
         time: all.time + sum.time,
     })
+}
+
+/// PB005: programs have been held against the limit while they were written. What lies on disk is not read beyond it.
+fn exceeding(db: &Database, job: &Job, output: &Output, writing: &Writing) -> Diagnostic {
+    Diagnostic::new(&files::FILE_TOO_LARGE)
+        .with("name", output.path.file_name().unwrap_or_default())
+        .with("limit", writing.most_bytes)
+        .with("key", "output-size")
+        .in_file(job.drawing(db).path(db))
+        .in_path(&job.path)
 }
 
 /// The sheets among a job's files.

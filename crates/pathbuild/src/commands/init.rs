@@ -33,7 +33,7 @@ pub fn run(context: &Context, example: bool) -> ExitStatus {
     let files = if example { EXAMPLE } else { &configuration };
     let placed: Vec<(Utf8PathBuf, &[u8])> =
         files.iter().map(|(name, content)| (join(&context.working_directory, name), *content)).collect();
-    match files::create(&placed) {
+    match files::create(context, &placed) {
         Ok(()) => {
             for (name, _) in files {
                 context.printer.result_line(name);
