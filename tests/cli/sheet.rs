@@ -159,7 +159,7 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
 /// `output-size` holds for all that belongs to a program: what was written is current, and nothing is written of what could not be compared.
 #[test]
 fn what_belongs_to_a_program_is_limited_too() {
-    let probes: String = (0..100).map(|index| format!("probe {index},30\n")).collect();
+    let probes = (0..100).map(|index| format!("probe {index},30\n")).collect::<Vec<_>>().concat();
     for (sheet, drawing, file) in [
         ("html", DRAWING.to_owned(), "1234.1P_Sheet.html"),
         ("svg", DRAWING.to_owned(), "1234.1P_Sheet.svg"),
