@@ -1,6 +1,6 @@
 //! A definition of either language, and what it writes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
@@ -259,11 +259,14 @@ impl Post {
 
 /// A speed that belongs to a tool cannot change while the tool does not.
 fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
-    let cutting = || job.operations.iter().filter(|operation| operation.cuts());
-    for operation in cutting() {
-        let other = cutting()
-            .find(|other| other.tool.index == operation.tool.index && other.speed != operation.speed);
-        if let (Some(other), Some(speed)) = (other, operation.speed) {
+    let mut first_of = HashMap::new();
+    for later in job.operations.iter().filter(|operation| operation.cuts()) {
+        let first: &Operation = first_of.entry(later.tool.index).or_insert(later);
+        if first.speed == later.speed {
+            continue;
+        }
+        let (operation, other) = if first.speed.is_some() { (first, later) } else { (later, first) };
+        if let Some(speed) = operation.speed {
             let diagnostic =
                 Diagnostic::new(&posts::ONE_SPEED_A_TOOL).with("index", u64::from(operation.tool.index));
             let diagnostic = diagnostic.with("speed", speed).with("other", other.speed.unwrap_or(0.0));

@@ -3,6 +3,8 @@
 //! Lengths are millimetres and feeds mm/min throughout; a post converts when [`Job::units`] or its own definition says inches.
 //! (book: program/posts)
 
+use std::collections::HashSet;
+
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
 use super::step::{Hole, Position, Step};
@@ -42,19 +44,16 @@ impl Job {
         }
     }
 
-    /// The feed downwards in an operation, mm/min, else any: an operation may have none.
-    pub(super) fn plunge_feed(&self, operation: &Operation) -> Option<f64> {
-        operation.plunge_feed.or(operation.cut_feed).or_else(|| self.any_feed(operation))
-    }
-
-    /// The feed in the plane in an operation, mm/min, else any.
-    pub(super) fn cut_feed(&self, operation: &Operation) -> Option<f64> {
-        operation.cut_feed.or(operation.plunge_feed).or_else(|| self.any_feed(operation))
-    }
-
-    fn any_feed(&self, operation: &Operation) -> Option<f64> {
-        let own = operation.steps.iter().find_map(Step::feed);
-        own.or_else(|| self.operations.iter().flat_map(|operation| &operation.steps).find_map(Step::feed))
+    /// The feeds of each operation, else any: an operation may have none.
+    pub(super) fn feeds(&self) -> Vec<Feeds> {
+        let own = |operation: &Operation| operation.steps.iter().find_map(Step::feed);
+        let any = self.operations.iter().find_map(own);
+        let feeds = |operation: &Operation| {
+            let (plunge, cut) = (operation.plunge_feed, operation.cut_feed);
+            let other = || own(operation).or(any);
+            Feeds { plunge: plunge.or(cut).or_else(other), cut: cut.or(plunge).or_else(other) }
+        };
+        self.operations.iter().map(feeds).collect()
     }
 
     /// The lowest upper face of the material, mm, where it is known.
@@ -65,14 +64,19 @@ impl Job {
 
     /// The tools in order of first use, each once.
     pub fn tools(&self) -> Vec<&Tool> {
-        let mut tools: Vec<&Tool> = Vec::new();
-        for operation in &self.operations {
-            if !tools.iter().any(|tool| tool.index == operation.tool.index) {
-                tools.push(&operation.tool);
-            }
-        }
-        tools
+        let mut seen = HashSet::new();
+        let tools = self.operations.iter().map(|operation| &operation.tool);
+        tools.filter(|tool| seen.insert(tool.index)).collect()
     }
+}
+
+/// What feeds a post writes for an operation, in mm/min.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Feeds {
+    /// Downwards.
+    pub(super) plunge: Option<f64>,
+    /// In the plane.
+    pub(super) cut: Option<f64>,
 }
 
 /// The unit that a program is written in.

@@ -5,12 +5,11 @@ use pathbuild_gcode::interpret::{Action, Axes, Move, Pace, Path, Step};
 
 /// The hole that some steps begin with, and the steps behind it. All its moves come from one line, which no other line's do.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
-    let line = steps.first()?.line;
-    let length = steps.iter().take_while(|step| step.line == line).count();
-    if length < 2 {
+    let [first, second, ..] = steps else { return None };
+    if first.line != second.line {
         return None;
     }
-    let mut moves = Moves { steps: &steps[..length] };
+    let mut moves = Moves { line: first.line, steps };
     let mut level = None;
     while let Some(way) = moves.take(|it| it.pace == Pace::Rapid) {
         level = Some(if way.to.z() < way.from.z() && is_vertical(&way) { way.from.z() } else { way.to.z() });
@@ -38,17 +37,19 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
         feed: first.pace.feed().filter(|feed| *feed > 0.0),
         kind,
     };
-    Some((hole, &steps[length - moves.steps.len()..]))
+    Some((hole, moves.steps))
 }
 
+/// The steps of a line, and those behind it.
 struct Moves<'a> {
+    line: u32,
     steps: &'a [Step],
 }
 
-impl Moves<'_> {
+impl<'a> Moves<'a> {
     /// Takes the next move, if it is a straight one to a known place and as wanted.
     fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
-        let (step, rest) = self.steps.split_first()?;
+        let (step, rest) = self.next()?;
         let Action::Move(it) = step.action else { return None };
         let is_plain = it.path == Path::Line && it.named.is_none() && it.to.known == Axes::ALL;
         (is_plain && is_wanted(&it)).then(|| {
@@ -71,8 +72,13 @@ impl Moves<'_> {
         deeper
     }
 
+    /// The line's next step, and those behind it.
+    fn next(&self) -> Option<(&'a Step, &'a [Step])> {
+        self.steps.split_first().filter(|(step, _)| step.line == self.line)
+    }
+
     fn dwell(&mut self) -> Option<f64> {
-        let (step, rest) = self.steps.split_first()?;
+        let (step, rest) = self.next()?;
         let Action::Dwell(seconds) = step.action else { return None };
         self.steps = rest;
         Some(seconds)

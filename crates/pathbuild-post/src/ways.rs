@@ -6,9 +6,13 @@
 #[cfg(test)]
 mod tests;
 
+use std::collections::HashSet;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 
 type Moves<'m> = &'m [(u32, Move)];
 type Checked<T> = Result<T, Box<Diagnostic>>;
@@ -25,7 +29,7 @@ pub(crate) fn check(
     let mut has_cut = false;
     loop {
         let (way, cuts) = split(expected, is_rapid);
-        let way = Way { expected: way, clearance, slack: 2.0 * tolerance.place };
+        let way = Way::new(way, clearance, 2.0 * tolerance.place);
         let Some(next) = cuts.first() else { return way.is_last(found, has_cut) };
         let length = way.length(found, next)?;
         way.check(&found[..length])?;
@@ -93,9 +97,34 @@ struct Way<'m> {
     expected: Moves<'m>,
     clearance: f64,
     slack: f64,
+    /// Where they run: a way may have thousands, and each move that is found asks for those near it.
+    places: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
-impl Way<'_> {
+impl<'m> Way<'m> {
+    fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
+        // The same move again says nothing more.
+        let mut seen = HashSet::new();
+        let mut is_new = |it: &Move| {
+            let places = [it.from, it.to].map(|at| (at.known, at.at.map(f64::to_bits)));
+            seen.insert((places, it.named.is_some()))
+        };
+        let indexed = expected.iter().enumerate().filter(|(_, (_, it))| is_new(it));
+        let place = |(index, (_, it)): (usize, &(u32, Move))| {
+            GeomWithData::new(Rectangle::from_corners(in_plane(&it.from), in_plane(&it.to)), index)
+        };
+        let places = RTree::bulk_load(indexed.map(place).collect());
+        Self { expected, clearance, slack, places }
+    }
+
+    /// The moves that may run over some place between two corners.
+    fn near(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = &Move> {
+        let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max]
+            .map(|choose| [0, 1].map(|axis| choose(corners[0][axis], corners[1][axis])));
+        let area = AABB::from_corners(low.map(|at| at - self.slack), high.map(|at| at + self.slack));
+        self.places.locate_in_envelope_intersecting(area).map(|place| &self.expected[place.data].1)
+    }
+
     /// How many of the moves at the beginning lead to where the next cut begins.
     fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> Checked<usize> {
         let begin = &next.1.from;
@@ -166,9 +195,11 @@ impl Way<'_> {
                 |axis: usize| (a.at[axis] - b.at[axis]).abs() <= self.slack || !a.known.has(Axes::of(axis));
             a.known == b.known && (0..3).all(is_near)
         };
-        let all = || self.expected.iter().map(|(_, expected)| expected);
+        let end = in_plane(&it.to);
         is_rapid(it)
-            && all().any(|expected| is_same(&expected.from, &it.from) && is_same(&expected.to, &it.to))
+            && self
+                .near([end, end])
+                .any(|expected| is_same(&expected.from, &it.from) && is_same(&expected.to, &it.to))
     }
 
     /// Straight up to a place of the machine.
@@ -211,21 +242,20 @@ impl Way<'_> {
         self.is_covered(&it.from.at, &it.to.at)
     }
 
-    /// The straight moves of the job between places that are known.
-    fn legs(&self) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
-        self.expected
-            .iter()
-            .filter(|(_, it)| it.from.known.and(it.to.known) == Axes::ALL && it.named.is_none())
-            .map(|(_, it)| (it.from.at, it.to.at))
+    /// The straight moves of the job between places that are known, where they may run over a place between two corners.
+    fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+        self.near(corners)
+            .filter(|it| it.from.known.and(it.to.known) == Axes::ALL && it.named.is_none())
+            .map(|it| (it.from.at, it.to.at))
     }
 
     /// The lowest height at which the job is over a place.
     fn floor(&self, place: &[f64; 3]) -> Option<f64> {
-        let ends =
-            self.expected.iter().map(|(_, it)| it.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
-        let begins = self.legs().map(|(from, _)| from);
+        let here = [[place[0], place[1]]; 2];
+        let ends = self.near(here).map(|it| it.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
+        let begins = self.legs(here).map(|(from, _)| from);
         let over = ends.chain(begins).filter(|at| is_over(at, place, self.slack)).map(|at| at[2]);
-        let along = self.legs().filter_map(|(from, to)| {
+        let along = self.legs(here).filter_map(|(from, to)| {
             let share = share_of(&from, &to, place)?.clamp(0.0, 1.0);
             let at = between(&from, &to, share);
             is_over(&at, place, self.slack).then_some(at[2])
@@ -238,7 +268,8 @@ impl Way<'_> {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let grain = self.slack / length;
         let low = below(from[2], to[2], self.clearance - self.slack);
-        let mut spans: Vec<[f64; 2]> = self.legs().filter_map(|leg| self.span(from, to, low, leg)).collect();
+        let legs = self.legs([[from[0], from[1]], [to[0], to[1]]]);
+        let mut spans: Vec<[f64; 2]> = legs.filter_map(|leg| self.span(from, to, low, leg)).collect();
         spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let reached = spans.iter().fold(low[0], |reached, span| {
             if span[0] <= reached + grain { reached.max(span[1]) } else { reached }
@@ -265,6 +296,11 @@ impl Way<'_> {
         };
         (begin <= end && is_above_leg(begin) && is_above_leg(end)).then_some([begin, end])
     }
+}
+
+/// A place from above; what is not known of it is 0.
+fn in_plane(at: &Position) -> [f64; 2] {
+    [0, 1].map(|axis| if at.known.has(Axes::of(axis)) { at.at[axis] } else { 0.0 })
 }
 
 /// The shares between which a height that changes evenly is below another.

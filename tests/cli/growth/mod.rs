@@ -10,6 +10,7 @@ use drawings::{
 };
 
 use crate::support::{Place, Run};
+use pathbuild_testkit::sheet;
 
 type Drawing = fn(usize) -> String;
 
@@ -79,6 +80,53 @@ fn work_grows_with_the_probes() {
             assert!(run.stderr.contains("_Probing.gcode: written"), "{model}: {run}");
         }
     }
+}
+
+/// The same through a post: what was written is read back and held against the program.
+#[test]
+fn work_grows_with_what_a_post_writes() {
+    let way = |index: usize| format!("G0 X{} Y{}\nG0 Z1\n", index % 1000, index / 1000);
+    let turn = |_| "G2 X0 Y0 Z1 I5 J0 P5\nG0 Z4\n".to_owned();
+    let ways = |count: usize| (0..count).map(way).collect::<String>();
+    let turns = |count: usize| "G1 Z4 F100\n".to_owned() + &(0..count).map(turn).collect::<String>();
+    let holes = |count: usize| format!("G91\nG81 X1 Y0 Z-1 R1 F100 L{count}\nG80\nG90\n");
+    for (name, body, post, count) in [
+        ("rapids between two cuts", &ways as &dyn Fn(usize) -> String, "grbl", 2000),
+        ("rapids between two cuts", &ways, "xpertmill", 2000),
+        ("holes of one line", &holes, "grbl", 4000),
+        ("arcs that a job cannot say", &turns, "grbl", 2000),
+    ] {
+        let place = |count| {
+            let head = "G17 G21 G40 G49 G54 G80 G90 G94\nT1 M6\nM3 S1000\nG0 Z10\nG0 X0 Y0\n";
+            Place::new().file("a.gcode", format!("{head}{}G0 Z20\nM5\nM30\n", body(count)))
+        };
+        let arguments =
+            format!("post a.gcode --post {post} -o b.gcode --surface 5 --dialect linuxcnc --format concise");
+        for run in of_one_and_four(name, count, place, &arguments) {
+            assert!(matches!(run.status, Some(0 | 1)), "{name}: {run}");
+        }
+    }
+}
+
+/// The lines of a chain stand no further to the right than somebody sees.
+#[test]
+fn what_is_said_grows_with_how_deep_paths_are_embedded() {
+    let size = |count: usize| {
+        let place = (0..count).fold(Place::new(), |place, index| {
+            let element = match index {
+                0 => "mill 0,0 40,0".to_owned(),
+                _ => format!("subpath 0,0 40,0 \">{}.1P\"", 1000 + index - 1),
+            };
+            let name = format!("{}.1P", 1000 + index);
+            let drawn = format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\n{element}\nend 40,0\n");
+            place.file(&format!("{name}.dxf"), sheet(&drawn).unwrap().to_dxf())
+        });
+        let run = place.run("rdeps 1000.1P");
+        assert_eq!(run.stdout.lines().count(), count, "{run}");
+        run.stdout.len()
+    };
+    let (few, many) = (size(150), size(600));
+    assert!(many < 6 * few, "{few}, {many}");
 }
 
 fn drawn(settings: &str, drawing: &str) -> Place {

@@ -95,7 +95,7 @@ impl Position {
 }
 
 /// A set of the axes X, Y, Z.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Axes(u8);
 
 impl Axes {

@@ -18,5 +18,5 @@ mod word;
 pub use block::{Block, Comment, CommentStyle, Formula, Number, Setting, Span, Target, Value, Word};
 pub use expression::{Binary, Code, Function, Op};
 pub use problems::{At, Problems};
-pub use reader::BlockReader;
+pub use reader::{BlockReader, LONGEST_LINE};
 pub use text::quote;

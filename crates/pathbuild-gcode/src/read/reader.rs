@@ -13,7 +13,7 @@ use super::text::end_of_line;
 use crate::dialect::{LineLength, Percent, Rules};
 
 /// The longest line that is read at all, in bytes. Nothing that a machine takes comes near it.
-const LONGEST_LINE: usize = 65_536;
+pub const LONGEST_LINE: usize = 65_536;
 
 /// Reads blocks off a file.
 ///

@@ -50,9 +50,9 @@ fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
 }
 
 /// Shows the lines of a file under diagnostics that know only their number.
-pub fn quote(diagnostics: &mut [Diagnostic], file: &[u8]) {
-    let mut bare: Vec<&mut Diagnostic> =
-        diagnostics.iter_mut().filter(|one| one.text.is_none() && one.place.line.is_some()).collect();
+pub fn quote<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &[u8]) {
+    let is_bare = |one: &&mut Diagnostic| one.text.is_none() && one.place.line.is_some();
+    let mut bare: Vec<&mut Diagnostic> = diagnostics.into_iter().filter(is_bare).collect();
     bare.sort_by_key(|one| one.place.line);
     let end_of_line = end_of_line(file);
     let mut lines = (1_u32..).zip(file.split(|byte| *byte == end_of_line)).peekable();

@@ -41,6 +41,8 @@ struct Builder<'a> {
     asides: Vec<What<'a>>,
     is_open: bool,
     is_first: bool,
+    /// The call of the last element that a contour may still end with.
+    last_element: Option<usize>,
     feed: Option<f64>,
 }
 
@@ -62,6 +64,7 @@ impl<'a> Builder<'a> {
             asides: Vec::new(),
             is_open: false,
             is_first: true,
+            last_element: None,
             feed: None,
         }
     }
@@ -78,6 +81,11 @@ impl<'a> Builder<'a> {
     }
 
     fn call(&mut self, what: What<'a>) {
+        match what {
+            What::Line { .. } | What::Arc { .. } => self.last_element = Some(self.calls.len()),
+            What::Comment(_) | What::Dwell(_) | What::Stop | What::Rapid { .. } => {}
+            _ => self.last_element = None,
+        }
         self.calls.push(Call { operation: self.index, what });
     }
 
@@ -381,12 +389,8 @@ impl<'a> Builder<'a> {
     /// Marks the last element.
     fn finish_contour(&mut self) {
         self.is_first = true;
-        let places = self.calls.iter_mut().rev().map_while(|call| match &mut call.what {
-            What::Line { place, .. } | What::Arc { place, .. } => Some(Some(place)),
-            What::Comment(_) | What::Dwell(_) | What::Stop | What::Rapid { .. } => Some(None),
-            _ => None,
-        });
-        if let Some(place) = places.flatten().next() {
+        let last = self.last_element.map(|index| &mut self.calls[index].what);
+        if let Some(What::Line { place, .. } | What::Arc { place, .. }) = last {
             place.is_last = true;
         }
     }

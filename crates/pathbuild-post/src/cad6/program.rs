@@ -9,13 +9,15 @@ use super::marks::is_private;
 use super::runner::{Called, Runner};
 use super::variables::Variables;
 use crate::arcs::Polar;
-use crate::job::{Coolant, Job, Operation, Plane, Spindle, Units};
+use crate::job::{Coolant, Feeds, Job, Operation, Plane, Spindle, Units};
 use crate::step::{Arc, Hole, HoleKind};
 use crate::{PostMacro, PostOptions};
 
 /// Makes the calls of a job.
 pub(super) struct Caller<'a, 'r> {
     job: &'a Job,
+    /// Of each operation.
+    feeds: Vec<Feeds>,
     runner: &'r mut Runner<'a>,
     /// The unit that is written, in mm.
     unit: f64,
@@ -32,8 +34,9 @@ pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runn
     let units = runner.definition.settings.units.unwrap_or(job.units);
     let unit = units.millimetres();
     let unchecked = options.unchecked;
+    let feeds = job.feeds();
     let mut caller =
-        Caller { job, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0, unchecked };
+        Caller { job, feeds, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0, unchecked };
     caller.constants(units, options);
     caller.runner.call(ControlTextKind::ProgramStart)?;
     for remark in &job.remarks {
@@ -88,11 +91,12 @@ impl Caller<'_, '_> {
         if let Some(date) = &options.date {
             self.text("Date", date);
         }
-        self.operation(&self.job.operations[0]);
+        self.operation(0);
         self.length("ZClearance", self.job.operations[0].clearance);
     }
 
-    fn operation(&mut self, operation: &Operation) {
+    fn operation(&mut self, index: usize) {
+        let operation = &self.job.operations[index];
         self.text("PathName", &operation.name);
         self.text("ToolName", &operation.tool.name);
         self.set("MachineToolNo", f64::from(operation.tool.index));
@@ -105,9 +109,8 @@ impl Caller<'_, '_> {
         self.flag("ToolControl1", matches!(operation.coolant, Some(Coolant::Flood | Coolant::Mist)));
         self.flag("ToolControl2", operation.coolant == Some(Coolant::Mist));
         self.length("ZWorking", operation.retract);
-        let feeds =
-            [("LoweringVel", self.job.plunge_feed(operation)), ("MovingVel", self.job.cut_feed(operation))];
-        for (name, feed) in feeds {
+        let Feeds { plunge, cut } = self.feeds[index];
+        for (name, feed) in [("LoweringVel", plunge), ("MovingVel", cut)] {
             if let Some(feed) = feed {
                 self.length(name, feed);
             }
@@ -116,7 +119,7 @@ impl Caller<'_, '_> {
 
     fn make(&mut self, call: &Call<'_>) -> Called {
         let operation = &self.job.operations[call.operation];
-        self.operation(operation);
+        self.operation(call.operation);
         match &call.what {
             What::Start { at, clearance, working, feed } => {
                 self.length("ZClearance", clearance.max(self.at[2]));

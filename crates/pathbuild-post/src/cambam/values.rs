@@ -31,8 +31,8 @@ impl Writer<'_> {
             Value::MopTag => Some(operation.tag.to_string()),
             Value::MopClearancePlane => Some(self.length(operation.clearance)),
             Value::MopRetractHeight => Some(self.length(operation.retract)),
-            Value::MopPlungeFeedrate => self.plan.job.plunge_feed(operation).map(|feed| self.length(feed)),
-            Value::MopCutFeedrate => self.plan.job.cut_feed(operation).map(|feed| self.length(feed)),
+            Value::MopPlungeFeedrate => self.feeds().plunge.map(|feed| self.length(feed)),
+            Value::MopCutFeedrate => self.feeds().cut.map(|feed| self.length(feed)),
             Value::MopDepthIncrement => Some(self.length(operation.depth_increment.unwrap_or(0.0))),
             Value::MopDwell => {
                 Some(self.number_format().format(operation.holes().find_map(dwell).unwrap_or(0.0)))

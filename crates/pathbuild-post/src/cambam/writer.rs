@@ -15,7 +15,7 @@ use super::registers::{Code, Register};
 use super::section::Section;
 use super::template::{Template, TemplatePart};
 use crate::guard::Guard;
-use crate::job::{Operation, Tool};
+use crate::job::{Feeds, Operation, Tool};
 use crate::number::NumberFormat;
 use crate::shadow::Shadow;
 use crate::words::{CommentMarks, Word, Words, words};
@@ -34,6 +34,8 @@ pub(super) struct Writer<'a> {
     pub(super) move_values: MoveValues,
     /// Index of the present operation; the first in the header, the last in the footer.
     operation: usize,
+    /// Of each operation.
+    feeds: Vec<Feeds>,
     /// The tool that `{$tool.index}` means.
     pub(super) tool: &'a Tool,
     /// The tool is below the stock surface.
@@ -66,6 +68,7 @@ impl<'a> Writer<'a> {
             machine: Machine::default(),
             move_values: MoveValues::default(),
             operation: 0,
+            feeds: plan.job.feeds(),
             tool: &plan.job.operations[0].tool,
             is_cutting: false,
             empty_code: None,
@@ -101,6 +104,10 @@ impl<'a> Writer<'a> {
     }
 
     /// The present operation.
+    pub(super) fn feeds(&self) -> Feeds {
+        self.feeds[self.operation]
+    }
+
     pub(super) fn operation(&self) -> &'a Operation {
         &self.plan.job.operations[self.operation]
     }

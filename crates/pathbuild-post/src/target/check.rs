@@ -6,6 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault, messages::posts};
 
 use super::{LinePart, Target};
 use pathbuild_gcode::dialect::{Acceptance, LineLength};
+use pathbuild_gcode::read::LONGEST_LINE;
 
 /// Nobody reads more errors.
 const MOST_ERRORS: usize = 20;
@@ -57,7 +58,8 @@ impl Checker<'_> {
         let (length, longest) = match self.target.longest {
             Some(LineLength::Bare(longest)) => (bare, longest),
             Some(LineLength::Whole(longest)) => (self.line.len(), longest),
-            None => return,
+            // What is read back.
+            None => (self.line.len(), LONGEST_LINE),
         };
         if length > longest {
             let diagnostic = Diagnostic::new(&posts::LINE_TOO_LONG).with("length", length);
@@ -66,6 +68,9 @@ impl Checker<'_> {
     }
 
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
+        if self.errors.len() >= MOST_ERRORS {
+            return;
+        }
         let diagnostic = diagnostic.with("dialect", self.target.name).with("line", self.number);
         self.errors.push(diagnostic.with_text(TextFault::new(self.line, span)));
     }

@@ -41,6 +41,16 @@ fn rejected(line: u32, target: &str, word: &str) -> String {
     format!("line {line} of the output: {target} does not take \"{word}\"")
 }
 
+/// Nobody reads more, of one line or of many: each keeps a piece of its line.
+#[test]
+fn so_many_errors_are_told() {
+    for (text, count) in
+        [("A1 ".repeat(20), 20), ("A1 ".repeat(21), 20), ("A1\n".repeat(21), 20), ("A1 ".repeat(19), 19)]
+    {
+        assert_eq!(refused("grbl", &text).len(), count, "{text}");
+    }
+}
+
 #[test]
 fn words_that_the_target_does_not_know_are_errors() {
     assert_eq!(

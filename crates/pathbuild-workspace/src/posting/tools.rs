@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_post::{Coolant, Job, Operation, Spindle, Tool, ToolEntry, ToolTable};
 use regex::Regex;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::config::types;
 use crate::workspace::Workspace;
@@ -36,12 +37,18 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 /// Gives the operations of a program that was read what the table says of their tools' numbers, where the program itself says nothing.
 /// Numbers that are not in it are told. While it probes the spindle stands; a program that cuts nothing needs none.
 pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
-    let mut unknown = Vec::new();
+    let (mut unknown, mut told) = (Vec::new(), FxHashSet::default());
+    let mut known: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
+    for entry in &table.entries {
+        if let Some(index) = entry.index {
+            known.entry(index).or_insert(entry);
+        }
+    }
     let has_cuts = job.operations.iter().any(Operation::cuts);
     for operation in &mut job.operations {
         let index = operation.tool.index;
-        let Some(entry) = table.entries.iter().find(|entry| entry.index == Some(index)) else {
-            if !unknown.contains(&index) {
+        let Some(entry) = known.get(&index) else {
+            if told.insert(index) {
                 unknown.push(index);
             }
             continue;

@@ -110,9 +110,7 @@ impl Program {
 
     /// The same for those that know no file yet: of others the line is another file's.
     pub(super) fn place_own(&self, diagnostics: &mut [Diagnostic]) {
-        for diagnostic in diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()) {
-            self.place(std::slice::from_mut(diagnostic));
-        }
+        place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
     /// The dialect, and why it was guessed.
@@ -158,9 +156,11 @@ fn options(context: &Context, args: &ReadingArgs) -> Options {
     }
 }
 
-fn place(diagnostics: &mut [Diagnostic], file: &Utf8Path, text: &[u8]) {
-    quote(diagnostics, text);
-    for diagnostic in diagnostics {
+fn place<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &Utf8Path, text: &[u8]) {
+    let mut all: Vec<&mut Diagnostic> = diagnostics.into_iter().collect();
+    // Lines are counted once for all.
+    quote(all.iter_mut().map(|diagnostic| &mut **diagnostic), text);
+    for diagnostic in all {
         diagnostic.file = Some(file.to_owned());
     }
 }

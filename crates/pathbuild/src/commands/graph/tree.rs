@@ -27,11 +27,14 @@ pub(super) fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
                 remarks.push(words.shown.to_owned());
             }
         }
-        _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level);
+        _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level.min(DEEPEST));
         _ = if remarks.is_empty() { writeln!(text) } else { writeln!(text, "  ({})", remarks.join(", ")) };
     }
     text
 }
+
+/// What is deeper stands no further to the right: nobody sees it there, and the lines of a long chain would grow with its square.
+const DEEPEST: usize = 100;
 
 /// A line of a tree.
 struct Step {
