@@ -126,6 +126,33 @@ fn init_shows_every_key_with_a_right_value() {
     }
 }
 
+/// Each takes far more memory than its text: they are counted, and told once.
+#[test]
+fn patterns_are_counted() {
+    let list = |pattern: &str, count: usize| vec![format!("'{pattern}'"); count].join(", ");
+    for (inside, outside, what) in [
+        (
+            format!("restrict = [{}]", list("a:b", 200)),
+            format!("restrict = [{}]", list("a:b", 300)),
+            "400 regular",
+        ),
+        (
+            format!("[emit]\ntargets = [{}]", list("a", 10_000)),
+            format!("[emit]\ntargets = [{}]", list("a", 10_100)),
+            "10000 patterns",
+        ),
+    ] {
+        let run = Place::new().file("pathbuild.toml", inside).run("config show");
+        assert_eq!(run.status, Some(0), "{what}: {}", run.stderr);
+        let complaints = complaints(&outside);
+        assert_eq!(
+            (complaints.matches("PB003").count(), complaints.contains(what)),
+            (1, true),
+            "{complaints}"
+        );
+    }
+}
+
 #[test]
 fn init_leaves_a_configuration_alone() {
     let place = Place::new().file("pathbuild.toml", "feed = 1\n");

@@ -128,6 +128,48 @@ fn a_comment_does_not_fill_the_disk() {
     }
 }
 
+/// A line that would not be read back is not written.
+#[test]
+fn the_lines_of_a_program_are_limited() {
+    // Two brackets, and the words in front of the comment.
+    let rest = "(Q:)".len();
+    for (length, is_right) in [(65_536 - rest, true), (65_537 - rest, false)] {
+        let drawn = format!(
+            "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0 \"Q{}\"\nend 40,0",
+            "x".repeat(length)
+        );
+        let place = place("text-length = 100_000", "T5 O2 I1 B0 MX")
+            .file("1202.1P.dxf", sheet(&drawn).unwrap().to_dxf());
+        let run = place.run("emit 1202.1P.dxf");
+        assert_eq!(
+            (run.status, run.stderr.contains("PB005")),
+            (Some(i32::from(!is_right)), !is_right),
+            "{length}: {run}"
+        );
+        assert_eq!(programs(&place).len(), usize::from(is_right));
+        let refused = place.run("emit 1202.1P.dxf --post fanuc");
+        assert!(is_right || refused.stderr.contains("PB763"), "{refused}");
+    }
+}
+
+/// Rules of ignore files take much memory: all together have 16 times what one may have.
+#[test]
+fn ignore_files_are_limited_together() {
+    let rules = "*a*b*c*d\n".repeat(100);
+    for (count, is_right) in [(16, true), (17, false)] {
+        let place = place(&format!("ignore-file-size = {}", rules.len()), "T5 O2 I1 B0 MX");
+        let place = (0..count).fold(place, |place, index| place.file(&format!("{index}/.gitignore"), &rules));
+        for options in ["", "-j 1", "--no-cache"] {
+            let run = place.run(&format!("check . {options}"));
+            assert_eq!(
+                (run.status, run.stderr.contains("PB005")),
+                (Some(i32::from(!is_right)), !is_right),
+                "{run}"
+            );
+        }
+    }
+}
+
 /// A thousand faults of one text do not keep it a thousand times.
 #[test]
 fn faults_of_a_long_text_take_no_square_of_it() {

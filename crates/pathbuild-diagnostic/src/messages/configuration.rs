@@ -139,6 +139,13 @@ messages! {
         help_en: "a character that means itself has a backslash before it, or stands in brackets: [.]",
         help_de: "ein Zeichen, das für sich selbst steht, hat einen Backslash davor oder steht in Klammern: [.]",
     }
+    /// Any number of them would take any amount of memory.
+    TOO_MANY_PATTERNS: InvalidConfiguration {
+        en: "the file has more than {most} {what}",
+        de: "die Datei hat mehr als {most} {what}",
+        help_en: "alternatives can be one: a|b; in patterns of files they stand in braces, with commas between them",
+        help_de: "Alternativen können einer sein: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
+    }
     /// No glob.
     BROKEN_GLOB: InvalidConfiguration {
         en: "`{key}` is not a pattern of names: {reason}",
@@ -217,6 +224,8 @@ expectations! {
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
+    REGEXES: "regular expressions", "reguläre Ausdrücke";
+    GLOBS: "patterns of names", "Namensmuster";
     SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
     DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
     TEXT: "a text", "ein Text";

@@ -90,6 +90,20 @@ messages! {
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// Ignore files that would fill the memory.
+    TOO_MANY_RULES: LimitReached {
+        en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: nothing there is looked at",
+        de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: dort wird nichts angesehen",
+        help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml, of which that is 16 times",
+        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen, das ist davon das 16fache",
+    }
+    /// A line that nobody reads, this program included.
+    OUTPUT_LINE_TOO_LONG: LimitReached {
+        en: "line {line} of {name} comes to {length} bytes, which is more than {limit}; nothing is written",
+        de: "Zeile {line} von {name} wird {length} Byte lang, das ist mehr als {limit}; es wird nichts geschrieben",
+        help_en: "shorten the comment Q; with many probes, another `z-model` than \"plane\" writes four of them in a line",
+        help_de: "den Kommentar Q kürzen; bei vielen Messpunkten schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
+    }
     /// A text that would fill the disk.
     OUTPUT_TOO_LARGE: LimitReached {
         en: "this program comes to more than {limit} bytes; it is not written",

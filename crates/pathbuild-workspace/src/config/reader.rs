@@ -5,7 +5,7 @@ use std::ops::Range;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Confined, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Value, Word};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -25,12 +25,40 @@ pub(super) struct TomlReader<'a> {
     homes: Option<OnceCell<Homes>>,
     key: String,
     diagnostics: Vec<Diagnostic>,
+    /// How many regular expressions and globs were read.
+    counts: [u64; 2],
+}
+
+/// Something of which a file has only so many: each takes far more memory than its text.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Counted {
+    /// A regular expression.
+    Regex,
+    /// A pattern of names.
+    Glob,
+}
+
+impl Counted {
+    fn most(self) -> (u64, &'static Word) {
+        match self {
+            Self::Regex => (400, &messages::REGEXES),
+            Self::Glob => (10_000, &messages::GLOBS),
+        }
+    }
 }
 
 impl<'a> TomlReader<'a> {
     /// A reader of a file whose names of files are relative to `directory`.
     pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
-        Self { source, directory, confined, homes: None, key: String::new(), diagnostics: Vec::new() }
+        Self {
+            source,
+            directory,
+            confined,
+            homes: None,
+            key: String::new(),
+            diagnostics: Vec::new(),
+            counts: [0; 2],
+        }
     }
 
     /// From here on, of a key in the wrong table it is said where it belongs in a `pathbuild.toml`.
@@ -98,6 +126,19 @@ impl<'a> TomlReader<'a> {
     /// A fault at a span, its key filled in.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         self.source.fault(message, span).with("key", self.key.as_str())
+    }
+
+    /// Counts one more; whether there may be so many. Of those beyond, which may be any number, only the first is told.
+    pub(super) fn counts(&mut self, what: Counted, span: Range<usize>) -> bool {
+        let (most, word) = what.most();
+        let count = &mut self.counts[what as usize];
+        *count += 1;
+        let beyond = count.saturating_sub(most);
+        if beyond == 1 {
+            let fault = self.fault(&messages::TOO_MANY_PATTERNS, span).with("what", word).with("most", most);
+            self.report(fault);
+        }
+        beyond == 0
     }
 
     /// Keeps a fault.

@@ -8,6 +8,7 @@ use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Note, Point, Value};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
+use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Outside, Program, Statistics, Step, Total, memory};
@@ -355,10 +356,19 @@ fn native(
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text = kind.text(program, provenance, &means.writing).map_err(|it| Box::new(at(*it)))?;
         let Some(text) = text else { return Ok(None) };
+        too_long_line(&text, path).map_or(Ok(()), |problem| Err(Box::new(at(problem))))?;
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
         Ok(Some(Output { kind: *kind, path: path.clone(), text: text.into_bytes() }))
     };
     job.files.iter().map(output).filter_map(Result::transpose).collect()
+}
+
+/// PB005: what is longer would not be read back, nor by anybody else.
+fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
+    let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
+    let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);
+    let problem = problem.with("name", path.file_name().unwrap_or_default());
+    Some(problem.with("length", line.len()).with("limit", LONGEST_LINE))
 }
 
 /// What the post makes of programs; it reads that back itself.

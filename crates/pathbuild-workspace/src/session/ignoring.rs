@@ -2,6 +2,7 @@
 //! such as a person's global ones, are not asked: results must not depend on who asks.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use camino::Utf8Path;
 use ignore::Match;
@@ -23,6 +24,48 @@ pub(super) struct Rules {
     above: Option<Arc<Self>>,
 }
 
+/// How much may be read of such files: what is kept of them takes two hundred times as much memory.
+#[derive(Debug)]
+pub(super) struct Budget {
+    /// Bytes of a file.
+    each: u64,
+    /// Bytes of all of them that were read so far.
+    read: AtomicU64,
+}
+
+/// All of them may have so many times the bytes of one.
+const ALL: u64 = 16;
+
+impl Budget {
+    /// `each`: `[limits] ignore-file-size`.
+    pub(super) fn new(each: u64) -> Self {
+        Self { each, read: AtomicU64::new(0) }
+    }
+
+    /// PB005 where there was too much, whoever noticed it: then rules are missing.
+    pub(super) fn exceeded(&self, root: &Utf8Path) -> Option<Box<Diagnostic>> {
+        let problem = || {
+            Diagnostic::new(&messages::TOO_MANY_RULES)
+                .with("directory", root.as_str())
+                .with("limit", self.all())
+                .with("key", "ignore-file-size")
+        };
+        self.is_exceeded().then(|| Box::new(problem()))
+    }
+
+    fn is_exceeded(&self) -> bool {
+        self.read.load(Ordering::Relaxed) > self.all()
+    }
+
+    fn all(&self) -> u64 {
+        self.each.saturating_mul(ALL)
+    }
+
+    fn take(&self, bytes: usize) {
+        self.read.fetch_add(bytes as u64, Ordering::Relaxed);
+    }
+}
+
 /// Bytes of a line of such a file. Longer ones are no names, and patterns in each other would need a stack of that depth.
 const LONGEST_LINE: usize = 4096;
 
@@ -32,7 +75,7 @@ pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
 }
 
 impl Rules {
-    /// Reads the files of a directory, each of at most `limit` bytes.
+    /// Reads the files of a directory, within a budget.
     ///
     /// # Errors
     /// Why one cannot be read: then nobody knows what counts.
@@ -40,9 +83,9 @@ impl Rules {
         system: &dyn System,
         directory: &Utf8Path,
         above: Option<Arc<Self>>,
-        limit: u64,
+        budget: &Budget,
     ) -> Result<Arc<Self>, Box<Diagnostic>> {
-        let read = |name| patterns(system, directory, name, limit);
+        let read = |name| patterns(system, directory, name, budget);
         let is_repository = system.kind(&directory.join(".git")) != FileKind::Missing;
         Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
     }
@@ -73,14 +116,19 @@ fn patterns(
     system: &dyn System,
     directory: &Utf8Path,
     name: &str,
-    limit: u64,
+    budget: &Budget,
 ) -> Result<Gitignore, Box<Diagnostic>> {
     let file = join(directory, name);
+    let limit = budget.each;
     let bytes = match system.read(&file, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),
         Err(error) => return Err(Box::new(unreadable_by(&file, &error, limit, "ignore-file-size"))),
     };
+    budget.take(bytes.len());
+    if budget.is_exceeded() {
+        return Ok(Gitignore::empty());
+    }
     let text = String::from_utf8_lossy(&bytes);
     let mut builder = GitignoreBuilder::new(directory);
     for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {

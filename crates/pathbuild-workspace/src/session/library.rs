@@ -13,7 +13,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
 
-use super::ignoring::{self, Rules};
+use super::ignoring::{self, Budget, Rules};
 
 /// What lies in a directory and below.
 #[derive(Debug, Default)]
@@ -67,9 +67,10 @@ impl Walk<'_> {
         let mut walked = Walked::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
         let mut count = 1;
+        let budget = Budget::new(self.rules_limit);
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
             let list = |(directory, above): &(Utf8PathBuf, Option<Arc<Rules>>)| {
-                let list = || Directory::list(directory, above.clone(), self);
+                let list = || Directory::list(directory, above.clone(), self, &budget);
                 catch_bugs(list).unwrap_or_else(|bug| Ok(Some(Directory::failed(directory, *bug))))
             };
             let is_parallel = self.is_parallel && open.len() > FEW;
@@ -78,6 +79,9 @@ impl Walk<'_> {
             } else {
                 open.iter().map(list).collect()
             };
+            if let Some(problem) = budget.exceeded(readable(root)) {
+                return Err(problem);
+            }
             let mut next = Vec::new();
             for ((directory, _), listed) in open.into_iter().zip(listed) {
                 match listed? {
@@ -142,6 +146,7 @@ impl Directory {
         directory: &Utf8Path,
         above: Option<Arc<Rules>>,
         walk: Walk<'_>,
+        budget: &Budget,
     ) -> Result<Option<Self>, Box<Diagnostic>> {
         let mut found = Self { rules: above.clone(), ..Self::default() };
         let mut has_own = false;
@@ -156,10 +161,8 @@ impl Directory {
         });
         if has_own {
             // Most directories have no rules of their own: those that have are listed again, by them.
-            found = Self {
-                rules: Some(Rules::read(walk.system, directory, above, walk.rules_limit)?),
-                ..Self::default()
-            };
+            found =
+                Self { rules: Some(Rules::read(walk.system, directory, above, budget)?), ..Self::default() };
             listed = walk.system.each_entry(directory, &mut |entry| {
                 found.add(directory, entry);
                 if found.count > walk.limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::text::{is_literal, list, quoted, texts};
 use crate::config::kind::ValueType;
-use crate::config::reader::TomlReader;
+use crate::config::reader::{Counted, TomlReader};
 use crate::config::types::{Pattern, Restriction};
 
 /// A regular expression.
@@ -68,9 +68,12 @@ pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
 }
 
 /// A pattern of names needs far less; a larger one only wastes memory.
-const REGEX_SIZE: usize = 1 << 20;
+const REGEX_SIZE: usize = 1 << 19;
 
 fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
+    if !reader.counts(Counted::Regex, span.clone()) {
+        return false;
+    }
     let Some(reason) = regex_fault(text) else { return true };
     let fault = reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason);
     reader.report(fault);
@@ -89,6 +92,9 @@ fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> O
 }
 
 fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Pattern> {
+    if !reader.counts(Counted::Glob, span.clone()) {
+        return None;
+    }
     match Pattern::new(text) {
         Ok(pattern) => Some(pattern),
         Err(reason) => {
