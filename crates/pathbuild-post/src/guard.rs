@@ -31,7 +31,10 @@ impl<'a> Guard<'a> {
                 let guard = if is_active_comment(&all) && !is_active_comment(before) { GUARD } else { "" };
                 Some(format!("{guard}{plain}"))
             }
-            None if is_title || is_inert(&plain, &self.marks) => Some(plain),
+            None if is_title => Some(plain),
+            // One that begins here would hide the words behind it.
+            None if self.open_comment(&format!("{line}{plain}")).is_some() => None,
+            None if is_inert(&plain, &self.marks) => Some(plain),
             None => None,
         }
     }
@@ -72,10 +75,8 @@ fn unclosing(text: &str, close: &str) -> String {
     text.replace(|c| close.contains(c), instead)
 }
 
-/// Whether a text says nothing to a control outside comments either, and opens none.
+/// Whether a text says nothing to a control outside comments either.
 fn is_inert(text: &str, marks: &CommentMarks) -> bool {
     words(text, marks).words.is_empty()
         && !text.contains(['#', '[', ']', '%', '$', '{', '}', '"', '<', '>', '='])
-        && !text.contains(|c| marks.open.contains(c))
-        && !text.contains("//")
 }

@@ -68,10 +68,14 @@ impl Confined {
 
     /// Whether a path may lie in one of the directories: as it is spelt, where it leads, or since nobody can say where that is.
     pub fn may_hold(&self, path: &Utf8Path) -> bool {
-        let real = self.real(path);
-        // What cannot be followed may lead anywhere.
-        let leads = |root: &Root| matches!(&real, Some(real) if real.as_ref().map_or(true, |it| it.starts_with(&root.real)));
-        self.roots.iter().any(|root| self.spells(path, root) || leads(root))
+        let spells = |root: &Root| self.spells(path, root);
+        let leads = || match self.real(path) {
+            Some(Ok(real)) => self.roots.iter().any(|root| real.starts_with(&root.real)),
+            // What cannot be followed may lead anywhere.
+            Some(Err(_)) => true,
+            None => false,
+        };
+        self.roots.iter().any(spells) || leads()
     }
 
     fn spells(&self, path: &Utf8Path, root: &Root) -> bool {
