@@ -94,8 +94,8 @@ messages! {
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: nothing there is looked at",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: dort wird nichts angesehen",
-        help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml, of which that is 16 times",
-        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen, das ist davon das 16fache",
+        help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml: all together may have 16 times as much",
+        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen darf es 16-mal so viel sein",
     }
     /// A line that nobody reads, this program included.
     OUTPUT_LINE_TOO_LONG: LimitReached {
