@@ -268,17 +268,64 @@ fn what_lies_above_temporary_files_does_not_hold() {
     }
 }
 
-/// Of what is larger than a drawing may be, no more is written than shows that.
+/// What is larger than any drawing may be is not unpacked: it is refused for its length.
+#[cfg(unix)]
 #[test]
 fn large_files_of_a_revision_are_not_written_whole() {
-    let limit = 1 << 20;
-    let configuration = format!("rapid = 1000\nlibrary = [\".\"]\n[limits]\nfile-size = {limit}\n");
-    for size in [limit, limit + 1, 3 * limit] {
-        let drawing = vec![b'\n'; size];
-        let place = Place::new().file("pathbuild.toml", &configuration).file("1001.1P.dxf", drawing);
-        let run = committed(place).run("diff HEAD HEAD");
-        let told = format!("the file's size of {} bytes", limit + 1);
-        assert_eq!(run.stderr.contains(&told), size > limit, "{size}: {run}");
+    let place = Place::new().file("pathbuild.toml", "rapid = 1000\nlibrary = [\".\"]\n");
+    // Without content: it takes no room on disk.
+    fs::File::create(place.path().join("1001.1P.dxf")).unwrap().set_len((1 << 30) + 1).unwrap();
+    let (run, time) = committed(place).run_timed("diff HEAD HEAD");
+    assert!(run.stderr.contains("the file's size of 1073741825 bytes"), "{run}");
+    assert!(time < std::time::Duration::from_secs(2), "{time:?}");
+}
+
+/// What a configuration forbids now may have been allowed then.
+#[test]
+fn the_limits_of_a_revision_are_its_own() {
+    let configuration = "rapid = 1000\nlibrary = [\".\"]\n";
+    let place =
+        Place::new().file("pathbuild.toml", configuration).file("1001.1P.dxf", dxf("1001.1P", "1", LINE));
+    let place = committed(place).file("1001.1P.dxf", dxf("1001.1P", "0.5", LINE));
+    git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
+    let place = place.file("pathbuild.toml", format!("{configuration}[limits]\nfile-size = 100\n"));
+    told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
+}
+
+/// One object of Git, without content, under so many names that they have more than 4 GiB together.
+#[cfg(unix)]
+#[test]
+fn a_revision_has_an_end() {
+    let large = 256 << 20;
+    let place =
+        Place::new().file("pathbuild.toml", "rapid = 1000\nlibrary = [\".\"]\n").file("1001.1P.dxf", "");
+    let file = fs::File::options().write(true).open(place.path().join("1001.1P.dxf")).unwrap();
+    file.set_len(large).unwrap();
+    let place = committed(place);
+    let id = Command::new("git").args(["rev-parse", "HEAD:1001.1P.dxf"]).current_dir(place.path()).output();
+    let id = String::from_utf8(id.unwrap().stdout).unwrap().trim().to_owned();
+    for number in 1002..1018 {
+        let entry = format!("100644,{id},{number}.1P.dxf");
+        git(&place, &["update-index", "--add", "--cacheinfo", &entry]);
+    }
+    git(&place, &["commit", "-q", "-m", "many"]);
+    let run = place.run("diff HEAD HEAD");
+    assert_eq!((run.status, run.stderr.contains("more than 4 GiB")), (Some(2), true), "{run}");
+    let german = place.run("diff HEAD HEAD --lang de");
+    assert!(german.stderr.contains("mehr als 4 GiB") && !german.stderr.contains("git:"), "{german}");
+}
+
+/// As long as systems have paths.
+#[cfg(unix)]
+#[test]
+fn names_of_a_revision_have_an_end() {
+    for (depth, is_right) in [(15, true), (25, false)] {
+        let place = committed(Place::new().file("a.txt", ""));
+        let tree =
+            hostile_tree(&place, &format!("{}1001.1P.dxf", format!("{}/", "a".repeat(200)).repeat(depth)));
+        let run = place.run_with(&["diff", &tree, &tree]);
+        assert_eq!(run.status, Some(if is_right { 0 } else { 2 }), "{run}");
+        assert_eq!(run.stderr.contains("the name of a file in the revision is too long"), !is_right, "{run}");
     }
 }
 

@@ -26,7 +26,7 @@ pub fn is_named(file: &Utf8Path) -> bool {
     file.as_std_path().symlink_metadata().is_ok()
 }
 
-/// How many bytes it has.
+/// How many bytes a file has.
 pub fn size(file: &Utf8Path) -> Option<u64> {
     file.as_std_path().metadata().ok().map(|data| data.len())
 }

@@ -88,8 +88,10 @@ pub fn is_active_comment(text: &str) -> bool {
 
 /// The word with which a comment begins, blanks and capitals aside.
 pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'static str> {
-    let text: String = text.chars().filter(|c| !c.is_whitespace()).take(LONGEST_WORD).collect();
-    let begins = |word: &str| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    let begins = |word: &str| {
+        let mut letters = text.chars().filter(|c| !c.is_whitespace());
+        word.chars().all(|letter| letters.next().is_some_and(|c| c.eq_ignore_ascii_case(&letter)))
+    };
     words.iter().copied().find(|word| begins(word))
 }
 
@@ -109,5 +111,3 @@ pub(super) const OBEYED: &[&str] = &[
 
 /// What changes what somebody sees, at one control or another: messages, and which moves a preview shows.
 const SHOWN: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];
-
-const LONGEST_WORD: usize = 16;

@@ -103,11 +103,12 @@ impl<'a> Writer<'a> {
         Ok((self.lines.finish(), self.shadow.finish(), self.warnings))
     }
 
-    /// The present operation.
+    /// The feeds of the present operation.
     pub(super) fn feeds(&self) -> Feeds {
         self.feeds[self.operation]
     }
 
+    /// The present operation.
     pub(super) fn operation(&self) -> &'a Operation {
         &self.plan.job.operations[self.operation]
     }

@@ -7,6 +7,7 @@ use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
+use pathbuild_diagnostic::Word;
 use pathbuild_workspace::{Workspace, config};
 
 /// A repository, and the tree that is checked out of it.
@@ -36,11 +37,24 @@ pub(super) enum EntryKind {
     Submodule,
 }
 
-/// What is done with a blob's bytes; there are none of one that is too large.
-pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Option<&mut dyn Read>) -> io::Result<()>;
+/// What is done with a blob's bytes; of one that has too many, with how many those are.
+pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
 /// Bytes of a `.git` that is a file, and of what Git says before a blob and of a file: systems have no longer names.
 const LONGEST_LINE: u64 = 4096;
+
+/// Bytes of blobs that are handed out at once: a few of Git's own can hold any number.
+const MOST_BYTES: u64 = 4 << 30;
+
+static TOO_MANY_FILES: Word = Word {
+    en: "the revision has more than {} files: `library-entries` of [limits] is exceeded",
+    de: "die Revision hat mehr als {} Dateien: `library-entries` von [limits] ist überschritten",
+};
+
+static LONG_NAME: Word = Word {
+    en: "the name of a file in the revision is too long",
+    de: "der Name einer Datei in der Revision ist zu lang",
+};
 
 /// Bytes of what a link says.
 const LONGEST_LINK: u64 = 4096;
@@ -124,33 +138,31 @@ impl<'a> Repository<'a> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
         let (entries, is_whole) = self.fed(&arguments, "", |mut answers| entries(&mut answers, most))?;
-        let Some(entries) = entries else {
-            return Err(self.workspace.phrase(
-                "the revision has more than {} files: `library-entries` of [limits] is exceeded",
-                "die Revision hat mehr als {} Dateien: `library-entries` von [limits] ist überschritten",
-                &most.to_string(),
-            ));
-        };
+        let entries = entries.map_err(|word| self.workspace.phrase(word.en, word.de, &most.to_string()))?;
         if is_whole { Ok(entries) } else { Err(self.failed("")) }
     }
 
     /// Hands out the bytes of blobs, in their order, as they were committed; of one that has more than `most`, that there are too many.
     ///
     /// # Errors
-    /// One is not there, or whoever takes the bytes fails.
+    /// One is not there, they are too many bytes together, or whoever takes the bytes fails.
     pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
         let (sizes, _) =
             self.fed(&["cat-file", "--batch-check"], &lines(&mut ids.iter().copied()), |mut answers| {
                 ids.iter().map(|_| size_of(&mut answers)).collect::<io::Result<Vec<u64>>>()
             })?;
+        if sizes.iter().filter(|size| **size <= most).sum::<u64>() > MOST_BYTES {
+            let (en, de) = ("the revision has more than 4 GiB", "die Revision hat mehr als 4 GiB");
+            return Err(self.workspace.choose(en, de).to_owned());
+        }
         let mut small = ids.iter().zip(&sizes).filter(|(_, size)| **size <= most).map(|(id, _)| *id);
         self.fed(&["cat-file", "--batch"], &lines(&mut small), |mut answers| {
             sizes.iter().enumerate().try_for_each(|(index, size)| {
                 if *size > most {
-                    take(index, None)
+                    take(index, Err(*size))
                 } else {
-                    blob(&mut answers, &mut |bytes| take(index, Some(bytes)))
+                    blob(&mut answers, &mut |bytes| take(index, Ok(bytes)))
                 }
             })
         })
@@ -165,7 +177,7 @@ impl<'a> Repository<'a> {
         let mut targets = Vec::with_capacity(ids.len());
         self.each_blob(ids, LONGEST_LINK, &mut |_, bytes| {
             let mut target = String::new();
-            let is_read = bytes.is_some_and(|bytes| bytes.read_to_string(&mut target).is_ok());
+            let is_read = bytes.is_ok_and(|bytes| bytes.read_to_string(&mut target).is_ok());
             targets.push(is_read.then_some(target));
             Ok(())
         })?;
@@ -290,21 +302,21 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
     Ok(name)
 }
 
-/// What `ls-tree -z` says; `None` of more files than so many.
-fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Option<Vec<Entry>>> {
+/// What `ls-tree -z` says, or why it is not gone through.
+fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Word>> {
     let mut entries = Vec::new();
     let mut line = Vec::new();
     while answers.by_ref().take(LONGEST_LINE).read_until(0, &mut line)? > 0 {
         if line.pop() != Some(0) {
-            return Err(io::Error::other("the name of a file in the revision is too long"));
+            return Ok(Err(&LONG_NAME));
         }
         if entries.len() as u64 == most {
-            return Ok(None);
+            return Ok(Err(&TOO_MANY_FILES));
         }
         entries.extend(Entry::read(&String::from_utf8_lossy(&line)));
         line.clear();
     }
-    Ok(Some(entries))
+    Ok(Ok(entries))
 }
 
 /// The end of a line that `cat-file` begins an answer with.

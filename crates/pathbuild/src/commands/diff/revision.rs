@@ -45,9 +45,8 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
     // What is above is another's: a tree without a configuration has this one, which says nothing.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
-    let largest = context.settings.limits.file_size.value;
-    let mut taken =
-        Taking { repository: &repository, whole: &whole, largest, bytes: 0, left_out: Vec::new() };
+    let largest = context.settings.limits.file_size.value.max(LARGE);
+    let mut taken = Taking { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
     taken.all(&entries)?;
     say_left_out(context, &taken.left_out);
     let directory = context.system.canonical(&context.working_directory);
@@ -78,17 +77,15 @@ fn say_left_out(context: &Context, left_out: &[String]) {
     }
 }
 
-/// The most bytes of a revision that are written: a few of Git's can hold any number.
-const MOST_BYTES: u64 = 4 << 30;
+/// Bytes of a file that is written as it is, also where less is allowed now: the revision's own configuration may allow it.
+const LARGE: u64 = 1 << 30;
 
 /// Writes the files of a tree.
 struct Taking<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
-    /// The most bytes of a file: that one has more is told when it is read.
+    /// The most bytes of a file. One that has more gets its length only, and is refused for that when it is read.
     largest: u64,
-    /// So many were written.
-    bytes: u64,
     /// Drawings that cannot be there.
     left_out: Vec<String>,
 }
@@ -134,25 +131,18 @@ impl Taking<'_> {
         repository.each_blob(&ids(entries), largest, &mut |index, bytes| self.file(entries[index], bytes))
     }
 
-    fn file(&mut self, entry: &Entry, bytes: Option<&mut dyn Read>) -> io::Result<()> {
+    fn file(&mut self, entry: &Entry, bytes: Result<&mut dyn Read, u64>) -> io::Result<()> {
         match File::create_new(self.whole.join(&entry.name)) {
-            Ok(file) => self.fill(file, bytes),
+            Ok(mut file) => match bytes {
+                Ok(bytes) => io::copy(bytes, &mut file).map(|_| ()),
+                Err(size) => file.set_len(size),
+            },
             // Two names can be one where case does not count.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 self.leave_out(entry);
                 Ok(())
             }
             Err(error) => Err(error),
-        }
-    }
-
-    fn fill(&mut self, mut file: File, bytes: Option<&mut dyn Read>) -> io::Result<()> {
-        let Some(bytes) = bytes else { return file.set_len(self.largest.saturating_add(1)) };
-        self.bytes += io::copy(&mut bytes.take(MOST_BYTES - self.bytes + 1), &mut file)?;
-        if self.bytes > MOST_BYTES {
-            Err(io::Error::other("the revision has more than 4 GiB"))
-        } else {
-            Ok(())
         }
     }
 
