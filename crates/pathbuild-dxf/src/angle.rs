@@ -1,6 +1,6 @@
 //! Directions of angles in degrees.
 
-/// Cosine and sine of an angle in degrees, exact at right angles, which are what people draw.
+/// Cosine and sine of an angle in degrees. Right angles, which most drawings consist of, are exact.
 pub(crate) fn cos_sin(degrees: f64) -> (f64, f64) {
     let turned = libm::fmod(degrees, 360.0);
     let turned = if turned < 0.0 { turned + 360.0 } else { turned };
@@ -16,7 +16,7 @@ pub(crate) fn cos_sin(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// The angle in degrees of a vector that is not nothing.
+/// The angle in degrees of a vector of non-zero length.
 pub(crate) fn of(x: f64, y: f64) -> f64 {
     libm::atan2(y, x).to_degrees()
 }

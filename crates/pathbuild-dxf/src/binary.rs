@@ -1,20 +1,21 @@
-//! Binary DXF, rewritten as ASCII. (book: reference/dxf; 24 of 3306 files from the wild)
+//! Converts binary DXF to ASCII. (book: reference/dxf; 24 of 3306 files from the wild)
 //!
-//! Binary files are rare, so they get no reader of their own: pair by pair they become lines, which also gives each pair the line
-//! number that diagnostics name it by. Numbers are written with as many digits as they need to be read back exactly. Only what comes
-//! before the end of ENTITIES is rewritten, so that the text stays within a few times the size of the file.
+//! Binary files are too rare for a reader of their own. Each pair is rewritten as two lines, which also gives it the line number that
+//! diagnostics refer to. Numbers are written with enough digits to be read back exactly. Conversion stops at the end of ENTITIES, so the
+//! text stays within a few times the size of the file.
 
 use std::io::Write;
 
 use memchr::{memchr, memmem};
 
-/// What a binary file begins with.
+/// The first bytes of a binary file.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
-/// How much of a file's end is searched for its end mark.
+/// Number of bytes at the end of a file that are searched for the end mark.
 const TAIL: usize = 4096;
 
-/// The ASCII form of a binary file; `None` when it is none. Where the file is cut off or out of step, the text is as well.
+/// Returns the ASCII form of a binary file, or `None` if the file is not binary. A truncated or misaligned file gives truncated or
+/// misaligned text.
 pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
     let bytes = file.strip_prefix(SENTINEL)?;
     let mut rest = Values { bytes, codes: GroupCodes::of(bytes) };
@@ -40,33 +41,33 @@ pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
     Some(text)
 }
 
-/// How many bytes a group code has.
+/// Size of a group code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GroupCodes {
-    /// Up to R12: one, and two more after an FF.
+    /// Up to R12: one byte, or FF and two bytes.
     OneByte,
-    /// Since R13.
+    /// Since R13: two bytes.
     TwoBytes,
 }
 
-/// What is left of the file.
+/// The unread rest of the file.
 struct Values<'a> {
     bytes: &'a [u8],
     codes: GroupCodes,
 }
 
-/// Where in the file a pair is.
+/// Progress through the sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Section {
     Other,
-    /// `0/SECTION` was the last pair.
+    /// The last pair was `0/SECTION`.
     Begun,
     Entities,
     AfterEntities,
 }
 
 impl GroupCodes {
-    /// By the first pair, which is `0/SECTION` or a remark (999).
+    /// Detects the size from the first pair, which is `0/SECTION` or a comment (999).
     fn of(bytes: &[u8]) -> Self {
         match bytes {
             [0, 0, ..] | [0xE7, 0x03, ..] => Self::TwoBytes,
@@ -88,7 +89,7 @@ impl Section {
 }
 
 impl Values<'_> {
-    /// The next group code.
+    /// Reads the next group code.
     fn code(&mut self) -> Option<i16> {
         if self.codes == GroupCodes::TwoBytes {
             return self.take().map(i16::from_le_bytes);
@@ -99,7 +100,7 @@ impl Values<'_> {
         }
     }
 
-    /// Writes the value of a group. A code of unknown type is written so that the reader finds no code there.
+    /// Writes the value of a group. The code of an unknown type is written in a form that the reader rejects as a code.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Option<()> {
         match value_type(code) {
             Type::String => self.string(text)?,
@@ -120,7 +121,7 @@ impl Values<'_> {
         Some(())
     }
 
-    /// A string up to its NUL. Line ends in it are written as a CAD writes them in ASCII files.
+    /// Copies a string up to its NUL. Line ends inside it are escaped as CAD programs do in ASCII files.
     fn string(&mut self, text: &mut Vec<u8>) -> Option<()> {
         let length = memchr(0, self.bytes)?;
         for byte in &self.bytes[..length] {
@@ -141,7 +142,7 @@ impl Values<'_> {
     }
 }
 
-/// How a value is stored.
+/// Storage type of a value.
 #[derive(Clone, Copy, Debug)]
 enum Type {
     String,
@@ -150,7 +151,7 @@ enum Type {
     Short,
     Long,
     LongLong,
-    /// Bytes after their number.
+    /// Bytes preceded by their count.
     Chunk,
     Unknown,
 }
@@ -170,7 +171,7 @@ fn value_type(code: i16) -> Type {
     }
 }
 
-/// Whether `0/EOF` is at the end, whatever short padding follows it.
+/// Whether the input ends with `0/EOF`, apart from a short padding.
 fn ends_with_eof(rest: &[u8]) -> bool {
     let tail = &rest[rest.len().saturating_sub(TAIL)..];
     memmem::find(tail, b"\0EOF\0").is_some()

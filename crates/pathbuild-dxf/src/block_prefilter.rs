@@ -1,4 +1,4 @@
-//! Whether blocks matter at all: a look at all the layers that anything in them can be on, much faster than to find the blocks.
+//! A fast test of whether the BLOCKS section matters: it scans for layer names without parsing any block.
 
 use std::iter;
 
@@ -8,8 +8,8 @@ use crate::encoding::Decoder;
 use crate::layers::Layers;
 use crate::pairs::{Pairs, line_length, without_cr};
 
-/// Whether anything of these blocks may be on a wanted layer without being inserted on one. If it says no, that is certain, however codes
-/// are written and whatever may be wrong in the section: each line behind one that may be the code 8 is taken for the name of a layer.
+/// Whether these blocks may hold anything on a wanted layer other than the layers they are inserted on. `false` is certain, however codes
+/// are padded and however broken the section is, because every line after a possible code 8 is taken for a layer name.
 pub(crate) fn may_hold_wanted<'a>(
     blocks: &Pairs<'a>,
     layers: &mut Layers<'a, '_>,
@@ -17,7 +17,7 @@ pub(crate) fn may_hold_wanted<'a>(
 ) -> bool {
     let (line_end, begin) = (blocks.line_end(), blocks.consumed());
     let bytes = &blocks.bytes()[begin..];
-    // Lines are counted on from the last that was asked for: a file may name a million layers.
+    // Line numbers are counted on from the previous query, since a file may name a million layers.
     let mut counted = *blocks;
     any_eight(bytes, |eight| {
         let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
@@ -31,7 +31,7 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether it is so for any of the eights that may be a code, or for some other.
+/// Whether `is` holds for the position of any 8 that may be a group code.
 fn any_eight(bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
     let mut begin = 0;
     while let Some(window) = bytes.get(begin..).and_then(<[u8]>::first_chunk) {
@@ -48,10 +48,10 @@ fn any_eight(bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
     others.any(|at| bytes.get(at) == Some(&b'8') && is(at))
 }
 
-/// How many bytes are looked at together.
+/// Number of bytes compared at once.
 const VECTOR: usize = 16;
 
-/// Which of the bytes between the first and the last are eights with such neighbours as a code has: bit n for byte n + 1.
+/// Bit mask of the inner bytes that are an `8` with neighbours that a group code could have: bit n for byte n + 1.
 #[inline]
 fn eights(window: &[u8; VECTOR + 2]) -> u32 {
     let bytes =
@@ -63,20 +63,20 @@ fn eights(window: &[u8; VECTOR + 2]) -> u32 {
     (is_padding & is(bytes(1), b'8') & is_blank(bytes(2))).to_bitmask()
 }
 
-/// Where the line begins that follows the one with this eight, if that has a code and nothing else.
+/// Start of the line after the one with this 8, if that line holds only a group code.
 fn line_behind_code(bytes: &[u8], eight: usize, line_end: u8) -> Option<usize> {
     let length = rest_of_code(&bytes[eight + 1..], line_end)?;
     is_begin_of_code(&bytes[..eight], line_end).then_some(eight + 1 + length)
 }
 
-/// How much it is to the next line, if a code ends before these bytes.
+/// Length of the line end at these bytes, if a code may end just before them.
 #[inline]
 fn rest_of_code(behind: &[u8], line_end: u8) -> Option<usize> {
     let length = behind.iter().position(|byte| *byte == line_end || *byte > b' ')?;
     (behind[length] == line_end).then_some(length + 1)
 }
 
-/// Whether a line that ends with these bytes and a digit may be a code of one digit.
+/// Whether a line that ends with these bytes and a digit may be a one-digit code.
 #[inline]
 fn is_begin_of_code(before: &[u8], line_end: u8) -> bool {
     let is_padding = |byte: u8| byte <= b' ' || matches!(byte, b'0' | b'+');

@@ -1,5 +1,5 @@
-//! The BLOCKS section: indexed when the first INSERT is met that may bring something wanted, each block read when its first such INSERT is.
-//! Most drawings need none of it.
+//! The BLOCKS section. It is indexed at the first INSERT that may bring something wanted; each block is read at its first such INSERT. Most
+//! drawings need neither.
 
 use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
@@ -23,35 +23,35 @@ use crate::trouble::Trouble;
 pub(crate) struct Blocks<'a> {
     by_name: ByName<'a, BlockId>,
     all: Vec<Block<'a>>,
-    /// The wanted layers that the insertion of a block on a layer touches.
-    wanted: BTreeMap<Inserted, Rc<[LayerId]>>,
+    /// For each block and layer it is inserted on: the wanted layers that such an insertion draws on.
+    wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
 }
 
-/// A block on a layer.
-type Inserted = (BlockId, LayerId);
+/// A block and the layer it is inserted on.
+type BlockOnLayer = (BlockId, LayerId);
 
-/// The number of a block.
+/// Index of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct BlockId(usize);
 
 struct Block<'a> {
     base: Result<Point3, Trouble<'a>>,
-    /// The pairs behind its own, and the first of its records.
+    /// The pairs after the block's own groups, starting with its first record.
     pairs: Pairs<'a>,
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
     layers: LayersOf,
 }
 
-/// What is known of the layers of a block's items without these.
+/// The layers used by the contents of a block.
 #[derive(Clone, Default)]
 enum LayersOf {
-    /// Nothing yet.
+    /// Not determined yet.
     #[default]
     Unknown,
-    /// All of them.
+    /// Determined.
     Known(Rc<[LayerId]>),
-    /// They cannot be known without the items.
+    /// Cannot be determined without reading the contents.
     Items,
 }
 
@@ -61,13 +61,13 @@ impl<'a> Block<'a> {
     }
 }
 
-/// What ends a block must be its end.
+/// Checks that the record after a block's contents is its ENDBLK.
 fn ended(records: &Records<'_>) -> Result<(), Fatal> {
     if records.head.is("ENDBLK") { Ok(()) } else { Err(not_ended("BLOCK", &records.head)) }
 }
 
 impl<'a> Blocks<'a> {
-    /// Finds the blocks of the section that begins here.
+    /// Indexes the blocks of the section that starts here.
     pub(crate) fn index(pairs: Pairs<'a>, reader: &mut EntityReader<'a, '_>) -> Result<Self, Stop<'a>> {
         let EntityReader { fields, decoder, .. } = reader;
         let mut groups = Groups::new(pairs);
@@ -84,17 +84,17 @@ impl<'a> Blocks<'a> {
         Ok(blocks)
     }
 
-    /// The block of this name, without regard to case.
+    /// Finds a block by name, ignoring case.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
         self.by_name.find(&Name::new(name.into())).copied()
     }
 
-    /// Its base point.
+    /// The base point of a block.
     pub(crate) fn base(&self, block: BlockId) -> Result<Point3, Trouble<'a>> {
         self.all[block.0].base.clone()
     }
 
-    /// What is in it, as far as it can be wanted.
+    /// The contents of a block that may be wanted.
     pub(crate) fn items(
         &mut self,
         block: BlockId,
@@ -117,7 +117,7 @@ impl<'a> Blocks<'a> {
         Ok(items)
     }
 
-    /// The wanted layers on which the insertion of a block on a layer puts something, be it that something is wrong there.
+    /// The wanted layers on which inserting a block on a layer draws something or reports a fault.
     pub(crate) fn wanted_layers(
         &mut self,
         block: BlockId,
@@ -131,21 +131,21 @@ impl<'a> Blocks<'a> {
         let (wanted, seen) = self.look_for_wanted(block, layer, reader, steps)?;
         let wanted: Rc<[LayerId]> = wanted.into();
         if wanted.is_empty() {
-            // Then nothing on the way is wanted.
+            // Nothing nested in it is wanted either, so all visited blocks share the result.
             self.wanted.extend(seen.into_iter().map(|seen| (seen, Rc::clone(&wanted))));
         }
         self.wanted.insert((block, layer), Rc::clone(&wanted));
         Ok(wanted)
     }
 
-    /// Goes through a block, and those that are inserted in it, for wanted layers; and which blocks on which layers these were.
+    /// Collects the wanted layers of a block and of all blocks nested in it, and the insertions that were visited.
     fn look_for_wanted(
         &mut self,
         block: BlockId,
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
         steps: &mut Steps,
-    ) -> Result<(Vec<LayerId>, HashSet<Inserted>), Fatal> {
+    ) -> Result<(Vec<LayerId>, HashSet<BlockOnLayer>), Fatal> {
         let (mut wanted, mut known) = (Vec::new(), HashSet::new());
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
@@ -176,7 +176,7 @@ impl<'a> Blocks<'a> {
         Ok((wanted, seen))
     }
 
-    /// The layers of what is in it, as far as it can be wanted.
+    /// The layers of a block's contents that may be wanted.
     fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<LayersOf, Fatal> {
         let block = &mut self.all[block.0];
         if matches!(block.layers, LayersOf::Unknown) {
@@ -193,7 +193,7 @@ impl<'a> Blocks<'a> {
         Ok(block.layers.clone())
     }
 
-    /// The block that an item inserts, if the file has it.
+    /// The block that an item inserts, if the file defines it.
     fn inserted(&self, item: &Item<'_>) -> Option<BlockId> {
         match &item.shape {
             Ok(Shape::Insert(insert)) => self.find(&insert.block),

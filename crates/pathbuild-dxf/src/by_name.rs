@@ -1,18 +1,18 @@
-//! Finding the layers and blocks of a file by their names.
+//! Lookup of layers and blocks by name.
 
 use std::cell::OnceCell;
 
 use crate::names::Name;
 
-/// Things with names. Of those with the same name the first is found.
+/// Named values. Of several with the same name the first is found.
 #[derive(Debug)]
 pub(crate) struct ByName<'a, T> {
     named: Vec<(Name<'a>, T)>,
-    /// Hashes of the names and where they are, in order; wanted only where there are many.
+    /// Hashes with indices, sorted. Built only for large tables.
     order: OnceCell<Vec<(u64, usize)>>,
 }
 
-/// So many names are compared one after the other: drawings have few layers and blocks, and hardly any is ever looked for.
+/// Up to this size, names are compared one by one: drawings have few layers and blocks and look few of them up.
 const FEW: usize = 32;
 
 impl<T> Default for ByName<'_, T> {
@@ -22,18 +22,18 @@ impl<T> Default for ByName<'_, T> {
 }
 
 impl<'a, T> ByName<'a, T> {
-    /// Adds something behind all others.
+    /// Appends a value.
     pub(crate) fn push(&mut self, name: Name<'a>, thing: T) {
         self.named.push((name, thing));
         self.order.take();
     }
 
-    /// All with their names.
+    /// All names and values in file order.
     pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &(Name<'a>, T)> {
         self.named.iter()
     }
 
-    /// What has this name.
+    /// Finds the value with this name.
     pub(crate) fn find(&self, name: &Name<'_>) -> Option<&T> {
         let place = if self.named.len() <= FEW {
             self.named.iter().position(|(other, _)| other == name)
@@ -53,7 +53,7 @@ impl<'a, T> ByName<'a, T> {
         (self.named[*place].0 == *name).then_some(*place)
     }
 
-    /// Names are compared only where hashes are the same: that of a file full of such is as fast.
+    /// Names are compared only if their hashes are equal, so even a table full of collisions takes linear time.
     fn in_order(&self) -> Vec<(u64, usize)> {
         let name = |place: &usize| &self.named[*place].0;
         let mut order: Vec<(u64, usize)> =

@@ -1,30 +1,30 @@
-//! Group codes: what the reader does with the groups of each.
+//! Group codes and what the reader does with their values.
 //!
-//! A code is looked up as its three characters, which is much less work than to make a number of them.
+//! A code is looked up by its three characters, which costs much less than parsing it as a number.
 
 use crate::pairs::Pairs;
 
-/// What is done with a group.
+/// What the reader does with a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
-/// How the lines of codes usually end.
+/// How lines with group codes usually end in this file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CodeEnd {
-    /// With its last byte.
+    /// The byte that ends a line: LF or CR.
     last: u8,
-    /// The length of a line of three characters with its end.
+    /// Length of a line of three characters with its line end.
     length: usize,
-    /// The end behind three characters, and the bits of such a line.
+    /// The line end after three characters, and the mask of such a line.
     behind_three: u64,
     mask: u64,
 }
 
-/// No line of a code that is read fast is longer.
+/// Longest line with a code that the fast path reads.
 const LONGEST: usize = 8;
 
 impl CodeEnd {
-    /// As the first of these does.
+    /// Takes the style from the first line.
     pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
         let last = pairs.line_end();
         let rest = &pairs.bytes()[pairs.consumed()..];
@@ -35,22 +35,22 @@ impl CodeEnd {
         Self { last, length, behind_three: end << 24, mask: (1 << (8 * length)) - 1 }
     }
 
-    /// The byte that ends lines.
+    /// The byte that ends a line.
     pub(crate) fn last(self) -> u8 {
         self.last
     }
 }
 
 impl Role {
-    /// Nothing is known of it.
+    /// A code without any role.
     pub(crate) const OTHER: Self = Self(83);
-    /// It begins an entity: 0.
+    /// Code 0, which starts an entity.
     pub(crate) const BEGIN: Self = Self(84);
     /// The entity's layer: 8.
     pub(crate) const LAYER: Self = Self(85);
-    /// It begins an embedded object: 101.
+    /// Code 101, which starts an embedded object.
     pub(crate) const EMBEDDED: Self = Self(86);
-    /// It begins or ends what an application holds: 102.
+    /// Code 102, which opens or closes a group of an application.
     pub(crate) const APPLICATION: Self = Self(87);
 
     /// The role of a code.
@@ -69,26 +69,26 @@ impl Role {
         }
     }
 
-    /// The role of the code on the line that these bytes begin with, and the length of that line with its end. Only if there are at most
-    /// seven bytes, blanks and then digits, and maybe a CR.
+    /// The role of the code on the first line of these bytes, and the length of that line with its end. `None` unless the line has at most
+    /// seven bytes: blanks, digits, and possibly a CR.
     #[inline]
     pub(crate) fn of_line(line: [u8; 8], code_end: CodeEnd) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
         let index = index(word as u32);
-        // Nearly all programs pad their codes to three characters, and end all lines in the same way.
+        // Nearly all programs pad codes to three characters and use one kind of line end.
         if (word ^ code_end.behind_three) & code_end.mask == u64::from(USUAL[index]) {
             return Some((code_end.length, ROLES[index]));
         }
         Self::of_unusual_line(line, code_end.last)
     }
 
-    /// The same for any number of characters that there is room for, and another end of the line.
+    /// The same for codes of any width that fits, and for another kind of line end.
     #[inline(never)]
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
         let other = word ^ (ONES * u64::from(line_end));
-        // The top bit of each byte that ends a line; above the first there may be wrong ones.
+        // Sets the top bit of each byte that is a line end. Bits above the lowest may be wrong.
         let ends = other.wrapping_sub(ONES) & !other & (ONES * 0x80);
         let length = ends.trailing_zeros() as usize / 8;
         let before = *line.get(length.wrapping_sub(1)).filter(|_| length < line.len())?;
@@ -96,24 +96,24 @@ impl Role {
         if bits == 0 {
             return None;
         }
-        // The last digit in the last byte, and blanks before the first.
+        // Aligns the last digit to the last byte and fills with blanks before the first.
         let code = number((word << (64 - bits)) | ((ONES * 0x20) >> bits))?;
         Some((length + 1, Self::of(code)))
     }
 
-    /// Where the group of an entity is kept. All but [`Role::OTHER`] and those beyond it are kept.
+    /// The slot in which an entity keeps the value. [`Role::OTHER`] and the roles after it have none.
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)
     }
 
-    /// Whether its value is only kept, or not even that.
+    /// Whether the value is stored unparsed or ignored.
     #[inline]
     pub(crate) fn is_plain(self) -> bool {
         self.0 <= Self::OTHER.0
     }
 
-    /// Its code, unless it has several.
+    /// The code with this role, if there is only one.
     pub(crate) fn code(self) -> Option<i32> {
         Some(match self {
             Self::OTHER => return None,
@@ -129,9 +129,9 @@ impl Role {
     }
 }
 
-/// The number written in eight bytes: blanks and then digits.
+/// Parses eight bytes of blanks followed by digits.
 fn number(padded: u64) -> Option<i32> {
-    // A blank is 20, a digit 30 to 39: bit 4 tells which.
+    // A blank is 0x20, a digit 0x30 to 0x39: bit 4 tells them apart.
     let is_digit = (padded >> 4) & ONES;
     let values = padded & (ONES * 0x0F);
     let is_blank_or_digit = padded & (ONES * 0xE0) == ONES * 0x20;
@@ -141,20 +141,20 @@ fn number(padded: u64) -> Option<i32> {
     if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
         return None;
     }
-    // Neighbours are joined, what belongs to no pair falls out at the top: digits to numbers of two, these to numbers of four, these to
-    // the whole.
+    // Combines neighbours: digits to numbers of two, those to numbers of four, those to the whole. What belongs to no pair overflows at
+    // the top.
     let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
     let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
     i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()
 }
 
-/// One in each byte.
+/// 0x01 in each byte.
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 
-/// Each code from 0 to 999 as three characters. What is no code is found at no place.
+/// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.
 static USUAL: [u32; PLACES] = usual().0;
 
-/// The roles of these codes.
+/// The roles of the codes in [`USUAL`].
 static ROLES: [Role; PLACES] = usual().1;
 
 const PLACES: usize = 1 << 12;
@@ -179,9 +179,9 @@ const fn three_characters(code: i32) -> u32 {
     hundreds | tens << 8 | (b'0' as u32 + (code % 10) as u32) << 16
 }
 
-/// The lower halves of the first three characters, side by side.
+/// The low nibbles of the first three characters, side by side.
 #[inline]
 const fn index(text: u32) -> usize {
-    // Each is multiplied to its place; what goes to other places is cut off.
+    // The product shifts each nibble to its place; the mask removes the rest.
     ((text & 0x000F_0F0F).wrapping_mul(1 << 24 | 1 << 12 | 1) >> 16 & 0xFFF) as usize
 }

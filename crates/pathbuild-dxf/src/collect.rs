@@ -1,4 +1,4 @@
-//! Items to the entities, faults and left-out curves of a [`Drawing`].
+//! Turns items into the entities, faults and left-out curves of a [`Drawing`].
 
 #![expect(
     clippy::inline_always,
@@ -20,30 +20,30 @@ use crate::placement::Placement;
 use crate::trouble::Trouble;
 use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
 
-/// Gathers a drawing.
+/// Builds a drawing.
 pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
-    /// Numbers of [`Drawing::layers`] by folded name.
+    /// Indices into [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
-    /// Those of them on which an invisible entity was found.
+    /// Layers with at least one invisible entity.
     with_invisible: BTreeSet<u32>,
-    /// The layer that the last entity was on.
+    /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
-    /// Lines of broken entities, each with the layers on which that was said.
+    /// Lines of broken entities with the layers on which they were reported.
     faulty: HashSet<(u32, u32)>,
     groups: u32,
     has_ignored: bool,
     limits: Limits,
 }
 
-/// How many entities a drawing of paths usually has.
+/// Number of entities to reserve room for.
 const USUAL: usize = 64;
 
-/// So many faults and left-out curves count as one entity each. Nobody draws more; but one broken insertion has a fault on each of the layers
-/// in its block, and some kilobytes of them came to gigabytes.
+/// Number of faults and left-out curves that count as one entity each. No real drawing has more, but a broken insertion repeats its fault
+/// on each layer of its block, and a few kilobytes of such insertions took gigabytes.
 const CHEAP: usize = 10_000;
 
-/// What each further one counts as: about as many entities take as much memory.
+/// Weight of each fault beyond [`CHEAP`]: about that many entities take the same memory.
 const DEAR: usize = 20;
 
 /// The configured limits.
@@ -51,28 +51,28 @@ const DEAR: usize = 20;
 pub(crate) struct Limits {
     pub(crate) entities: usize,
     pub(crate) text: usize,
-    /// Tolerance in mm for curves that are no arcs.
+    /// Tolerance in mm for approximating curves other than arcs.
     pub(crate) curves: f64,
 }
 
-/// An entity where it ends up in the drawing.
+/// An entity and its place in the drawing.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'p> {
     pub(crate) kind: EntityKind,
     pub(crate) layer_id: LayerId,
     pub(crate) layer: &'p UsedLayer,
-    /// Resolved.
+    /// The line type after resolving BYLAYER and BYBLOCK.
     pub(crate) line_type: &'p SmolStr,
-    /// Its own place in the file, for what is wrong with it.
+    /// The entity's own place in the file, for diagnostics about it.
     pub(crate) own: Origin,
-    /// That of the insertion it comes with, or its own.
+    /// The place of the outermost insertion that brings it, or its own.
     pub(crate) origin: Origin,
     pub(crate) is_invisible: bool,
     pub(crate) placement: Option<&'p Placement>,
 }
 
 impl Placed<'_> {
-    /// A point of the entity's space in the drawing.
+    /// Transforms a point of the entity's space to the drawing's.
     fn point(&self, point: Point) -> Point {
         let Some(placement) = self.placement else { return point };
         let placed = placement.point(Point3 { x: point.x.0, y: point.y.0, z: 0.0 });
@@ -81,7 +81,7 @@ impl Placed<'_> {
 }
 
 impl<'d> Collector<'d> {
-    /// Gathers into an empty drawing.
+    /// Starts with an empty drawing.
     pub(crate) fn new(drawing: &'d mut Drawing, limits: Limits) -> Self {
         drawing.entities.reserve(USUAL);
         drawing.origins.reserve(USUAL);
@@ -162,7 +162,7 @@ impl<'d> Collector<'d> {
         Ok(())
     }
 
-    /// Notes what is wrong with an entity. In a block, whose copies all have the same fault, it is said once.
+    /// Records a fault of an entity. Copies of a block repeat the same fault, which is reported once.
     fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &Trouble<'_>) -> Result<(), Fatal> {
         let diagnostic = match trouble {
             Trouble::Group(group) => group.diagnostic(placed.kind),
@@ -205,7 +205,7 @@ impl<'d> Collector<'d> {
         self.drawing.left_out.push(LeftOut { layer, kind, point, diagnostic });
     }
 
-    /// Passes over what PathDxf2GCode does not know; said once for a drawing.
+    /// In compatible mode, skips an entity that PathDxf2GCode does not know. Reported once per drawing.
     pub(crate) fn ignore(&mut self, placed: &Placed<'_>) {
         let layer = self.layer(placed);
         if !std::mem::replace(&mut self.has_ignored, true) {
@@ -223,7 +223,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Fills in where an entity is; a line that is there already is that of the faulty value.
+    /// Fills in the entity's place. A line that is already set is that of the faulty value and stays.
     fn located(&self, mut diagnostic: Diagnostic, placed: &Placed<'_>, layer: u32) -> Diagnostic {
         let place = &mut diagnostic.place;
         place.line = place.line.or(Some(placed.own.line));
@@ -233,7 +233,7 @@ impl<'d> Collector<'d> {
         diagnostic
     }
 
-    /// The number in the drawing of the layer that an entity is on.
+    /// The index in the drawing of an entity's layer.
     #[inline]
     fn layer(&mut self, placed: &Placed<'_>) -> u32 {
         if let Some((id, layer)) = self.last
@@ -255,7 +255,7 @@ impl<'d> Collector<'d> {
         layer
     }
 
-    /// Counts one more entity, or what became of it.
+    /// Counts one more entity, fault or left-out curve.
     #[inline]
     fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
@@ -267,14 +267,14 @@ impl<'d> Collector<'d> {
         Err(self.too_many())
     }
 
-    /// There are more entities than the limit allows.
+    /// PB005, because the drawing has more entities than the limit allows.
     #[cold]
     fn too_many(&self) -> Fatal {
         too_many_entities(self.limits.entities)
     }
 }
 
-/// PB005: there are more entities than this.
+/// PB005 with this limit of entities.
 #[cold]
 pub(crate) fn too_many_entities(most: usize) -> Fatal {
     Box::new(limit(&ENTITIES, most, "entities"))

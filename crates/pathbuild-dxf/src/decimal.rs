@@ -1,14 +1,14 @@
-//! Plain decimals, which nearly all numbers of a drawing are: eight characters at once, since how many there are and where the point is
-//! cannot be foreseen.
+//! Fast parser for plain decimals, which nearly all numbers of a drawing are. It works on eight characters at a time, because branches on
+//! the number of digits or the place of the point cannot be predicted.
 //!
-//! The value is exactly that of a general parser: digits up to 2^53 and powers of ten up to 10^22 are exact, so one division rounds
+//! The value is exactly that of a general parser: digits up to 2^53 and powers of ten up to 10^22 are exact, so a single division rounds
 //! correctly.
 
-/// `[-]digits[.digits]` with at most 16 characters behind the sign; `None` when it is anything else. A point alone beside one digit is
-/// something else.
+/// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, also for a lone point beside one
+/// digit.
 #[inline]
 pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
-    // By far the most frequent number: heights and normals.
+    // By far the most frequent number, as heights and normals.
     if value == b"0.0" {
         return Some(0.0);
     }
@@ -18,7 +18,7 @@ pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
     }
 }
 
-/// One of three to eight characters, of which one is a digit in any case. In which of them there is a sign, if there is one, is nothing to branch on.
+/// Parses three to eight characters, at least one of which is a digit. The sign is handled without a branch.
 #[inline]
 fn short_decimal(value: &[u8]) -> Option<f64> {
     let is_negative = value.first() == Some(&b'-');
@@ -28,7 +28,7 @@ fn short_decimal(value: &[u8]) -> Option<f64> {
     Some(quotient(digits.number()?, decimals.unwrap_or(0), is_negative))
 }
 
-/// One of any other length.
+/// Parses any other length.
 fn other_decimal(value: &[u8]) -> Option<f64> {
     let (is_negative, text) = match value {
         [b'-', text @ ..] => (true, text),
@@ -42,7 +42,7 @@ fn other_decimal(value: &[u8]) -> Option<f64> {
     Some(quotient(number, decimals, is_negative))
 }
 
-/// Eight to sixteen characters as a number without the point, and how many digits are behind that.
+/// Parses eight to sixteen characters without the point, and returns how many digits follow it.
 fn long_number(text: &[u8]) -> Option<(u64, usize)> {
     let split = text.len().checked_sub(WIDTH).filter(|split| *split <= WIDTH)?;
     let (first, decimals) = Digits::first(*text.first_chunk()?, split).without_point();
@@ -62,57 +62,57 @@ fn quotient(number: u64, decimals: usize, is_negative: bool) -> f64 {
     f64::from_bits(number.to_bits() | u64::from(is_negative) << 63)
 }
 
-/// 2^53: up to here all whole numbers have an f64 of their own.
+/// 2^53, up to which every whole number is an exact f64.
 pub(crate) const LARGEST_EXACT: u64 = 1 << 53;
 
-/// How many characters are looked at together.
+/// Number of characters processed at once.
 const WIDTH: usize = 8;
 
-/// The powers of ten that may be needed.
+/// The powers of ten that a division may need.
 const POWERS: [f64; 2 * WIDTH] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// One in each byte.
+/// 0x01 in each byte.
 const ONES: u64 = u64::from_le_bytes([1; WIDTH]);
 
-/// A zero in each byte.
+/// `0` in each byte.
 const ZEROS: u64 = ONES * 0x30;
 
-/// At most eight digits, the last in the highest byte, with zeros before the first. A byte of more than 9 is some other character.
+/// Up to eight digits, the last in the highest byte, padded with zeros. A byte above 9 is some other character.
 #[derive(Clone, Copy)]
 struct Digits(u64);
 
 impl Digits {
-    /// Those of three to eight characters.
+    /// Loads three to eight characters.
     #[inline]
     fn read(text: &[u8]) -> Self {
         let half = |characters: [u8; 4]| u64::from(u32::from_le_bytes(characters)) ^ ZEROS >> 32;
         Self(match (text.first_chunk(), text.last_chunk(), text) {
-            // Bytes that are in both halves are the same.
+            // The halves overlap; bytes in both are equal.
             (Some(first), Some(last), _) => half(*first) << (64 - 8 * text.len()) | half(*last) << 32,
             (_, _, [a, b, c]) => half([b'0', *a, *b, *c]) << 32,
-            // No number has less.
+            // A number has at least one character.
             _ => u64::MAX,
         })
     }
 
-    /// Those of eight characters.
+    /// Loads eight characters.
     #[inline]
     fn of(characters: [u8; WIDTH]) -> Self {
         Self(u64::from_le_bytes(characters) ^ ZEROS)
     }
 
-    /// Those of the first few of eight characters.
+    /// Loads the first few of eight characters.
     #[inline]
     fn first(characters: [u8; WIDTH], count: usize) -> Self {
         if count == 0 { Self(0) } else { Self(Self::of(characters).0 << (64 - 8 * count)) }
     }
 
-    /// Without the first point, and how many are behind that.
+    /// Removes the first point and returns how many digits follow it.
     #[inline]
     fn without_point(self) -> (Self, Option<usize>) {
         let zero_where_point = self.0 ^ (ONES * u64::from(b'.' ^ b'0'));
-        // The lowest bit is right, those above may not be.
+        // The lowest bit is right, those above it may not be.
         let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
         if points == 0 {
             return (self, None);
@@ -122,13 +122,13 @@ impl Digits {
         (Self(behind | before << 8), Some(WIDTH - 1 - points.trailing_zeros() as usize / 8))
     }
 
-    /// The number that they are.
+    /// The value of the digits.
     #[inline]
     fn number(self) -> Option<u64> {
         let Self(digits) = self;
         let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
-        // Neighbours are joined, what belongs to no pair falls out at the top: digits to numbers of two, these to numbers of four, these
-        // to the whole.
+        // Combines neighbours: digits to numbers of two, those to numbers of four, those to the whole. What belongs to no pair overflows
+        // at the top.
         let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
         let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
         (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)

@@ -1,55 +1,55 @@
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 use smol_str::SmolStr;
 
-/// What the reader is told.
+/// Options of the reader.
 pub struct Options<'a> {
-    /// Whether entities on the layer of this name (trimmed, xref prefix dropped, `\U+` decoded) are wanted. Numbers of all others are not
-    /// even parsed, so they can not be wrong.
+    /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
+    /// not even parsed, so they cannot be wrong.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
-    /// What to do with $INSUNITS.
+    /// How $INSUNITS is treated.
     pub units: Units,
-    /// Tolerance in mm within which ELLIPSE and SPLINE become arcs; 0: they are left out with PB111.
+    /// Tolerance in mm for approximating ELLIPSE and SPLINE by arcs; 0 leaves them out with PB111.
     pub approximate_curves: f64,
-    /// Most entities (after expansion of blocks) that are read before PB005.
+    /// Largest number of entities, after expanding blocks, before PB005.
     pub max_entities: usize,
-    /// Longest text in bytes before PB005.
+    /// Largest length of a text in bytes before PB005.
     pub max_text: usize,
-    /// As PathDxf2GCode reads: only LINE, ARC, CIRCLE, TEXT and MTEXT count, and nothing in blocks (what else is drawn on wanted layers is
-    /// left out with one warning a drawing), and no MTEXT has a width.
+    /// Reads as PathDxf2GCode does: only LINE, ARC, CIRCLE, TEXT and MTEXT outside of blocks. Anything else on a wanted layer is left out
+    /// with one warning per drawing, and no MTEXT has a width.
     pub compatible: bool,
 }
 
-/// What $INSUNITS means. (book: reference/configuration, `units`)
+/// How $INSUNITS is treated. (book: reference/configuration, `units`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Units {
-    /// Millimetres (4), none (0) or missing are fine, else PB113.
+    /// Accept millimetres (4), none (0) or a missing value; PB113 for all others.
     #[default]
     Header,
-    /// Converted to millimetres.
+    /// Convert to millimetres.
     Drawing,
-    /// The header is not believed: everything is millimetres.
+    /// Ignore the header and take all numbers as millimetres.
     Millimetres,
 }
 
-/// What was read. `entities[i]` began at `origins[i]`.
+/// The result of reading. `entities[i]` starts in the file at `origins[i]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The wanted entities of model space in file order.
     pub entities: Vec<Entity>,
-    /// Where each entity is in the file.
+    /// The place of each entity in the file.
     pub origins: Vec<Origin>,
-    /// The layers that hold wanted entities (or faults, or left-out curves), in order of first use.
+    /// The layers with wanted entities, faults or left-out curves, in order of first use.
     pub layers: Vec<Layer>,
-    /// Broken wanted entities: faults of their layer's path.
+    /// Broken entities on wanted layers.
     pub faults: Vec<Fault>,
-    /// Curves on wanted layers that are not understood (PB111).
+    /// Unsupported curves on wanted layers (PB111).
     pub left_out: Vec<LeftOut>,
-    /// What concerns the file as a whole. When one of them is an error there are no entities.
+    /// Findings about the file as a whole. If one of them is an error, there are no entities.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Drawing {
-    /// Nothing is in it any more.
+    /// Empties the drawing but keeps its memory.
     pub(crate) fn clear(&mut self) {
         self.entities.clear();
         self.origins.clear();
@@ -60,43 +60,43 @@ impl Drawing {
     }
 }
 
-/// A layer as the entities on it see it.
+/// A layer with wanted entities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
-    /// The name as first spelt on an entity: trimmed, decoded, without xref prefix.
+    /// The name as first spelt by an entity: trimmed, decoded, without xref prefix.
     pub name: Box<str>,
-    /// Frozen or off (PB112 when a path is on it).
+    /// Whether it is frozen or off (PB112 when a path is on it).
     pub hidden: bool,
 }
 
-/// Where an entity begins in the file.
+/// The place of an entity in the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
-    /// 1-based line of the `0` group code; in binary files the number of the pair times two, less one.
+    /// 1-based line of the group code `0`. In binary files, twice the number of the pair minus one.
     pub line: u32,
-    /// Its handle, if it has one. Parts of a polyline or block share those of the whole.
+    /// The handle, if any. Parts of a polyline or block share that of the whole.
     pub handle: Option<Handle>,
 }
 
-/// A broken entity on a wanted layer (PB002, PB110 for a tilted extrusion).
+/// A broken entity on a wanted layer (PB002, or PB110 for a tilted extrusion).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Index into [`Drawing::layers`].
     pub layer: u32,
-    /// With the line and handle filled in.
+    /// The finding, with line and handle.
     pub diagnostic: Diagnostic,
 }
 
-/// A curve that is no part of the path.
+/// An unsupported curve on a wanted layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOut {
     /// Index into [`Drawing::layers`].
     pub layer: u32,
-    /// What it is.
+    /// Its entity type.
     pub kind: EntityKind,
-    /// Where it begins, as far as that is known.
+    /// Its first point, if known.
     pub point: Option<Point>,
-    /// PB111, with the line and handle filled in.
+    /// PB111, with line and handle.
     pub diagnostic: Diagnostic,
 }
 
@@ -105,18 +105,18 @@ pub struct LeftOut {
 pub struct Entity {
     /// Index into [`Drawing::layers`].
     pub layer: u32,
-    /// The line type: its own, or its layer's where it says BYLAYER or nothing; CONTINUOUS for BYBLOCK in model space. Trimmed, without
-    /// xref prefix, upper case.
+    /// The line type, trimmed, without xref prefix, in upper case. BYLAYER or none is replaced by the layer's, BYBLOCK in model space by
+    /// CONTINUOUS.
     pub line_type: SmolStr,
-    /// The entity in the file that it comes from: LINE, or LWPOLYLINE for a part of one.
+    /// The entity type in the file: LWPOLYLINE for a part of one.
     pub kind: EntityKind,
-    /// Parts of the same polyline (or approximated curve) have the same number: a text that overlaps one of them belongs to all.
+    /// Shared by all parts of one polyline or approximated curve: a text that overlaps one part belongs to all of them.
     pub group: Option<u32>,
     /// The shape.
     pub geometry: Geometry,
 }
 
-/// A point in world coordinates, in mm. A path element whose z is not 0 is PB110, which is for the path to say.
+/// A point in world coordinates, in mm. `z` should be 0 on a path layer; the path reports PB110 otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "coordinates")]
 pub struct Point3 {
@@ -125,7 +125,7 @@ pub struct Point3 {
     pub z: f64,
 }
 
-/// The shapes.
+/// The shape of an entity.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum Geometry {
@@ -149,13 +149,13 @@ pub struct Line {
 pub struct Arc {
     /// Centre.
     pub centre: Point3,
-    /// Radius, > 0.
+    /// Radius in mm, positive.
     pub radius: f64,
-    /// Angle of the start, in degrees as in the file (mirrored where the entity is).
+    /// Start angle in degrees as in the file, mirrored if the entity is.
     pub start_angle: f64,
-    /// Angle of the end.
+    /// End angle in degrees.
     pub end_angle: f64,
-    /// Whether it runs clockwise from start to end: so for mirrored arcs and negative bulges, else counterclockwise.
+    /// Whether the arc runs clockwise from start to end, as mirrored arcs and negative bulges do.
     pub clockwise: bool,
 }
 
@@ -170,44 +170,44 @@ pub struct Circle {
 /// A one-line text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// The string: decoded, `%%c` and the like not yet replaced.
+    /// The decoded string; `%%c` and similar codes are not replaced yet.
     pub string: SmolStr,
-    /// The point that the alignment is relative to: 11/21 where 72 or 73 say so, the middle of 10/20 and 11/21 for 72 = 3 and 5.
+    /// The alignment point: 11/21 if 72 or 73 say so, the middle of 10/20 and 11/21 for 72 = 3 and 5, else 10/20.
     pub anchor: Point3,
     /// Height in mm.
     pub height: f64,
     /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// From 72 and 73; 72 = 4 is centre, middle; aligned and fitted texts are centre, baseline.
+    /// Horizontal alignment from 72 and 73; 72 = 4 is centre and middle; aligned and fitted texts are centre, baseline.
     pub horizontal: HorizontalAlign,
-    /// From 73.
+    /// Vertical alignment from 73.
     pub vertical: VerticalAlign,
-    /// Mirrored in x: its letters run from right to left (71 bit 2, or extrusion 0,0,-1; both cancel each other).
+    /// Mirrored in x, so that letters run from right to left (71 bit 2, or extrusion 0,0,-1; both together cancel out).
     pub backwards: bool,
-    /// Mirrored in y: upside down (71 bit 4).
+    /// Mirrored in y, upside down (71 bit 4).
     pub upside_down: bool,
 }
 
 /// A text of several lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MText {
-    /// Plain text as `docs/en/src/reference/dxf.md` defines it: line breaks as `\n`, `%%c` and the like not yet replaced.
+    /// Plain text as `docs/en/src/reference/dxf.md` defines it, with line breaks as `\n`; `%%c` and similar codes are not replaced yet.
     pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,
-    /// Height of a line's letters in mm.
+    /// Height of the letters in mm.
     pub height: f64,
-    /// Width in mm (41) in which the CAD breaks lines that are longer; none where it does not.
+    /// Width in mm (41) at which the CAD program breaks lines, if it does.
     pub width: Option<f64>,
     /// Rotation in degrees, from 50 or the direction 11/21.
     pub rotation: f64,
-    /// From 71.
+    /// Horizontal attachment from 71.
     pub horizontal: HorizontalAlign,
-    /// From 71.
+    /// Vertical attachment from 71.
     pub vertical: VerticalAlign,
 }
 
-/// Where the anchor is in a text, from left to right.
+/// Horizontal position of the anchor in a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum HorizontalAlign {
@@ -217,7 +217,7 @@ pub enum HorizontalAlign {
     Right,
 }
 
-/// Where the anchor is in a text, from bottom to top.
+/// Vertical position of the anchor in a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum VerticalAlign {

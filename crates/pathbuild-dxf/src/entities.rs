@@ -1,4 +1,4 @@
-//! The entities of a section or block, one after the other: those on wanted layers, with their numbers parsed.
+//! Reads the entities of a section or block, with the numbers of those on wanted layers parsed.
 
 #![expect(
     clippy::inline_always,
@@ -22,42 +22,41 @@ use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
 use crate::trouble::Trouble;
 use crate::{Options, Origin};
 
-/// Reads entities; what it learns of names it keeps from one to the next.
+/// Reads entities and caches what it learns about names.
 pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) options: &'o Options<'o>,
     pub(crate) decoder: Decoder<'a>,
     pub(crate) layers: Layers<'a, 'o>,
     pub(crate) line_types: LineTypes<'a>,
     pub(crate) fields: Fields<'a>,
-    /// The BLOCKS section, until it is known whether it matters.
+    /// The BLOCKS section, until it is known whether blocks matter.
     unseen_blocks: Option<Pairs<'a>>,
-    /// Whether it does where blocks are inserted on unwanted layers.
+    /// Whether insertions on unwanted layers may bring something wanted.
     blocks_matter: bool,
 }
 
-/// What the entities are in.
+/// The space that entities are drawn in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Space {
     Model,
     Block,
 }
 
-/// The records of a section or block: `head` is the `0` pair of the one that comes next.
+/// The records of a section or block. `head` is the `0` pair of the next one.
 pub(crate) struct Records<'a> {
     pub(crate) groups: Groups<'a>,
     pub(crate) head: Pair<'a>,
 }
 
 impl<'a> Records<'a> {
-    /// Begins with the next `0` pair.
+    /// Starts at the next `0` pair.
     pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
         let mut groups = Groups::new(pairs);
         let head = groups.next_zero()?;
         Ok(Self { groups, head })
     }
 
-    /// Passes over the records ahead that are of this kind and name this layer, as far as they follow each other: what is drawn on a
-    /// layer is mostly drawn in a row.
+    /// Skips the following records of this kind on this layer. Entities of one layer mostly follow each other.
     fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
         while is_same(self.head.value, kind) {
             let begin = self.groups;
@@ -71,23 +70,23 @@ impl<'a> Records<'a> {
         Ok(())
     }
 
-    /// Passes over the record, which is no item.
+    /// Skips the record, which yields no item.
     fn skip(&mut self) -> Result<Option<Item<'a>>, Stop<'a>> {
         self.head = self.groups.next_zero()?;
         Ok(None)
     }
 }
 
-/// How many groups are kept of an entity that repeats some.
+/// Largest number of repeated groups kept per entity.
 pub(crate) fn most_repeated(options: &Options<'_>) -> usize {
     options.max_entities.saturating_mul(GROUPS_AN_ENTITY).max(options.max_text)
 }
 
-/// How many groups of a polyline or spline make an entity: x, y, bulge; x, y, z, weight, knot.
+/// Number of groups of a polyline or spline that count as one entity: x, y, bulge; or x, y, z, weight, knot.
 const GROUPS_AN_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
-    /// Knows no entity yet. `blocks` is the BLOCKS section.
+    /// Starts without cached names. `blocks` is the BLOCKS section.
     pub(crate) fn new(
         options: &'o Options<'o>,
         decoder: Decoder<'a>,
@@ -99,7 +98,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Self { options, decoder, layers, line_types, fields, unseen_blocks: blocks, blocks_matter: false }
     }
 
-    /// The next wanted entity, or one that may be; `None` at a record that ends the section or block, which stays the head.
+    /// The next entity that is or may be wanted. `None` at the record that ends the section or block, which stays the head.
     #[inline(always)]
     pub(crate) fn next_item(
         &mut self,
@@ -120,8 +119,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// The layers of all entities ahead that may be wanted, up to a record that ends the block. `None` if there are some of which more
-    /// must be known: insertions, and texts, whose characters may be in doubt.
+    /// The layers of all entities up to the end of the block that may be wanted. `None` if layers alone do not suffice: for insertions, and
+    /// for texts whose characters may be in doubt.
     pub(crate) fn layers_ahead(
         &mut self,
         records: &mut Records<'a>,
@@ -157,7 +156,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok(Some(Item { traits, shape }))
     }
 
-    /// Reads the groups of the head record, and gives back what every entity has, if it may be wanted.
+    /// Reads the groups of the head record. Returns its common properties if it may be wanted.
     fn traits(
         &mut self,
         records: &mut Records<'a>,
@@ -189,7 +188,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }))
     }
 
-    /// Reads the groups of the head record, up to its layer if that is not wanted; gives back the layer, if the record names one.
+    /// Reads the groups of the head record, but only up to its layer if that is unwanted. Returns the layer, if there is one.
     #[inline]
     fn fill(
         &mut self,
@@ -210,7 +209,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok((want, found))
     }
 
-    /// Whether the insertion of a block on a layer may bring something wanted.
+    /// Whether inserting a block on a layer may bring something wanted.
     fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
         if self.layers.is_kept(layer) || (space == Space::Block && self.layers.is_inheriting(layer)) {
             return true;
@@ -249,7 +248,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         })
     }
 
-    /// The POLYLINE in hand, with the VERTEX records that follow. All of them are consumed, whatever is wrong with one.
+    /// Reads the current POLYLINE with its VERTEX records, all of which are consumed even if one is broken.
     fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape<'a>, Trouble<'a>>, Stop<'a>> {
         let mut polyline = OpenPolyline::begin(&self.fields);
         while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
@@ -265,8 +264,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 }
 
-/// Whether an entity on a layer is, or may be, wanted. Where a block is inserted decides on its layer 0; what a block holds decides on
-/// its insertion.
+/// Whether an entity on a layer may be wanted. Layer 0 inside a block depends on the insertion, and an insertion on the contents of its
+/// block.
 #[inline]
 fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> Want {
     let may_be_wanted = layers.is_kept(layer)

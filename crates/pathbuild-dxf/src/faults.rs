@@ -1,4 +1,4 @@
-//! The diagnostics that the reader makes, without what only their place knows: layer, line, handle.
+//! Diagnostics of the reader. Layer, line and handle are filled in where the place is known.
 
 use pathbuild_diagnostic::messages::reading::{
     BAD_GROUP_CODE, DECIMAL_COMMA, NUMBER_NOT_FINITE, SECTION_NOT_ENDED, TRUNCATED, VALUE_NOT_A_NUMBER,
@@ -8,10 +8,10 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 use crate::number::NotANumber;
 use crate::pairs::{Pair, Stop};
 
-/// What stops the reading of a file.
+/// An error that ends the reading of a file.
 pub(crate) type Fatal = Box<Diagnostic>;
 
-/// A value that is no number.
+/// PB002: a value is not a number.
 pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
     let text = shown(value);
     let (message, fault) = match (reason, text.find(',')) {
@@ -27,7 +27,7 @@ pub(crate) fn bad_value(entity: &str, code: i32, value: &[u8], reason: NotANumbe
         .with_text(fault)
 }
 
-/// The pairs stop inside a section.
+/// PB002: the file ends inside a section.
 pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).with("section", section).at_line(line, None),
@@ -35,12 +35,12 @@ pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Fatal {
     })
 }
 
-/// This pair stands where none of the sort may.
+/// PB002: a pair where none of its kind may stand.
 pub(crate) fn at_pair(message: &'static Message, pair: &Pair<'_>) -> Fatal {
     Box::new(Diagnostic::new(message).with("found", shown(pair.value)).at_line(pair.line, None))
 }
 
-/// This pair stands where the end of a section is missing.
+/// PB002: a pair where the end of a section is missing.
 pub(crate) fn not_ended(section: &str, found: &Pair<'_>) -> Fatal {
     let mut diagnostic = at_pair(&SECTION_NOT_ENDED, found);
     diagnostic.arguments.push(("section", section.into()));
@@ -53,7 +53,7 @@ fn bad_code(found: &[u8], line: u32) -> Diagnostic {
     Diagnostic::new(&BAD_GROUP_CODE).with("found", found).at_line(line, None).with_text(fault)
 }
 
-/// A value as it is shown: trimmed, cut, whatever its encoding.
+/// A value for a message: trimmed, shortened, in any encoding.
 pub(crate) fn shown(value: &[u8]) -> String {
     let value = value.trim_ascii();
     String::from_utf8_lossy(&value[..value.len().min(MOST_SHOWN)]).into_owned()

@@ -1,7 +1,7 @@
-//! The groups of one entity, kept as bytes until it is known that the entity is wanted.
+//! The groups of one entity, kept as bytes until the entity turns out to be wanted.
 //!
-//! An entity's groups are few and known, so each code below 80 has a slot; codes that an entity repeats (points of a polyline, chunks
-//! of a text) are kept in order as well. Nothing is allocated for an entity.
+//! Each code below 80 has a slot; groups that an entity repeats (points of a polyline, chunks of a text) are also kept in order. No entity
+//! allocates memory.
 
 use pathbuild_diagnostic::Handle;
 
@@ -14,36 +14,36 @@ use crate::pairs::{Pair, Stop, without_cr};
 /// The value of a group.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Value<'a> {
-    /// Its bytes, not trimmed.
+    /// The bytes, not trimmed.
     pub(crate) bytes: &'a [u8],
     /// The line of its group code.
     pub(crate) line: u32,
-    /// The number of the entity that it belongs to.
+    /// The number of its entity; slots of earlier entities count as empty.
     entity: u32,
 }
 
-/// What is wrong with a group.
+/// A faulty group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum BadGroup<'a> {
-    /// It is missing.
+    /// Missing.
     Missing {
         /// Its code.
         code: i32,
     },
-    /// It is no number.
+    /// Not a number.
     Number {
         /// Its code.
         code: i32,
-        /// What it holds instead.
+        /// The value.
         value: Value<'a>,
-        /// Why it is none.
+        /// Why it is not a number.
         reason: NotANumber,
     },
-    /// It is no length.
+    /// Not a positive length.
     NotPositive {
         /// Its code.
         code: i32,
-        /// What it holds instead.
+        /// The value.
         value: Value<'a>,
     },
 }
@@ -52,42 +52,42 @@ pub(crate) enum BadGroup<'a> {
 pub(crate) struct Fields<'a> {
     /// The line of its `0`.
     pub(crate) line: u32,
-    /// Its number; slots of others are empty.
+    /// Number of the current entity; slots with another number are empty.
     entity: u32,
     slots: [Value<'a>; SLOTS],
-    /// The groups that its kind repeats, in order.
+    /// The groups that this kind of entity repeats, in order.
     pub(crate) repeated: Vec<Pair<'a>>,
-    /// How many of them are kept.
+    /// Largest number of them to keep.
     most_repeated: usize,
 }
 
-/// What [`Fields::fill`] does with an entity on this layer.
+/// Whether [`Fields::fill`] keeps an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
-    /// Its groups are kept.
+    /// Keep its groups.
     Keep,
-    /// They are skipped.
+    /// Skip them.
     Skip,
 }
 
-/// One for each role whose values are kept, and one for all others.
+/// Number of slots: one per role that keeps its value, and one for all others.
 const SLOTS: usize = 84;
 
 impl<'a> Value<'a> {
-    /// The value of a pair.
+    /// Wraps the value of a pair.
     pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {
         Self { bytes, line, entity: 0 }
     }
 }
 
 impl<'a> Fields<'a> {
-    /// Without an entity, with room for so many repeated groups.
+    /// Starts without an entity; keeps at most `most_repeated` repeated groups.
     pub(crate) fn new(most_repeated: usize) -> Self {
         Self { line: 0, entity: 0, slots: [Value::default(); SLOTS], repeated: Vec::new(), most_repeated }
     }
 
-    /// Reads the entity that has begun with a `0` on this line. `repeats` has a bit for each code that it
-    /// repeats. `want` is asked once its layer is known. Gives back the next entity's `0`, and whether this one was kept.
+    /// Reads the entity whose `0` is on this line. `repeats` has a bit for each code that the entity repeats, and `want` is asked once its
+    /// layer is known. Returns the `0` of the next entity and whether this one was kept.
     #[inline]
     pub(crate) fn fill(
         &mut self,
@@ -111,7 +111,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Keeps the value of a group.
+    /// Stores the value of a group.
     #[inline]
     fn keep(&mut self, group: &Group<'a>) {
         if let Some(value) = self.slots.get_mut(group.role.slot()) {
@@ -119,7 +119,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The same for an entity that repeats groups.
+    /// Stores the value of a group that may be repeated.
     #[inline]
     fn keep_repeated(&mut self, group: &Group<'a>, repeats: u64) {
         self.keep(group);
@@ -129,7 +129,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Does what a group says. Gives back the end of the entity if it brings it about.
+    /// Handles one group. Returns the end of the entity if this group leads there.
     #[inline]
     fn special(
         &mut self,
@@ -145,7 +145,7 @@ impl<'a> Fields<'a> {
                     return Ok(Some((groups.next_zero()?, Want::Skip)));
                 }
             }
-            // An embedded object (of R2018's MTEXT) lasts until the entity ends.
+            // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
             Role::EMBEDDED => return Ok(Some((groups.next_zero()?, Want::Keep))),
             _ if group.raw.trim_ascii().starts_with(b"{") => {
                 return Ok(skip_application_group(groups)?.map(|next| (next, Want::Keep)));
@@ -155,12 +155,12 @@ impl<'a> Fields<'a> {
         Ok(None)
     }
 
-    /// Whether there may be more repeated groups than those that are kept.
+    /// Whether repeated groups may have been dropped.
     pub(crate) fn is_full(&self) -> bool {
         self.repeated.len() >= self.most_repeated
     }
 
-    /// Empties the slots, by giving the entity a number that none of them has.
+    /// Empties all slots by moving on to a new entity number.
     fn begin_entity(&mut self) {
         if self.entity == u32::MAX {
             self.slots = [Value::default(); SLOTS];
@@ -169,27 +169,27 @@ impl<'a> Fields<'a> {
         self.entity += 1;
     }
 
-    /// A group, if the entity has it; the last, if it has several.
+    /// The value of a code, if present. The last one counts.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
         let value = self.slots.get(Role::of(code).slot()).filter(|value| value.entity == self.entity)?;
         Some(Value { bytes: without_cr(value.bytes), ..*value })
     }
 
-    /// A number that may be missing.
+    /// An optional number.
     #[inline]
     pub(crate) fn number(&self, code: i32) -> Result<Option<f64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         real(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// A number that must be there.
+    /// A required number.
     #[inline]
     pub(crate) fn required(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         self.number(code)?.ok_or(BadGroup::Missing { code })
     }
 
-    /// A length that must be there and more than 0.
+    /// A required length, which must be positive.
     #[inline]
     pub(crate) fn length(&self, code: i32) -> Result<f64, BadGroup<'a>> {
         let length = self.required(code)?;
@@ -199,27 +199,27 @@ impl<'a> Fields<'a> {
         Err(self.get(code).map_or(BadGroup::Missing { code }, |value| BadGroup::NotPositive { code, value }))
     }
 
-    /// A whole number that may be missing.
+    /// An optional integer.
     pub(crate) fn whole(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
         whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
-    /// A point whose x is in this group. Its z may be missing; R10 had an elevation (38) instead.
+    /// A point whose x has this code. `z` may be missing; R10 used the elevation (38) instead.
     #[inline]
     pub(crate) fn point(&self, x: i32) -> Result<Point3, BadGroup<'a>> {
         let z = self.number(x + 20)?.map_or_else(|| self.number(38), |z| Ok(Some(z)))?;
         Ok(Point3 { x: self.required(x)?, y: self.required(x + 10)?, z: z.unwrap_or(0.0) })
     }
 
-    /// The handle, if it has one that is hexadecimal.
+    /// The handle, if present and hexadecimal.
     #[inline]
     pub(crate) fn handle(&self) -> Option<Handle> {
         let digits = self.get(5)?.bytes.trim_ascii();
         if digits.is_empty() || digits.len() > 16 {
             return None;
         }
-        // Which of the digits are letters is nothing to branch on.
+        // Branches on whether a digit is a letter cannot be predicted.
         let (mut number, mut any) = (0, 0);
         for digit in digits {
             let value = DIGITS[usize::from(*digit)];
@@ -229,7 +229,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// The hexadecimal digits, and [`u8::MAX`] for what is none.
+/// Values of the hexadecimal digits; [`u8::MAX`] for all other bytes.
 static DIGITS: [u8; 256] = digits();
 
 const fn digits() -> [u8; 256] {
@@ -244,7 +244,7 @@ const fn digits() -> [u8; 256] {
     digits
 }
 
-/// Skips `102/{NAME` up to `102/}`, whose codes an application chose. Gives back a `0` if that comes first.
+/// Skips from `102/{NAME` to `102/}`, inside which codes belong to an application. Returns a `0` if that comes first.
 fn skip_application_group<'a>(groups: &mut Groups<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
     let is_end = |role| matches!(role, Role::BEGIN | Role::APPLICATION);
     let end = groups.pass_until(is_end, |_| {})?;

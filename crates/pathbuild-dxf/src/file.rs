@@ -1,4 +1,4 @@
-//! A file from its first byte to the end of ENTITIES, and a look at its tail.
+//! Reads a file from its first byte to the end of ENTITIES, and checks its tail.
 
 use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
 use pathbuild_diagnostic::messages::reading::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
@@ -20,7 +20,7 @@ use crate::sections::{SectionEnd, ends_with_eof};
 use crate::units::millimetres;
 use crate::{Drawing, Options};
 
-/// Reads a file; an error is one that concerns it as a whole.
+/// Reads a file. An error concerns the file as a whole.
 pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'_>) -> Result<(), Fatal> {
     if bytes.is_empty() {
         return Err(Box::new(Diagnostic::new(&EMPTY_FILE)));
@@ -37,8 +37,8 @@ pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'
 fn read_text(drawing: &mut Drawing, text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<(), Fatal> {
     let mut file = File::new(text, has_bom);
     match file.find_entities()? {
-        Found::Entities => file.read_entities(drawing, options),
-        Found::EndOfFile => Ok(()),
+        AfterHead::Entities => file.read_entities(drawing, options),
+        AfterHead::EndOfFile => Ok(()),
     }
 }
 
@@ -50,14 +50,14 @@ struct File<'a> {
     has_bom: bool,
     pairs: Pairs<'a>,
     header: Header<'a>,
-    /// Where the tables begin, if there are any.
+    /// The TABLES section, if any.
     tables: Option<Pairs<'a>>,
-    /// Where the blocks begin, if there are any.
+    /// The BLOCKS section, if any.
     blocks: Option<Pairs<'a>>,
 }
 
-/// What the sections before the entities are followed by.
-enum Found {
+/// What ends the sections before the entities.
+enum AfterHead {
     Entities,
     EndOfFile,
 }
@@ -74,8 +74,8 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Goes through the sections up to the beginning of ENTITIES, and notes where those are that it needs.
-    fn find_entities(&mut self) -> Result<Found, Fatal> {
+    /// Skips to ENTITIES and remembers the sections needed on the way.
+    fn find_entities(&mut self) -> Result<AfterHead, Fatal> {
         let mut head = self.next_head().map_err(|_| not_dxf(self.bytes))?;
         if !head.is("SECTION") && !head.is("EOF") {
             return Err(not_dxf(self.bytes));
@@ -85,21 +85,21 @@ impl<'a> File<'a> {
                 head = self.variables_after_header(head)?;
             }
             if head.is("EOF") {
-                return Ok(Found::EndOfFile);
+                return Ok(AfterHead::EndOfFile);
             }
             if !head.is("SECTION") {
                 return Err(at_pair(&SECTION_EXPECTED, &head));
             }
             let name = self.next_head().map_err(before_entities)?;
             if name.code == 2 && name.trimmed().eq_ignore_ascii_case(b"ENTITIES") {
-                return Ok(Found::Entities);
+                return Ok(AfterHead::Entities);
             }
             self.pass(&name)?;
             head = self.next_head().map_err(before_entities)?;
         }
     }
 
-    /// Header variables behind the end of HEADER, with an end of their own, as dxflib 2.0 wrote them.
+    /// Reads header variables after the end of HEADER, with an end of their own, as written by dxflib 2.0.
     fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, Fatal> {
         let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stopped(stop, "HEADER"))?;
         if !end.is("ENDSEC") {
@@ -108,7 +108,7 @@ impl<'a> File<'a> {
         self.next_head().map_err(before_entities)
     }
 
-    /// The next pair that is no remark.
+    /// The next pair that is not a comment.
     fn next_head(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         loop {
             let pair = self.pairs.next()?;
@@ -118,7 +118,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Reads or passes over a section before the entities.
+    /// Reads or skips a section before the entities.
     fn pass(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
         let section = || shown(name.value);
         let begin = self.pairs;
@@ -166,7 +166,7 @@ fn not_dxf(bytes: &[u8]) -> Fatal {
     Box::new(Diagnostic::new(&NOT_DXF).with("found", kind_of_file(bytes)).at_line(1, None))
 }
 
-/// What a file is that is no DXF file, by its beginning.
+/// Guesses from its first bytes what a file that is not DXF is.
 fn kind_of_file(bytes: &[u8]) -> &'static Word {
     static DWG: Word = Word { en: "a DWG drawing", de: "eine DWG-Zeichnung" };
     static BLANK: Word = Word { en: "nothing but blanks", de: "nur Leerraum" };

@@ -1,36 +1,36 @@
-//! The pairs of entities, as fast as can be. What is unusual about one is left to [`Pairs`], which reads with care.
+//! Fast iteration over the pairs of entities. Unusual pairs are left to [`Pairs`], which is careful rather than fast.
 
 use crate::code::{CodeEnd, Role};
 use crate::line_ends::Stretch;
 use crate::pairs::{Pair, Pairs, Stop, without_cr};
 
-/// A pair by what is done with it.
+/// A pair with the role of its code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group<'a> {
-    /// What its code says.
+    /// The role of the code.
     pub(crate) role: Role,
     /// 1-based line of the code.
     line: u64,
-    /// The value, which may still have the CR of its line end.
+    /// The value, possibly with the CR of its line end.
     pub(crate) raw: &'a [u8],
 }
 
-/// Pairs that are gone through from one to the next.
+/// Iterator over pairs.
 #[derive(Clone, Copy)]
 pub(crate) struct Groups<'a> {
-    /// Where they begin.
+    /// The position where iteration started.
     begin: Pairs<'a>,
     code_end: CodeEnd,
-    /// From where the stretch begins to the end of the file.
+    /// The bytes from the current stretch to the end of the file.
     bytes: &'a [u8],
     ahead: Ahead<'a>,
 }
 
-/// The next pairs.
+/// The position of the next pair.
 #[derive(Clone, Copy)]
 struct Ahead<'a> {
     stretch: Stretch<'a>,
-    /// The line of the first.
+    /// Line of the next pair.
     line: u64,
 }
 
@@ -41,31 +41,31 @@ impl<'a> Group<'a> {
         shown(self.line)
     }
 
-    /// The value.
+    /// The value without its line end.
     #[inline]
     pub(crate) fn value(&self) -> &'a [u8] {
         without_cr(self.raw)
     }
 
-    /// As a pair; one that only has a role has no code.
+    /// Converts to a pair. A role without a single code has none.
     pub(crate) fn pair(&self) -> Pair<'a> {
         Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: self.value() }
     }
 }
 
 impl<'a> Groups<'a> {
-    /// Those that begin here.
+    /// Starts at this position.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
         let ahead = Ahead { stretch: Stretch::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
     }
 
-    /// Where the next one begins.
+    /// The position of the next pair.
     pub(crate) fn pairs(&self) -> Pairs<'a> {
         self.begin.at(self.begin.bytes().len() - self.rest().len(), shown(self.ahead.line))
     }
 
-    /// The next one for which `is_end`; those before are handed to `pass`.
+    /// Returns the next pair that satisfies `is_end` and hands those before it to `pass`.
     #[inline]
     pub(crate) fn pass_until(
         &mut self,
@@ -74,7 +74,7 @@ impl<'a> Groups<'a> {
     ) -> Result<Group<'a>, Stop<'a>> {
         let code_end = self.code_end;
         loop {
-            // A copy, which nobody else knows, is kept in registers.
+            // A local copy stays in registers.
             let mut ahead = self.ahead;
             while let Some(group) = ahead.next(code_end) {
                 if is_end(group.role) {
@@ -94,19 +94,19 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Skips those up to the next that begins an entity, and returns that one.
+    /// Skips to the next pair that starts an entity and returns it.
     pub(crate) fn next_zero(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         let group = self.pass_until(|role| role == Role::BEGIN, |_| {})?;
         Ok(group.pair())
     }
 
-    /// The bytes from the next one on.
+    /// The bytes from the next pair on.
     #[inline]
     fn rest(&self) -> &'a [u8] {
         self.bytes.get(self.ahead.stretch.consumed()..).unwrap_or_default()
     }
 
-    /// Looks at the bytes ahead, unless that was done and has not helped.
+    /// Scans the bytes ahead, unless that was already tried without success.
     #[inline]
     fn look_ahead(&mut self) -> bool {
         if self.ahead.stretch.consumed() == 0 && !self.ahead.stretch.is_empty() {
@@ -118,7 +118,7 @@ impl<'a> Groups<'a> {
         true
     }
 
-    /// The next one, which is read with care: its code is written in an unusual way, it is long, or the file ends soon.
+    /// Reads the next pair carefully: its code is unusual, it is long, or the file ends soon.
     #[cold]
     #[inline(never)]
     fn next_unusual(&mut self) -> Result<Group<'a>, Stop<'a>> {
@@ -140,7 +140,7 @@ impl<'a> Ahead<'a> {
     }
 }
 
-/// The number of a line as it is said.
+/// Converts a line number for diagnostics.
 #[inline]
 fn shown(line: u64) -> u32 {
     u32::try_from(line).unwrap_or(u32::MAX)

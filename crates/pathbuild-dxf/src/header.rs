@@ -10,12 +10,12 @@ use crate::number::whole;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::sections::Keyword;
 
-/// What the header says; all of it may be missing, as in files of R10 and of scripts.
+/// The HEADER section. All of it may be missing, as in R10 files and those written by scripts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Header<'a> {
     version: Option<&'a [u8]>,
     code_page: Option<&'a [u8]>,
-    /// With where it stands, since its line is not counted.
+    /// With its position, since lines are not counted in the header.
     units: Option<(Pair<'a>, Pairs<'a>)>,
 }
 
@@ -24,7 +24,7 @@ static CODE_PAGE: Keyword = LazyLock::new(|| Finder::new("$DWGCODEPAGE"));
 static UNITS: Keyword = LazyLock::new(|| Finder::new("$INSUNITS"));
 
 impl<'a> Header<'a> {
-    /// Finds the variables in the section that begins here.
+    /// Finds the variables in the section that starts here.
     pub(crate) fn find(&mut self, section: &Pairs<'a>) {
         for variable in [&VERSION, &CODE_PAGE, &UNITS] {
             if let Some(mut pairs) = section.behind("9", variable) {
@@ -36,7 +36,7 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// Reads variables up to a pair with code 0, which is returned.
+    /// Reads variables up to a pair with code 0 and returns it.
     pub(crate) fn read_on(&mut self, first: Pair<'a>, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let mut variable: &[u8] = first.trimmed();
         loop {
@@ -54,7 +54,7 @@ impl<'a> Header<'a> {
     /// Whether texts are UTF-8 by definition: R2007 (AC1021) and later.
     pub(crate) fn is_unicode(&self) -> bool {
         let release = self.version.and_then(|version| version.trim_ascii().strip_prefix(b"AC"));
-        // Releases before R10 are "AC1.50" to "AC2.22", which is no whole number.
+        // Releases before R10 are "AC1.50" to "AC2.22", which do not parse as integers.
         release.is_some_and(|release| {
             !release.contains(&b'.') && whole(release).is_ok_and(|number| number >= 1021)
         })
@@ -74,7 +74,7 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// This is to be said of the value of `$INSUNITS`.
+    /// Attaches the place of `$INSUNITS` to a diagnostic.
     pub(crate) fn at_units(&self, diagnostic: Diagnostic) -> Diagnostic {
         match self.units {
             Some((_, pairs)) => diagnostic.at_line(pairs.counted_line().saturating_add(1), None),

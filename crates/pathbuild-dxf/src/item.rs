@@ -1,4 +1,4 @@
-//! What is read of one entity, before it is placed in the drawing.
+//! An entity as read, before it is placed in the drawing.
 
 use pathbuild_diagnostic::EntityKind;
 
@@ -15,27 +15,27 @@ pub(crate) struct Item<'a> {
     pub(crate) shape: Result<Shape<'a>, Trouble<'a>>,
 }
 
-/// What every entity has.
+/// The properties that all entities have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Traits {
     pub(crate) layer: LayerId,
     pub(crate) line_type: LineType,
     pub(crate) kind: EntityKind,
     pub(crate) origin: Origin,
-    /// Group 60 says so.
+    /// Whether group 60 hides it.
     pub(crate) is_invisible: bool,
 }
 
-/// The shape of an entity in the coordinates of the space that it is in.
+/// The shape of an entity in the coordinates of its space.
 #[derive(Clone, Debug)]
 pub(crate) enum Shape<'a> {
-    /// One that the drawing language knows.
+    /// A shape of the drawing language.
     Plain(Geometry),
     /// The lines and arcs of a polyline.
     Parts(Vec<Geometry>),
-    /// To be approximated where it is placed.
+    /// Approximated when it is placed.
     Ellipse(Box<Ellipse>),
-    /// To be approximated where it is placed.
+    /// Approximated when it is placed.
     Spline(Box<Spline>),
     /// The contents of a block.
     Insert(Box<Insert<'a>>),

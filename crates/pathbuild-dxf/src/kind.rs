@@ -1,8 +1,8 @@
-//! The entities that the reader looks at.
+//! The entity types that the reader handles.
 
 use pathbuild_diagnostic::EntityKind;
 
-/// A kind of record in ENTITIES or in a block. POLYLINE's parts are records of their own.
+/// The type of a record in ENTITIES or in a block. VERTEX and SEQEND are records of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RecordKind {
     Line,
@@ -19,17 +19,17 @@ pub(crate) enum RecordKind {
     Insert,
 }
 
-/// Length of the longest name.
+/// Length of the longest type name.
 const LONGEST: usize = "LWPOLYLINE".len();
 
 impl RecordKind {
-    /// The kind of this name; `None` for all others. (`3DLINE` is the LINE of R10 that has a z.)
+    /// The kind with this name, or `None`. (`3DLINE` is the three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
         Self::exact(name).or_else(|| Self::unusual(name))
     }
 
-    /// The same for a name that is not written like this.
+    /// The same for names in another case.
     #[inline(never)]
     fn unusual(name: &[u8]) -> Option<Self> {
         if name.iter().all(u8::is_ascii_uppercase) {
@@ -45,7 +45,7 @@ impl RecordKind {
 
     #[inline]
     fn exact(name: &[u8]) -> Option<Self> {
-        // Compared with arrays, which takes no calls.
+        // Comparing arrays needs no function calls.
         match name.len() {
             3 if name == b"ARC" => Some(Self::Arc),
             4 if name == b"LINE" => Some(Self::Line),
@@ -64,12 +64,12 @@ impl RecordKind {
         }
     }
 
-    /// Whether it is part of a POLYLINE.
+    /// Whether it belongs to a POLYLINE.
     pub(crate) fn is_part(self) -> bool {
         matches!(self, Self::Vertex | Self::SequenceEnd)
     }
 
-    /// The codes below 80 that it repeats, as bits.
+    /// Bit mask of the codes below 80 that this kind repeats.
     #[inline]
     pub(crate) fn repeated_codes(self) -> u64 {
         const fn bits(codes: &[u32]) -> u64 {
@@ -92,7 +92,7 @@ impl RecordKind {
         }
     }
 
-    /// As it is called in diagnostics.
+    /// The kind for diagnostics.
     pub(crate) fn entity_kind(self) -> EntityKind {
         match self {
             Self::Line => EntityKind::Line,

@@ -1,4 +1,4 @@
-//! The records of LAYER among the tables: all of them, or only those that a layer may be found by.
+//! Reads the LAYER records of the tables, either all of them or only those in question.
 
 use memchr::memmem::Finder;
 
@@ -10,14 +10,14 @@ use crate::names::Name;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::sections::LAYER;
 
-/// What records are read with.
+/// What reading the records needs.
 pub(crate) struct Reading<'r, 'a, 'd> {
     pub(crate) fields: &'r mut Fields<'a>,
     pub(crate) decoder: &'r mut Decoder<'d>,
 }
 
 impl<'a> Reading<'_, 'a, '_> {
-    /// All layers of these tables.
+    /// Reads all layers of these tables.
     pub(crate) fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
         let mut layers = KnownLayers::default();
         while let Some(head) = tables.place("0", &LAYER) {
@@ -31,8 +31,8 @@ impl<'a> Reading<'_, 'a, '_> {
         Ok(layers)
     }
 
-    /// The layers of those records in which this is written somewhere, and maybe others, up to the one of this name. Wherever it is written, all
-    /// pairs of the table from the beginning of a record on are looked at, so that nothing is missed where one is broken.
+    /// Reads the records that contain a text, and possibly others, up to the record with this name. From a match on, the table is read pair
+    /// by pair from the start of the record, so that no broken record is overlooked.
     pub(crate) fn some(
         &mut self,
         mut tables: Pairs<'a>,
@@ -44,7 +44,7 @@ impl<'a> Reading<'_, 'a, '_> {
         let begin = tables.consumed();
         for at in Finder::new(written).find_iter(&tables.bytes()[begin..]).map(|at| begin + at) {
             let last = tables.last_place("0", "LAYER", at);
-            // What is written before all records is passed over at once.
+            // Everything before the first record is skipped at once.
             let head = if records.is_none() { last.or_else(|| tables.place("0", &LAYER)) } else { last };
             if let Some(head) = head {
                 tables.jump_to(head);
@@ -63,7 +63,7 @@ impl<'a> Reading<'_, 'a, '_> {
         Ok(layers)
     }
 
-    /// Reads the record that begins with the head, if it is one of a layer.
+    /// Reads the head record if it is a LAYER.
     fn record(&mut self, records: &mut Records<'a>, layers: &mut KnownLayers<'a>) -> Result<(), Stop<'a>> {
         let is_layer = records.head.is("LAYER");
         (records.head, _) = self.fields.fill(&mut records.groups, records.head.line, 0, |_| Want::Keep)?;
@@ -74,7 +74,7 @@ impl<'a> Reading<'_, 'a, '_> {
     }
 }
 
-/// Whether no record of the table follows. One whose beginning is lost does not end it, so that it shows.
+/// Whether the table ends here. A record whose start is damaged does not end the table, so that the damage is reported.
 fn is_end_of_table(head: &Pair<'_>) -> bool {
     ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
 }

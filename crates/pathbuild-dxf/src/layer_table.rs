@@ -1,4 +1,4 @@
-//! The LAYER table: the line types of layers, and which of them are frozen or off. (book: reference/dxf)
+//! The LAYER table: line types of layers, and which layers are frozen or off. (book: reference/dxf)
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -15,22 +15,22 @@ use crate::names::{Name, without_xref};
 use crate::number::{real, whole};
 use crate::pairs::{Pairs, Stop};
 
-/// The LAYER table, of which only what concerns wanted layers is looked at.
+/// The LAYER table, of which only records of wanted layers are read.
 #[derive(Debug, Default)]
 pub(crate) struct LayerTable<'a> {
     /// The TABLES section.
     tables: Option<Pairs<'a>>,
-    /// How often a layer was looked for.
+    /// Number of lookups so far.
     asked: usize,
-    /// All layers, where many are looked for.
+    /// All layers, read after many lookups.
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by their names. Of most hardly anything is asked, so what is said of them is looked at then.
+/// Layers by name. Few are ever looked up, so their values are decoded on demand.
 #[derive(Debug, Default)]
 pub(crate) struct KnownLayers<'a> {
     records: ByName<'a, LayerRecord<'a>>,
-    /// Those whose names have the prefix of an external reference, by what follows it.
+    /// Layers with an external-reference prefix, by the rest of their names.
     referenced: OnceCell<ByName<'a, LayerRecord<'a>>>,
 }
 
@@ -42,19 +42,19 @@ pub(crate) struct LayerRecord<'a> {
     flags: Option<&'a [u8]>,
 }
 
-/// So many layers are looked for one by one, each in all tables: a drawing of paths has hardly more.
+/// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
 const FEW: usize = 4;
 
-/// What has fewer characters is written nearly everywhere.
+/// Shorter texts occur nearly everywhere, so searching for them does not pay.
 const SHORTEST: usize = 4;
 
 impl<'a> LayerTable<'a> {
-    /// That of these tables.
+    /// The table of this TABLES section.
     pub(crate) fn new(tables: Option<Pairs<'a>>) -> Self {
         Self { tables, ..Self::default() }
     }
 
-    /// The record of a layer by its whole name, or else by that without the prefix of an external reference.
+    /// Finds the record of a layer by its full name, else by the name without external-reference prefix.
     pub(crate) fn find(
         &mut self,
         full_name: &str,
@@ -76,29 +76,28 @@ impl<'a> LayerTable<'a> {
     }
 }
 
-/// The longest part of a name that is written so wherever the name is, in whatever case and code page, but for escapes: ASCII without letters. Only
-/// letters are other characters in other cases, and whatever is ASCII without being part of an escape is the same in all code pages.
+/// The longest part of a name that is spelt alike in any case and code page: ASCII outside of escapes and without letters.
 fn part_certain(name: &[u8]) -> &[u8] {
     let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
 }
 
 impl<'a> KnownLayers<'a> {
-    /// Adds the record that these are the groups of, unless it has no name.
+    /// Adds a record from its groups, unless it has no name.
     pub(crate) fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
         let name = Name::decoded(name.bytes, name.line, decoder);
         let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
-        let line_type = groups.get(6).map(|it| decoder.decode_bytes(it.bytes, it.line));
+        let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
         self.records.push(name, LayerRecord { line_type, colour: bytes(62), flags: bytes(70) });
     }
 
-    /// The name of the one that was added last.
+    /// The name added last.
     pub(crate) fn last_name(&self) -> Option<&Name<'a>> {
         self.records.iter().next_back().map(|(name, _)| name)
     }
 
-    /// By its whole name, or else by that without the prefix of an external reference.
+    /// Finds a record by its full name, else by the name without external-reference prefix.
     pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
         let find = |name: &str| {
             let name = Name::new(name.into());
@@ -121,13 +120,13 @@ impl<'a> KnownLayers<'a> {
 }
 
 impl LayerRecord<'_> {
-    /// The line type, upper case, if it has one.
+    /// The line type in upper case, if set.
     pub(crate) fn line_type(&self) -> Option<SmolStr> {
         let name = String::from_utf8_lossy(self.line_type.as_deref()?);
         Some(line_type_name(&name)).filter(|name| !name.is_empty())
     }
 
-    /// Whether it is frozen or off.
+    /// Whether the layer is frozen or off.
     pub(crate) fn is_hidden(&self) -> bool {
         let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
         is_off || self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0))

@@ -1,6 +1,6 @@
-//! The layers that entities are on. (book: reference/dxf; book: language/layers-and-names)
+//! The layers of entities. (book: reference/dxf; book: language/layers-and-names)
 //!
-//! Each spelling of a layer's name is looked at once a file; entities only hold its number.
+//! Each spelling of a name is evaluated once per file; entities hold its index.
 
 use std::borrow::Cow;
 
@@ -14,13 +14,13 @@ use crate::names::{folded, is_same, without_xref};
 use crate::pairs::Stop;
 use crate::spellings::Spellings;
 
-/// The number of a spelling of a layer's name.
+/// Index of a spelling of a layer's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct LayerId(u32);
 
-/// The layers that entities were found on so far.
+/// The layers that entities have used so far.
 pub(crate) struct Layers<'a, 'o> {
-    /// What the drawing says of layers.
+    /// The LAYER table of the drawing.
     table: LayerTable<'a>,
     keep: &'o dyn Fn(&str) -> bool,
     by_spelling: Spellings<'a, LayerId>,
@@ -28,9 +28,9 @@ pub(crate) struct Layers<'a, 'o> {
     last: Option<(&'a [u8], LayerId)>,
 }
 
-/// A layer that some entity is on, wanted or not.
+/// A layer that some entity uses, wanted or not.
 struct FoundLayer<'a> {
-    /// As it is spelt, decoded.
+    /// The decoded spelling.
     full_name: Cow<'a, str>,
     is_kept: bool,
     /// Whether it is layer `0`.
@@ -38,30 +38,30 @@ struct FoundLayer<'a> {
     used: Option<Box<UsedLayer>>,
 }
 
-/// A layer that something wanted is on.
+/// A layer that a wanted entity uses.
 #[derive(Clone, Debug)]
 pub(crate) struct UsedLayer {
-    /// Trimmed, decoded, without xref prefix.
+    /// The name: trimmed, decoded, without xref prefix.
     pub(crate) name: SmolStr,
-    /// What it is compared by.
+    /// The name folded for comparison.
     pub(crate) folded: SmolStr,
-    /// Its line type, upper case.
+    /// The line type in upper case.
     pub(crate) line_type: SmolStr,
-    /// Frozen or off.
+    /// Whether the layer is frozen or off.
     pub(crate) hidden: bool,
 }
 
-/// How many layers the entities of a drawing of paths usually are on.
+/// Number of layers to reserve room for.
 const USUAL: usize = 16;
 
 impl<'a, 'o> Layers<'a, 'o> {
-    /// No layer is used yet.
+    /// Starts without layers.
     pub(crate) fn new(keep: &'o dyn Fn(&str) -> bool, table: LayerTable<'a>) -> Self {
         let by_spelling = Spellings::default();
         Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
     }
 
-    /// The layer of an entity that names it so, on a line that is asked for when that is done for the first time.
+    /// Returns the layer with this spelling. `line` is asked for only when the spelling is new.
     #[inline]
     pub(crate) fn id(
         &mut self,
@@ -80,12 +80,12 @@ impl<'a, 'o> Layers<'a, 'o> {
         id
     }
 
-    /// The spelling that was asked for last.
+    /// The spelling that was looked up last.
     pub(crate) fn last_spelling(&self) -> &'a [u8] {
         self.last.map_or(b"", |(spelling, _)| spelling)
     }
 
-    /// What is known of one that something wanted is on.
+    /// The properties of a wanted layer.
     #[inline]
     pub(crate) fn used(
         &mut self,
@@ -99,13 +99,13 @@ impl<'a, 'o> Layers<'a, 'o> {
         }
     }
 
-    /// Whether entities on it are wanted.
+    /// Whether entities on the layer are wanted.
     #[inline]
     pub(crate) fn is_kept(&self, id: LayerId) -> bool {
         self.found(id).is_kept
     }
 
-    /// The layer that an entity of a block is on when the block is inserted on a layer: that one, if the entity is on layer `0`.
+    /// The effective layer of an entity in an inserted block: that of the insertion if the entity is on layer `0`.
     pub(crate) fn inherited(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
         if self.is_inheriting(layer) { of_insert } else { layer }
     }

@@ -1,9 +1,8 @@
-//! DXF bytes to entities: a fast, tolerant reader that never fails.
+//! A fast, tolerant DXF reader that never fails.
 //!
-//! [`read`] takes the bytes of a drawing and gives back the few kinds of entities that the drawing language knows, in file order
-//! and world coordinates, with resolved line types, decoded texts and whatever was wrong. It does no IO. Lines and handles stand
-//! beside the entities, not in them, so that later stages are not disturbed by edits that only shift them.
-//! (book: reference/dxf)
+//! [`read`] turns the bytes of a drawing into the few kinds of entities that the drawing language knows, in file order and world
+//! coordinates, with resolved line types and decoded texts, together with everything that was wrong. It does no IO. Line numbers and
+//! handles are kept beside the entities, so that edits which only shift them do not disturb later stages. (book: reference/dxf)
 
 mod angle;
 mod binary;
@@ -54,7 +53,7 @@ pub fn read(bytes: &[u8], options: &Options<'_>) -> Drawing {
     drawing
 }
 
-/// The same in the place of another drawing, whose memory is used.
+/// Reads into an existing drawing and reuses its memory.
 pub fn read_into(drawing: &mut Drawing, bytes: &[u8], options: &Options<'_>) {
     drawing.clear();
     if let Err(diagnostic) = file::read_file(drawing, bytes, options) {

@@ -7,24 +7,24 @@ use crate::fields::Value;
 use crate::names::{folded, without_xref};
 use crate::spellings::Spellings;
 
-/// What is taken where nothing is said.
+/// The line type where none is given.
 pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 
-/// What an entity says about its line type.
+/// The line type of an entity as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LineType {
-    /// That of its layer, which it also has when it says nothing.
+    /// That of its layer, also where none is written.
     ByLayer,
-    /// That of the INSERT it comes with.
+    /// That of the INSERT.
     ByBlock,
-    /// The name of this number in [`LineTypes`].
+    /// Index of a name in [`LineTypes`].
     Named(u32),
 }
 
-/// How many line types the entities of a drawing usually have at most.
+/// Number of line types to reserve room for.
 const USUAL: usize = 8;
 
-/// The names of line types found on entities.
+/// The names of line types that entities use.
 #[derive(Debug)]
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
@@ -39,19 +39,19 @@ impl Default for LineTypes<'_> {
 }
 
 impl<'a> LineTypes<'a> {
-    /// The line type of an entity with this group 6.
+    /// The line type for this value of group 6.
     #[inline]
     pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
         let Some(value) = value else { return LineType::ByLayer };
         self.by_spelling.get(value.bytes).unwrap_or_else(|| self.first_use(value, decoder))
     }
 
-    /// The name of this number: upper case, without xref prefix.
+    /// The name with this index: upper case, without xref prefix.
     pub(crate) fn name(&self, number: u32) -> &SmolStr {
         &self.names[number as usize]
     }
 
-    /// What is taken where nothing is said.
+    /// The line type where none is given.
     pub(crate) fn continuous(&self) -> &SmolStr {
         &self.continuous
     }
@@ -71,7 +71,7 @@ impl<'a> LineTypes<'a> {
     }
 }
 
-/// A line type's name as it is compared: trimmed, without xref prefix, upper case.
+/// A line type's name folded for comparison: trimmed, without xref prefix, upper case.
 pub(crate) fn line_type_name(name: &str) -> SmolStr {
     folded(without_xref(name))
 }

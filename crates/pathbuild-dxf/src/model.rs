@@ -1,4 +1,4 @@
-//! Model space: the entities of ENTITIES, with blocks in the place of their insertions.
+//! Model space: the entities of ENTITIES with insertions replaced by the contents of their blocks.
 
 #![expect(
     clippy::inline_always,
@@ -27,34 +27,34 @@ use crate::trouble::Trouble;
 pub(crate) struct Model<'r, 'a, 'o> {
     reader: &'r mut EntityReader<'a, 'o>,
     collector: Collector<'r>,
-    /// The BLOCKS section, until its index is made.
+    /// The BLOCKS section, until it is indexed.
     section: Option<Pairs<'a>>,
     blocks: Blocks<'a>,
-    /// The blocks that are being inserted, outermost first.
+    /// The insertions in progress, outermost first.
     open: Vec<BlockId>,
     steps: Steps,
 }
 
-/// What an entity is placed in: model space itself or an insertion.
+/// The context of an entity: model space or an insertion.
 struct Around {
     placement: Option<Placement>,
     insertion: Option<Insertion>,
     is_invisible: bool,
 }
 
-/// What entities inherit from the insertion they come with.
+/// What the contents of a block inherit from their insertion.
 struct Insertion {
     layer: LayerId,
     line_type: SmolStr,
-    /// Of the outermost one.
+    /// The place of the outermost insertion.
     origin: Origin,
 }
 
-/// Deepest nesting of blocks.
+/// Deepest nesting of blocks, in levels.
 const DEEPEST: usize = 64;
 
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
-    /// A model without entities.
+    /// Starts without entities.
     pub(crate) fn new(
         reader: &'r mut EntityReader<'a, 'o>,
         collector: Collector<'r>,
@@ -64,7 +64,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
     }
 
-    /// Adds all entities up to the end of the section. `placement` is that of model space: its unit.
+    /// Adds all entities of the section. `placement` scales model space to millimetres.
     pub(crate) fn add_all(
         &mut self,
         records: &mut Records<'a>,
@@ -134,7 +134,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
     }
 
-    /// Places the contents of a block at each of these places.
+    /// Adds the contents of a block at each of these placements.
     fn copy(
         &mut self,
         traits: &Traits,
@@ -160,7 +160,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    /// Says what is wrong with an insertion on those of these layers that are wanted.
+    /// Reports a faulty insertion on those of its layers that are wanted.
     fn refuse(
         &mut self,
         traits: &Traits,
@@ -178,7 +178,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 }
 
-/// An entity on this layer, with what it inherits.
+/// Places an entity on a layer with what it inherits.
 #[inline(always)]
 fn placed<'p>(
     reader: &'p mut EntityReader<'_, '_>,

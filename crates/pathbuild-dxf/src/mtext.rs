@@ -4,15 +4,15 @@ use smol_str::{SmolStr, SmolStrBuilder};
 
 use crate::encoding::control;
 
-/// Removes the formatting from joined and decoded chunks. Line breaks become `\n`.
+/// Removes the formatting from joined, decoded chunks. Line breaks become `\n`.
 ///
-/// A command that never ends stays as it stands: it is no command, and to drop the rest of a parameter text would be worse.
+/// A command without its end is kept as text: dropping the rest of a parameter text would be worse.
 pub(crate) fn plain_text(raw: &str) -> SmolStr {
     if !raw.bytes().any(is_special) {
         return raw.into();
     }
     let mut plain = SmolStrBuilder::new();
-    // Looked for once: thousands of commands that never end would each look through all the rest.
+    // Found once, since thousands of unterminated commands would each search the whole rest.
     let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
     let mut rest = raw;
     while let Some(special) = rest.bytes().position(is_special) {
@@ -29,12 +29,12 @@ pub(crate) fn plain_text(raw: &str) -> SmolStr {
     plain.finish()
 }
 
-/// Whether a byte may begin something that is not to be taken as it stands.
+/// Whether a byte may start something that is not plain text.
 fn is_special(byte: u8) -> bool {
     matches!(byte, b'\\' | b'{' | b'}' | b'^')
 }
 
-/// A command, which `text` begins with: adds what it stands for, and returns its length. `may_end`: whether there is a `;` in the text.
+/// Appends the meaning of the command at the start of `text` and returns its length. `may_end` tells whether a `;` follows.
 fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     let Some(letter) = text[1..].chars().next() else {
         plain.push('\\');
@@ -42,7 +42,7 @@ fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     };
     let short = 1 + letter.len_utf8();
     match letter {
-        // \N begins a new column.
+        // \N starts a new column.
         'P' | 'X' | 'N' => plain.push('\n'),
         '~' => plain.push('\u{a0}'),
         '\\' | '{' | '}' => plain.push(letter),
@@ -59,7 +59,7 @@ fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
     short
 }
 
-/// A stacked text up to its `;`: adds it, and returns the length.
+/// Appends a stacked text up to its `;` and returns its length.
 fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {
@@ -78,7 +78,7 @@ fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
     text.len()
 }
 
-/// A caret, which `text` begins with: adds what it stands for, and returns its length.
+/// Appends the meaning of the caret code at the start of `text` and returns its length.
 fn caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
     if text.starts_with("^M^J") {
         plain.push('\n');

@@ -1,4 +1,4 @@
-//! Names of layers, line types and blocks: how they are compared. (book: reference/dxf)
+//! How names of layers, line types and blocks are compared. (book: reference/dxf)
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -7,17 +7,17 @@ use smol_str::{SmolStr, StrExt};
 
 use crate::encoding::{Decoder, is_plain};
 
-/// A name without blanks around it that is compared without regard to case.
+/// A trimmed name that is compared ignoring case.
 #[derive(Clone, Debug)]
 pub(crate) enum Name<'a> {
-    /// One of ASCII, as it is spelt.
+    /// An ASCII name as spelt.
     Spelt(&'a [u8]),
-    /// Any other: upper case.
+    /// Any other name, in upper case.
     Folded(SmolStr),
 }
 
 impl<'a> Name<'a> {
-    /// That of this text.
+    /// The name in a decoded text.
     pub(crate) fn new(text: Cow<'a, str>) -> Self {
         match text {
             Cow::Borrowed(text) if text.is_ascii() => Self::Spelt(trimmed(text).as_bytes()),
@@ -25,7 +25,7 @@ impl<'a> Name<'a> {
         }
     }
 
-    /// That of a string that begins on this line.
+    /// The name in a string that starts on this line.
     pub(crate) fn decoded(bytes: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> Self {
         if is_plain(bytes) && has_graphic_ends(bytes) {
             return Self::Spelt(bytes);
@@ -33,7 +33,7 @@ impl<'a> Name<'a> {
         Self::new(decoder.decode(bytes, line))
     }
 
-    /// What follows the prefix of an external reference, if it has one.
+    /// The part after an external-reference prefix, if there is one.
     pub(crate) fn behind_xref(&self) -> Option<Self> {
         if !has_xref_sign(self.bytes()) {
             return None;
@@ -43,19 +43,19 @@ impl<'a> Name<'a> {
         (behind.len() < text.len()).then(|| Self::Folded(folded(behind)))
     }
 
-    /// A number that equal names have in common.
+    /// A hash; equal names have equal hashes.
     pub(crate) fn hash(&self) -> u64 {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
         let (words, rest) = self.bytes().as_chunks();
         let rest = rest.iter().fold(0, |word, byte| word << 8 | u64::from(*byte));
         let words = words.iter().map(|word| u64::from_le_bytes(*word)).chain([rest]);
-        // Without the bit that upper and lower case differ in.
+        // Drops the bit in which upper and lower case differ.
         let add =
             |hash: u64, word: u64| (hash.rotate_left(29) ^ (word & !(ONES * 0x20))).wrapping_mul(MULTIPLIER);
         words.fold(0, add)
     }
 
-    /// UTF-8.
+    /// The name as UTF-8.
     fn bytes(&self) -> &[u8] {
         match self {
             Self::Spelt(bytes) => bytes,
@@ -68,7 +68,7 @@ impl<'a> Name<'a> {
     }
 }
 
-/// One in each byte.
+/// 0x01 in each byte.
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 
 impl Ord for Name<'_> {
@@ -91,7 +91,7 @@ impl PartialEq for Name<'_> {
 
 impl Eq for Name<'_> {}
 
-/// A name without blanks around it and without the prefix of an external reference (`FILE$0$NAME`, `FILE|NAME`).
+/// Trims a name and removes an external-reference prefix (`FILE$0$NAME`, `FILE|NAME`).
 pub(crate) fn without_xref(name: &str) -> &str {
     let name = trimmed(name);
     if !has_xref_sign(name.as_bytes()) {
@@ -102,12 +102,12 @@ pub(crate) fn without_xref(name: &str) -> &str {
     name[after_bar.max(after_bound)..].trim()
 }
 
-/// Whether a name may have the prefix of an external reference.
+/// Whether a name may have an external-reference prefix.
 fn has_xref_sign(name: &[u8]) -> bool {
     name.iter().any(|byte| matches!(byte, b'|' | b'$'))
 }
 
-/// A text without blanks around it, which hardly any has.
+/// Trims blanks; few texts have any.
 fn trimmed(text: &str) -> &str {
     if has_graphic_ends(text.as_bytes()) { text } else { text.trim() }
 }
@@ -117,12 +117,12 @@ fn has_graphic_ends(text: &[u8]) -> bool {
     is_graphic(text.first()) && is_graphic(text.last())
 }
 
-/// What names are compared by.
+/// Folds a name for comparison.
 pub(crate) fn folded(name: &str) -> SmolStr {
     if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
 }
 
-/// Whether two spellings, most of which are short, are the same. Takes no calls.
+/// Whether two spellings, usually short ones, are equal. Inlined without function calls.
 #[inline]
 pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
     match (a.len() == b.len(), a.len()) {
@@ -137,7 +137,7 @@ fn has_same_ends<const N: usize>(a: &[u8], b: &[u8]) -> bool {
     a.first_chunk::<N>() == b.first_chunk() && a.last_chunk::<N>() == b.last_chunk()
 }
 
-/// Length of everything up to and including the last `$digits$`.
+/// Length of the prefix up to and including the last `$digits$`.
 fn bound_prefix(name: &str) -> usize {
     let Some(last) = name.rfind('$') else { return 0 };
     let before = name[..last].trim_end_matches(|c: char| c.is_ascii_digit());

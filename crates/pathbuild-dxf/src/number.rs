@@ -1,19 +1,19 @@
-//! Numbers as CADs write them. (book: reference/dxf: "numbers")
+//! Parses numbers as CAD programs write them. (book: reference/dxf: "numbers")
 
 use crate::decimal::{LARGEST_EXACT, plain_decimal};
 
-/// Why a value is no number.
+/// Why a value is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NotANumber {
-    /// Empty, or something else.
+    /// Empty or malformed.
     Invalid,
-    /// It would be one with a decimal point for the comma.
+    /// It has a comma where a decimal point belongs.
     Comma,
-    /// Not a number, infinite, or too large.
+    /// NaN, infinite or too large.
     NotFinite,
 }
 
-/// Reads a real number; blanks around it and a `D` exponent are fine.
+/// Parses a real number. Surrounding blanks and `D` as exponent letter are accepted.
 #[inline]
 pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
     match plain_decimal(value) {
@@ -22,16 +22,16 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
     }
 }
 
-/// Reads a whole number; one written as a real (`5.0`) is fine.
+/// Parses an integer. One written as a real number (`5.0`) is accepted.
 pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
-    // Nearly all are padded, and have one digit.
+    // Nearly all integers are padded and have one digit.
     if let [blanks @ .., digit @ b'0'..=b'9'] = value
         && blanks.iter().all(|byte| *byte == b' ')
     {
         return Ok(i64::from(digit - b'0'));
     }
     let number = real(value)?;
-    // Up to 2^53 every whole f64 is exactly that number.
+    // Up to 2^53 every integer has an exact f64.
     let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT as f64;
     #[expect(clippy::cast_possible_truncation, reason = "whole and within range")]
     is_whole.then_some(number as i64).ok_or(NotANumber::Invalid)

@@ -1,7 +1,7 @@
-//! Bytes to pairs of group code and value, one by one and with care; [`crate::groups`] goes through many. (book: reference/dxf)
+//! Parses pairs of group code and value carefully, one by one; [`crate::groups`] is the fast path. (book: reference/dxf)
 //!
-//! A line ends with LF, CRLF, CRCRLF, or, in files of old Macs, with CR alone; which of the two bytes ends lines is decided once a
-//! file. Codes may be padded, values are given as they stand.
+//! A line ends with LF, CRLF, CRCRLF or, in files of old Macs, a lone CR; which of the two bytes counts is decided once per file. Codes may
+//! be padded; values are returned unchanged.
 
 use memchr::memchr;
 use wide::u8x16;
@@ -20,21 +20,21 @@ pub(crate) struct Pair<'a> {
 /// Why there is no further pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stop<'a> {
-    /// The input ends; an incomplete pair and blank lines before do not count.
+    /// The input ends. An incomplete pair and blank lines at the end do not count.
     End {
         /// The line after the last.
         line: u32,
     },
-    /// A line where a group code should stand holds something else.
+    /// A line that should hold a group code holds something else.
     BadCode {
-        /// That line.
+        /// The line in question.
         line: u32,
-        /// What it holds, cut to some length.
+        /// Its content, shortened.
         found: &'a [u8],
     },
 }
 
-/// The pairs of a file or of a part of one.
+/// Iterator over the pairs of a file or a part of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pairs<'a> {
     bytes: &'a [u8],
@@ -44,7 +44,7 @@ pub(crate) struct Pairs<'a> {
 }
 
 impl Pair<'_> {
-    /// The value without blanks around it.
+    /// The value without surrounding blanks.
     pub(crate) fn trimmed(&self) -> &[u8] {
         self.value.trim_ascii()
     }
@@ -62,7 +62,7 @@ impl Pair<'_> {
 }
 
 impl<'a> Pairs<'a> {
-    /// The pairs of a whole file.
+    /// Starts at the beginning of a file.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, line: 1, line_end: line_end(bytes) }
     }
@@ -85,7 +85,7 @@ impl<'a> Pairs<'a> {
         self.bytes
     }
 
-    /// How many bytes of it are consumed.
+    /// Number of bytes consumed.
     pub(crate) fn consumed(&self) -> usize {
         self.at
     }
@@ -100,38 +100,38 @@ impl<'a> Pairs<'a> {
         self.line_end
     }
 
-    /// Those that begin at this place of the same file, on this line.
+    /// Continues at another position of the same file, on this line.
     pub(crate) fn at(&self, at: usize, line: u32) -> Self {
         Self { at, line, ..*self }
     }
 
-    /// These pairs, ending where those others of the same file are.
+    /// Restricts these pairs to those before `end`.
     pub(crate) fn until(&self, end: &Self) -> Self {
         Self { bytes: &self.bytes[..end.at], ..*self }
     }
 
-    /// Goes on at a later place, which must be the beginning of a line.
+    /// Jumps ahead to `at`, which must be the start of a line.
     pub(crate) fn jump_to(&mut self, at: usize) {
         let lines = count(self.line_end, &self.bytes[self.at..at]);
         self.line = self.line.saturating_add(u32::try_from(lines).unwrap_or(u32::MAX));
         self.at = at;
     }
 
-    /// The line of the next pair, counted from the beginning of the file.
+    /// The line of the next pair, counted from the start of the file.
     pub(crate) fn counted_line(&self) -> u32 {
         let mut pairs = Self { at: 0, line: 1, ..*self };
         pairs.jump_to(self.at);
         pairs.line
     }
 
-    /// Reads the line of a group code, however it is padded.
+    /// Parses the line of a group code with any padding.
     fn code(&mut self) -> Result<i32, Stop<'a>> {
         let at = self.at;
         let line = self.next_line();
         number(line.trim_ascii()).ok_or_else(|| self.no_code(at, line))
     }
 
-    /// The next line without its end.
+    /// Consumes a line and returns it without its end.
     fn next_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
         let length = line_length(self.line_end, rest);
@@ -139,7 +139,7 @@ impl<'a> Pairs<'a> {
         &rest[..length]
     }
 
-    /// There is no code on this line, which is not consumed.
+    /// The error for a line without a group code, which is not consumed.
     #[cold]
     fn no_code(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
         self.at = at;
@@ -151,35 +151,35 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Most blanks at the end of a file that are taken for its end.
+/// Largest number of trailing blanks, in bytes, that count as the end of the file.
 const LONGEST_PADDING: usize = 1 << 16;
 
-/// Most bytes of a line that are shown when it is wrong.
+/// Largest number of bytes of a faulty line shown in a message.
 const MOST_SHOWN: usize = 60;
 
-/// How often a byte occurs.
+/// Counts the occurrences of a byte.
 fn count(byte: u8, bytes: &[u8]) -> usize {
-    /// So few that no count of them is too large for a byte.
+    /// Largest block whose count fits into one byte.
     const BLOCK: usize = 240;
     let (blocks, rest) = bytes.as_chunks::<BLOCK>();
     let among = |bytes: &[u8]| bytes.iter().map(|other| u8::from(*other == byte)).sum::<u8>();
     blocks.iter().map(|block| usize::from(among(block))).sum::<usize>() + usize::from(among(rest))
 }
 
-/// How long the first of these lines is, without its end.
+/// Length of the first line without its end.
 #[inline]
 pub(crate) fn line_length(line_end: u8, lines: &[u8]) -> usize {
     place_nearby(line_end, lines).or_else(|| memchr(line_end, lines)).unwrap_or(lines.len())
 }
 
-/// Where a byte is, if it is among the next few, as the end of nearly every line is.
+/// Position of a byte if it is among the next few, as most line ends are.
 #[inline]
 fn place_nearby(byte: u8, bytes: &[u8]) -> Option<usize> {
     let places = u8x16::from(*bytes.first_chunk()?).simd_eq(u8x16::splat(byte)).to_bitmask();
     (places != 0).then_some(places.trailing_zeros() as usize)
 }
 
-/// The number that these characters are.
+/// Parses the digits of a code.
 fn number(text: &[u8]) -> Option<i32> {
     match text {
         [a @ b'0'..=b'9'] => Some(i32::from(a - b'0')),
@@ -188,14 +188,14 @@ fn number(text: &[u8]) -> Option<i32> {
     }
 }
 
-/// LF, unless the first line ends with a CR and no LF follows it.
+/// Detects the line end: LF, unless the first line ends with a CR that no LF follows.
 fn line_end(bytes: &[u8]) -> u8 {
     let Some(first) = memchr::memchr2(b'\n', b'\r', bytes) else { return b'\n' };
     let after = bytes[first..].iter().find(|byte| **byte != b'\r');
     if after == Some(&b'\n') { b'\n' } else { b'\r' }
 }
 
-/// A line without the CR of its end.
+/// Removes a trailing CR.
 #[inline]
 pub(crate) fn without_cr(mut line: &[u8]) -> &[u8] {
     while let [before @ .., b'\r'] = line {

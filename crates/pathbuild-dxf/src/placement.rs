@@ -1,27 +1,27 @@
-//! Similarities of the plane: object coordinates, insertions of blocks, units. (book: reference/dxf)
+//! Similarity transforms of the plane: object coordinates, insertions, units. (book: reference/dxf)
 
 use crate::angle::cos_sin;
 use crate::curves::Vector;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
-/// Moves, turns, scales and perhaps mirrors. A mirrored one maps (x, y) to (x, -y) first and turns then.
+/// Moves, turns, scales and possibly mirrors. A mirroring one maps (x, y) to (x, -y) before it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
-    /// Where the origin goes.
+    /// Image of the origin.
     origin: Point3,
-    /// The direction that the x axis gets, times the scale.
+    /// Image of the unit vector in x: direction times scale.
     x_axis: (f64, f64),
-    /// The angle of that direction in degrees.
+    /// Angle of that vector in degrees.
     turn: f64,
-    /// What lengths are multiplied with; > 0.
+    /// Scale of lengths, positive.
     scale: f64,
-    /// What z is multiplied with.
+    /// Scale of z.
     z_scale: f64,
     mirrored: bool,
 }
 
 impl Placement {
-    /// Everything stays where it is.
+    /// Leaves everything in place.
     pub(crate) const IDENTITY: Self = Self {
         origin: Point3 { x: 0.0, y: 0.0, z: 0.0 },
         x_axis: (1.0, 0.0),
@@ -31,16 +31,16 @@ impl Placement {
         mirrored: false,
     };
 
-    /// Object coordinates with an extrusion of (0, 0, -1) to world coordinates: x and z change their sign.
+    /// Maps object coordinates with extrusion (0, 0, -1) to world coordinates: x and z change sign.
     pub(crate) const MIRRORED: Self =
         Self { x_axis: (-1.0, 0.0), turn: 180.0, z_scale: -1.0, mirrored: true, ..Self::IDENTITY };
 
-    /// Scales everything.
+    /// Scales about the origin.
     pub(crate) fn scaled(scale: f64) -> Self {
         Self { x_axis: (scale, 0.0), scale, z_scale: scale, ..Self::IDENTITY }
     }
 
-    /// This after another one.
+    /// The composition that applies `first` and then this one.
     pub(crate) fn after(&self, first: &Self) -> Self {
         let (x, y) = first.x_axis;
         Self {
@@ -58,14 +58,14 @@ impl Placement {
         Self { origin, ..Self::IDENTITY }
     }
 
-    /// Turns about the origin, by degrees counterclockwise.
+    /// Turns about the origin, in degrees counterclockwise.
     pub(crate) fn turned(turn: f64) -> Self {
         Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
     }
 
-    /// Scales x, y and z; `None` unless x and y have the same scale but for the sign.
+    /// Scales x, y and z; `None` if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
-        /// Scales are computed numbers: so little apart they are the same.
+        /// Relative difference up to which computed scales count as equal.
         const NOISE: f64 = 1e-9;
         let scale = x.abs();
         let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= NOISE * scale;
@@ -74,20 +74,20 @@ impl Placement {
         is_uniform.then_some(Self { x_axis: (x, 0.0), turn, scale, z_scale: z, mirrored, ..Self::IDENTITY })
     }
 
-    /// A point.
+    /// Transforms a point.
     pub(crate) fn point(&self, point: Point3) -> Point3 {
         let (x, y) = self.direction(point.x, point.y);
         Point3 { x: self.origin.x + x, y: self.origin.y + y, z: self.origin.z + self.z_scale * point.z }
     }
 
-    /// A vector.
+    /// Transforms a vector.
     pub(crate) fn direction(&self, x: f64, y: f64) -> (f64, f64) {
         let (cos, sin) = self.x_axis;
         let y = if self.mirrored { -y } else { y };
         (cos * x - sin * y, sin * x + cos * y)
     }
 
-    /// A shape.
+    /// Transforms a shape.
     pub(crate) fn apply(&self, geometry: &mut Geometry) {
         match geometry {
             Geometry::Line(line) => *line = Line { start: self.point(line.start), end: self.point(line.end) },
@@ -110,12 +110,12 @@ impl Placement {
         }
     }
 
-    /// The direction of an angle in degrees.
+    /// Transforms a direction given as an angle in degrees.
     fn angle(&self, angle: f64) -> f64 {
         if self.mirrored { self.turn - angle } else { self.turn + angle }
     }
 
-    /// Mirroring makes the letters of a text run backwards, seen from its own, turned baseline.
+    /// Places a text. Mirroring makes its letters run backwards along its own, turned baseline.
     fn place_text(&self, text: &mut Text) {
         text.anchor = self.point(text.anchor);
         text.height *= self.scale;
@@ -123,7 +123,7 @@ impl Placement {
         text.backwards ^= self.mirrored;
     }
 
-    /// A mirrored MTEXT occupies the place of one that is not, but stands on the other side of its anchor.
+    /// Places an MTEXT. A mirrored one covers the same area as an unmirrored one but has its anchor on the other side.
     fn place_mtext(&self, text: &mut MText) {
         text.anchor = self.point(text.anchor);
         text.height *= self.scale;
@@ -139,7 +139,7 @@ impl Placement {
     }
 }
 
-/// No coordinate and no length of a path is larger, in mm: a machine of a kilometre, and digits enough for all that is computed.
+/// Largest coordinate or length of a path in mm: a machine of one kilometre, with enough digits left for all computations.
 const LARGEST: f64 = 1e6;
 
 /// Whether no coordinate is beyond [`LARGEST`].
@@ -148,9 +148,10 @@ pub(crate) fn is_near(point: Vector) -> bool {
 }
 
 impl Geometry {
-    /// Whether no coordinate and no length is beyond [`LARGEST`], and every length more than 0.
+    /// Whether all coordinates and lengths are within [`LARGEST`] and all lengths positive.
     pub(crate) fn is_sound(&self) -> bool {
-        let is_near = |point: &Point3| [point.x, point.y, point.z].iter().all(|it| it.abs() <= LARGEST);
+        let is_near =
+            |point: &Point3| [point.x, point.y, point.z].iter().all(|coordinate| coordinate.abs() <= LARGEST);
         let is_length = |length: f64| length > 0.0 && length <= LARGEST;
         match self {
             Self::Line(line) => is_near(&line.start) && is_near(&line.end),
@@ -162,7 +163,7 @@ impl Geometry {
     }
 }
 
-/// The other side.
+/// The mirrored alignment.
 pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     match side {
         HorizontalAlign::Left => HorizontalAlign::Right,

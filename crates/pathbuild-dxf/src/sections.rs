@@ -1,7 +1,7 @@
-//! Finding pairs without looking at those before: the ends of sections, the layers among the tables, a variable of the header.
+//! Finds pairs without parsing those before them: ends of sections, layers in the tables, variables of the header.
 //!
-//! A keyword on a line of its own after a line with its group code can only be that pair: where a code stands it would be no number.
-//! So a search for the word finds the pair at the speed of memory.
+//! A keyword on a line of its own, after a line with its group code, can only be that pair, because it would not parse as a code. A plain
+//! text search therefore finds the pair at memory speed.
 
 use std::ops::Range;
 use std::sync::LazyLock;
@@ -10,22 +10,22 @@ use memchr::memmem::{Finder, FinderRev, rfind_iter};
 
 use crate::pairs::{Pair, Pairs};
 
-/// A keyword that is searched for.
+/// A keyword to search for.
 pub(crate) type Keyword = LazyLock<Finder<'static>>;
 
-/// The keyword of a record of the LAYER table.
+/// The keyword of LAYER records.
 pub(crate) static LAYER: Keyword = LazyLock::new(|| Finder::new("LAYER"));
 
 static SECTION_OR_END: Keyword = LazyLock::new(|| Finder::new("SEC"));
 static EOF: LazyLock<FinderRev<'static>> = LazyLock::new(|| FinderRev::new("EOF"));
 
-/// The pair that a skipped section ended with, or should have ended before.
+/// How a skipped section ended.
 pub(crate) enum SectionEnd<'a> {
-    /// `0/ENDSEC`; the pairs go on behind it.
+    /// With `0/ENDSEC`; the pairs continue after it.
     Ended,
-    /// `0/SECTION` of the next one.
+    /// With the `0/SECTION` of the next section.
     Missing(Pair<'a>),
-    /// The input ends first.
+    /// With the end of the input.
     CutOff {
         /// The last line.
         line: u32,
@@ -33,7 +33,7 @@ pub(crate) enum SectionEnd<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Jumps behind the end of the current section.
+    /// Skips to the end of the current section.
     pub(crate) fn skip_section(&mut self) -> SectionEnd<'a> {
         let from = self.consumed();
         let bytes = self.bytes();
@@ -51,14 +51,14 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Those behind the next pair of this code and keyword. Their lines are not counted.
+    /// The pairs after the next one with this code and keyword. Lines in between are not counted.
     pub(crate) fn behind(&self, code: &str, keyword: &Keyword) -> Option<Self> {
         let mut pairs = self.at(self.place(code, keyword)?, self.line());
         pairs.next().ok()?;
         Some(pairs)
     }
 
-    /// Where the next pair of this code and keyword begins.
+    /// Position of the next pair with this code and keyword.
     pub(crate) fn place(&self, code: &str, keyword: &Keyword) -> Option<usize> {
         let from = self.consumed();
         let length = keyword.needle().len();
@@ -66,14 +66,14 @@ impl<'a> Pairs<'a> {
         found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + length))
     }
 
-    /// Where the last pair of this code and keyword before this place begins.
+    /// Position of the last pair with this code and keyword before `end`.
     pub(crate) fn last_place(&self, code: &str, keyword: &str, end: usize) -> Option<usize> {
         let from = self.consumed();
         let mut found = rfind_iter(self.bytes().get(from..end)?, keyword);
         found.find_map(|at| self.pair_of(code.as_bytes(), from + at..from + at + keyword.len()))
     }
 
-    /// Where the pair begins whose code is this and whose value is here, if there is one that is not consumed.
+    /// Position of the unconsumed pair that has this code and the value at this range, if there is one.
     fn pair_of(&self, code: &[u8], value: Range<usize>) -> Option<usize> {
         let (before, after) = (&self.bytes()[..value.start], &self.bytes()[value.end..]);
         let before = trim_blanks_end(before).strip_suffix(&[self.line_end()])?;
@@ -85,7 +85,7 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Whether the pair `0/EOF` is at the end of the file, whatever short padding follows it.
+/// Whether the file ends with `0/EOF`, apart from a short padding.
 pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
     const TAIL: usize = 4096;
     let bytes = pairs.bytes();

@@ -1,26 +1,25 @@
-//! Names as entities spell them, each looked at once a file.
+//! Names as spelt by entities, each evaluated once per file.
 
 use std::collections::HashMap;
 
-/// What is known of some spellings. Drawings have few, and most are short.
+/// A small hash table by spelling. Drawings have few spellings, and most are short.
 #[derive(Debug)]
 pub(crate) struct Spellings<'a, T> {
-    /// Short ones, each at its place or, if that is taken, at one of those that follow. Some places are always free.
+    /// Short spellings by open addressing. Some slots are always free.
     short: [Option<(Short, T)>; PLACES],
     free: usize,
     others: HashMap<&'a [u8], T>,
 }
 
-/// A spelling of up to 16 characters. Which one comes next cannot be foreseen, so they are compared as a whole, and not by looking at
-/// those that were there before.
+/// A spelling of up to 16 characters, compared as a whole, because branches on single characters cannot be predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Short {
     length: usize,
-    /// The characters, some of them twice.
+    /// The characters; the two words overlap for short spellings.
     characters: [u64; 2],
 }
 
-/// How many places there are for short spellings.
+/// Number of slots for short spellings.
 const PLACES: usize = 1 << PLACE_BITS;
 const PLACE_BITS: u32 = 5;
 
@@ -31,7 +30,7 @@ impl<T: Copy> Default for Spellings<'_, T> {
 }
 
 impl<'a, T: Copy> Spellings<'a, T> {
-    /// What is known of this one.
+    /// Looks up a spelling.
     #[inline]
     pub(crate) fn get(&self, spelling: &[u8]) -> Option<T> {
         if let Some(short) = Short::of(spelling) {
@@ -46,7 +45,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
         if self.others.is_empty() { None } else { self.others.get(spelling).copied() }
     }
 
-    /// This is known of one that was not known.
+    /// Adds a spelling that was not found.
     pub(crate) fn insert(&mut self, spelling: &'a [u8], value: T) {
         match Short::of(spelling).filter(|_| self.free > 0) {
             Some(short) => {
@@ -69,7 +68,7 @@ impl Short {
         let characters = match length {
             0..4 => [spelling.iter().fold(0, |word, byte| word << 8 | u64::from(*byte)), 0],
             4..=16 => {
-                // 0 for up to 7 characters, 4 for up to 15, 8 for 16: where the second four are, counted from each end.
+                // Offset of the second four characters from each end: 0 for up to 7 characters, 4 for up to 15, 8 for 16.
                 let second = length / 8 * 4;
                 let four =
                     |at: usize| Some(u64::from(u32::from_le_bytes(*spelling.get(at..)?.first_chunk()?)));
@@ -80,7 +79,7 @@ impl Short {
         Some(Self { length, characters })
     }
 
-    /// A number that usual names do not have in common.
+    /// A hash that separates usual names.
     #[inline]
     fn place(&self) -> usize {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -1,4 +1,4 @@
-//! Why a wanted entity does not become a shape.
+//! Why a wanted entity has no shape.
 
 use pathbuild_diagnostic::messages::reading::{GROUP_MISSING, NOT_POSITIVE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
@@ -6,29 +6,29 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, TextFault};
 use crate::faults::{bad_value, shown};
 use crate::fields::{BadGroup, Fields};
 
-/// What is wrong with an entity.
+/// A fault of an entity.
 #[derive(Clone, Debug)]
 pub(crate) enum Trouble<'a> {
-    /// It is broken: PB002.
+    /// A broken group: PB002.
     Group(BadGroup<'a>),
-    /// Its extrusion is neither (0, 0, 1) nor (0, 0, -1): PB110.
+    /// An extrusion other than (0, 0, 1) or (0, 0, -1): PB110.
     Tilted,
-    /// Its numbers are beyond what can be computed with: PB002.
+    /// Coordinates too large to compute with: PB002.
     TooLarge,
-    /// It is nothing that can be milled: PB111.
+    /// A shape that cannot be milled: PB111.
     LeftOut {
-        /// Why.
+        /// The reason.
         message: &'static Message,
-        /// Where it begins.
+        /// Its first point, if known.
         point: Option<Point>,
-        /// The block, if it is an insertion.
+        /// The name of the block, for an insertion.
         block: Option<Box<str>>,
     },
-    /// The insertion of a block, of this name, that contains itself or is nested too deep: PB002.
+    /// The insertion of this block, which contains itself or is nested too deep: PB002.
     Nested(Box<str>),
-    /// It has more parts than the limit of entities: PB005, for the whole file.
+    /// More parts than the limit of entities: PB005, for the whole file.
     TooManyParts,
-    /// A text is longer than the limit: PB005, for the whole file.
+    /// A text longer than the limit: PB005, for the whole file.
     TextTooLong,
 }
 
@@ -39,7 +39,7 @@ impl<'a> From<BadGroup<'a>> for Trouble<'a> {
 }
 
 impl<'a> Trouble<'a> {
-    /// It is left out for this reason; it begins at the point in 10/20, if it has one.
+    /// Leaves an entity out for this reason; its point is 10/20, if present.
     pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
         let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
         Self::LeftOut { message, point, block: None }
@@ -47,7 +47,7 @@ impl<'a> Trouble<'a> {
 }
 
 impl BadGroup<'_> {
-    /// Says so, with the line if it is that of a value.
+    /// The diagnostic, with the line if a value is at fault.
     pub(crate) fn diagnostic(&self, kind: EntityKind) -> Diagnostic {
         let entity = kind.name();
         match self {

@@ -1,4 +1,4 @@
-//! `$INSUNITS` to millimetres. (book: reference/dxf; book: reference/configuration, `units`)
+//! Converts `$INSUNITS` to millimetres. (book: reference/dxf; book: reference/configuration, `units`)
 
 use pathbuild_diagnostic::messages::files::WRONG_UNITS;
 use pathbuild_diagnostic::{Diagnostic, Word};
@@ -7,7 +7,7 @@ use crate::Units;
 use crate::faults::Fatal;
 use crate::header::Header;
 
-/// Millimetres in one unit of the drawing, or PB113.
+/// Millimetres per unit of the drawing, or PB113.
 pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fatal> {
     if units == Units::Millimetres {
         return Ok(1.0);
@@ -27,7 +27,7 @@ fn wrong_units(number: i64, name: &'static Word) -> Diagnostic {
     Diagnostic::new(&WRONG_UNITS).with("unit", name).with("number", number.to_string())
 }
 
-/// Name of the unit, and how many millimetres it has.
+/// The name of a unit and its length in millimetres.
 fn unit(number: i64) -> Option<(&'static Word, f64)> {
     let index = usize::try_from(number).ok()?;
     UNITS.get(index).map(|(name, factor)| (name, *factor))
@@ -35,7 +35,7 @@ fn unit(number: i64) -> Option<(&'static Word, f64)> {
 
 static UNKNOWN: Word = Word { en: "unknown", de: "unbekannt" };
 
-/// By number. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts, as f64 has it.
+/// By number. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts, rounded to f64.
 static UNITS: [(Word, f64); 25] = [
     (word("none", "keine"), 1.0),
     (word("inches", "Zoll"), 25.4),

@@ -1,42 +1,42 @@
-//! Smooth curves to lines and arcs within a tolerance.
+//! Approximates smooth curves by lines and arcs within a tolerance.
 
 use super::biarc::{CurvePiece, Ray, biarc};
 use super::vector::Vector;
 use crate::Geometry;
 
-/// A curve over an interval in which it is smooth.
+/// A curve that is smooth over the interval in question.
 pub(crate) trait Curve {
     /// The point at a parameter, and the derivative there.
     fn at(&self, parameter: f64) -> (Vector, Vector);
 }
 
-/// How near, and how many.
+/// Limits of an approximation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
-    /// Largest distance in mm of any point of the curve from the pieces.
+    /// Largest distance in mm between the curve and its pieces.
     pub(crate) distance: f64,
-    /// More pieces than this are not made.
+    /// Largest number of pieces.
     pub(crate) most_pieces: usize,
 }
 
-/// Why a curve is not approximated.
+/// Why a curve cannot be approximated.
 pub(crate) enum NoPieces {
-    /// There would be more than the limit allows.
+    /// It would take more pieces than the limit allows.
     TooMany,
-    /// It lies or reaches farther than anything in a drawing may.
+    /// It reaches beyond the largest coordinate of a drawing.
     TooFar,
 }
 
-/// Points of the curve that are looked at in each span of two arcs.
+/// Number of sample points per span of two arcs.
 const SAMPLES: u32 = 24;
 
-/// Between two samples the distance may be a little larger than at both.
+/// Safety factor: between two samples the distance may be slightly larger than at both.
 const MARGIN: f64 = 0.9;
 
-/// Halvings of a span after which a piece of it is a line, however far: shorter ones differ only by rounding.
+/// Number of halvings after which a piece becomes a line whatever its distance: shorter spans differ only by rounding.
 const DEEPEST: u32 = 24;
 
-/// Adds the pieces of a curve between two parameters.
+/// Appends the pieces of a curve between two parameters.
 pub(crate) fn approximate(
     curve: &impl Curve,
     [from, to]: [f64; 2],
@@ -61,7 +61,7 @@ pub(crate) fn approximate(
     if pieces.len() > tolerance.most_pieces { Err(NoPieces::TooMany) } else { Ok(()) }
 }
 
-/// The biarc with the curve's ends and directions there, if it is near enough; a line, where the curve has no directions.
+/// The biarc that matches the ends and directions of the curve, if it is close enough, or a line if the curve has no direction there.
 fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<CurvePiece>> {
     let width = to - from;
     let rays = ray(curve, from, width).zip(ray(curve, to, -width));
@@ -76,11 +76,12 @@ fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Curv
     (1..SAMPLES).all(is_near).then_some(fitting)
 }
 
-/// A point of the curve with its direction; `inwards` leads into the span, where a direction is looked for if there is none at its end.
+/// A point of the curve with its direction. If the derivative vanishes at the point, the direction is taken slightly inside the span, on
+/// the side of `inwards`.
 fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
-    /// Part of the span that is gone inwards for a direction.
+    /// Fraction of the span to move inwards for a direction.
     const STEP: f64 = 1e-3;
-    /// Derivatives shorter than this part of the way to there are nothing.
+    /// Derivatives shorter than this fraction of the distance count as zero.
     const NOTHING: f64 = 1e-6;
     let (point, derivative) = curve.at(parameter);
     let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));

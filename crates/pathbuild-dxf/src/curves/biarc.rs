@@ -1,12 +1,12 @@
-//! Two arcs that join without a bend and have given directions at both ends.
+//! Biarcs: two tangent arcs with given directions at both ends.
 //!
-//! (The joint is chosen so that both ends are equally far from the corner of their tangents.)
+//! The joint is chosen so that both ends are equally far from the corner of their tangents.
 
 use super::vector::Vector;
 use crate::angle;
 use crate::{Arc, Geometry, Line, Point3};
 
-/// A point of a curve, and the direction of the curve there, of length 1.
+/// A point of a curve with the unit vector of the curve's direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
     pub(crate) point: Vector,
@@ -27,38 +27,38 @@ enum Bend {
     Round { centre: Vector, radius: f64, clockwise: bool },
 }
 
-/// Arcs whose height over the chord is less (in mm) are lines: their radius would be too large to be accurate.
+/// Largest height over the chord, in mm, of an arc that becomes a line: its radius would be too large to be accurate.
 const FLAT: f64 = 1e-7;
 
-/// The biarc between two rays; `None` where there is none, as between opposite directions along their chord.
+/// The biarc between two rays, or `None` if there is none, for example between opposite directions along their chord.
 pub(crate) fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     let chord = to.point.minus(from.point);
     let reach = reach(chord, from.direction, to.direction)?;
     let bend = from.direction.minus(to.direction).times(reach);
     let joint = from.point.plus(to.point).plus(bend).times(0.5);
     let first = piece(from.point, joint, from.direction);
-    // Drawn backwards from its end, where its direction is known.
+    // Constructed backwards from the end, whose direction is known.
     let second = piece(to.point, joint, to.direction.times(-1.0)).reversed();
     Some([first, second])
 }
 
-/// How far the corners of the control polygon are from the ends.
+/// Distance of the control polygon's corners from the ends.
 fn reach(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     let along = chord.dot(from.plus(to));
     let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
     let square = chord.dot(chord);
     let root = libm::sqrt(along * along + turn * square);
-    // The same number both ways; each without the difference of nearly equal numbers.
+    // Both forms are equal; each avoids the difference of nearly equal numbers.
     let reach = if along > 0.0 { square / (root + along) } else { (root - along) / turn };
     (reach.is_finite() && reach > 0.0).then_some(reach)
 }
 
-/// The arc from a point in a direction to another point.
+/// The arc that leaves a point in a given direction and reaches another point.
 fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let chord = end.minus(start);
     let aside = chord.dot(direction.left());
     let square = chord.dot(chord);
-    // The height over the chord is about a quarter of how far the end is aside of the tangent.
+    // The height over the chord is about a quarter of the distance of the end from the tangent.
     if aside.abs() < 4.0 * FLAT && chord.dot(direction) >= 0.0 {
         return CurvePiece { start, end, bend: Bend::Straight };
     }
@@ -87,7 +87,7 @@ impl CurvePiece {
         Self { start: self.end, end: self.start, bend }
     }
 
-    /// How far a point is from it.
+    /// Distance of a point from the piece.
     pub(crate) fn distance(&self, point: Vector) -> f64 {
         let to_ends = point.minus(self.start).length().min(point.minus(self.end).length());
         match self.bend {
@@ -109,7 +109,7 @@ impl CurvePiece {
         }
     }
 
-    /// Whether the foot of a point on the circle is on the arc.
+    /// Whether the projection of a point onto the circle lies on the arc.
     fn spans(&self, point: Vector) -> bool {
         let Bend::Round { centre, clockwise, .. } = self.bend else { return false };
         let angle = |point: Vector| {
@@ -120,7 +120,7 @@ impl CurvePiece {
         from_start(angle(point)) <= from_start(angle(self.end))
     }
 
-    /// As an entity's shape; `None` when it has no length.
+    /// The piece as the geometry of an entity; `None` if it has no length.
     pub(crate) fn geometry(&self, z: f64) -> Option<Geometry> {
         let point = |vector: Vector| Point3 { x: vector.x, y: vector.y, z };
         if self.start == self.end {

@@ -1,4 +1,4 @@
-//! Curves that are no arcs, approximated by arcs. (book: reference/configuration, `approximate-curves`)
+//! Approximates curves other than arcs by arcs. (book: reference/configuration, `approximate-curves`)
 
 mod approximate;
 mod biarc;

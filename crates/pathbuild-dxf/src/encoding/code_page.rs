@@ -8,20 +8,20 @@ use pathbuild_encoding::{
     WINDOWS_1252, WINDOWS_1253, WINDOWS_1254, WINDOWS_1255, WINDOWS_1256, WINDOWS_1257, WINDOWS_1258,
 };
 
-/// How the bytes of texts are to be read.
+/// Encoding declared for the texts of a file.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CodePage {
-    /// Nothing was declared, or `ANSI_1252`, which is what many programs write whatever they use.
+    /// None, or `ANSI_1252`, which many programs write whatever they use.
     Usual,
-    /// One that the standard of browsers knows.
+    /// An encoding of the WHATWG standard.
     Standard(&'static Encoding),
-    /// A page of DOS.
+    /// A DOS code page.
     Dos(&'static TableType),
-    /// Nobody knows it.
+    /// An unknown name.
     Unknown,
 }
 
-/// Understands the name in the header.
+/// Parses the value of `$DWGCODEPAGE`.
 pub(super) fn code_page(name: &[u8]) -> CodePage {
     if name == b"ANSI_1252" {
         return CodePage::Usual;

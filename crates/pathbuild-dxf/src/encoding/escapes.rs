@@ -1,4 +1,4 @@
-//! `\U+XXXX` and `\M+nXXXX`: characters that the file's code page lacks, in every string of every version, and `^I` and the like in
+//! Escapes for characters outside the file's code page: `\U+XXXX` and `\M+nXXXX` in all strings of all versions, `^I` and similar codes in
 //! texts.
 
 use std::borrow::Cow;
@@ -6,10 +6,10 @@ use std::borrow::Cow;
 use memchr::memchr_iter;
 use pathbuild_encoding::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS};
 
-/// What an escape stands for that stands for nothing.
+/// Replaces an escape that is no character.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
-/// Decodes all escapes. Also tells whether all of them were characters; others become U+FFFD.
+/// Decodes all escapes. The flag tells whether all of them were characters; the others become U+FFFD.
 pub(super) fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     let bytes = text.as_bytes();
     if !memchr_iter(b'\\', bytes).any(|at| matches!(bytes[at..], [_, b'U' | b'M', b'+', ..])) {
@@ -30,12 +30,12 @@ pub(super) fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     (Cow::Owned(decoded), all_known)
 }
 
-/// The character (if it is one) and length of the escape that `text` begins with.
+/// The character and the length of the escape at the start of `text`. The inner `None` is an escape that is no character.
 fn escape(text: &str) -> Option<(Option<char>, usize)> {
     unicode(text).or_else(|| multibyte(text))
 }
 
-/// `\U+XXXX`, also two of them that are a surrogate pair.
+/// `\U+XXXX`, or two of them that form a surrogate pair.
 fn unicode(text: &str) -> Option<(Option<char>, usize)> {
     const LENGTH: usize = 7;
     let unit = utf16_unit(text)?;
@@ -53,18 +53,18 @@ fn utf16_unit(text: &str) -> Option<u16> {
     hexadecimal(text.strip_prefix("\\U+")?.get(..4)?)
 }
 
-/// `\M+nXXXX`: two bytes in code page n.
+/// `\M+nXXXX`: two bytes in the code page n.
 fn multibyte(text: &str) -> Option<(Option<char>, usize)> {
     let rest = text.strip_prefix("\\M+")?;
     let page = rest.bytes().next().filter(|digit| (b'1'..=b'5').contains(digit))?;
     let bytes = hexadecimal(rest.get(1..5)?)?.to_be_bytes();
     let bytes = if bytes[0] == 0 { &bytes[1..] } else { &bytes[..] };
-    let decoded =
-        multibyte_encoding(page).and_then(|it| it.decode_without_bom_handling_and_without_replacement(bytes));
+    let decoded = multibyte_encoding(page)
+        .and_then(|encoding| encoding.decode_without_bom_handling_and_without_replacement(bytes));
     Some((decoded.and_then(|text| text.chars().next()), 8))
 }
 
-/// The encoding of a digit. The fourth, Johab, is one that nobody has.
+/// The encoding for a digit of `\M+`. The fourth, Johab, is unsupported because no drawing uses it.
 fn multibyte_encoding(digit: u8) -> Option<&'static Encoding> {
     match digit {
         b'1' => Some(SHIFT_JIS),
@@ -80,7 +80,7 @@ fn hexadecimal(digits: &str) -> Option<u16> {
     u16::from_str_radix(digits, 16).ok().filter(|_| all_digits)
 }
 
-/// Decodes the carets of a one-line text: `^I` is a tab, `^J` and `^M^J` a line feed, `^ ` a caret; any other stays.
+/// Decodes the caret codes of a one-line text: `^I` is a tab, `^J` and `^M^J` a line feed, `^ ` a caret. Others stay as they are.
 pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     if !text.contains('^') {
         return text;
@@ -98,7 +98,7 @@ pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     Cow::Owned(decoded)
 }
 
-/// The character and length of the caret code that `text` begins with.
+/// The character and length of the caret code at the start of `text`.
 pub(crate) fn control(text: &str) -> Option<(char, usize)> {
     let mut characters = text.chars();
     characters.next().filter(|first| *first == '^')?;

@@ -1,7 +1,7 @@
-//! Bytes of strings to characters. (book: reference/dxf: "encoding")
+//! Decodes strings. (book: reference/dxf: "encoding")
 //!
-//! Strings are decoded one by one, never the file as a whole: in the double-byte code pages a byte of a character may look like a
-//! backslash, but never like a line end. ASCII, nearly all there is, is borrowed as it stands.
+//! Strings are decoded one by one, never the file as a whole: in double-byte code pages, a byte of a character may look like a backslash
+//! but never like a line end. ASCII, which nearly all strings are, is borrowed.
 
 mod code_page;
 mod escapes;
@@ -22,7 +22,7 @@ pub(crate) use escapes::{control, without_carets};
 #[derive(Debug)]
 pub(crate) struct Decoder<'a> {
     charset: Charset<'a>,
-    /// As it is called in PB008.
+    /// The name of the encoding in PB008.
     name: Cow<'a, str>,
     doubt: Option<Diagnostic>,
 }
@@ -31,14 +31,14 @@ pub(crate) struct Decoder<'a> {
 enum Charset<'a> {
     Standard(&'static Encoding),
     Dos(&'static TableType),
-    /// UTF-8 if the whole file is valid UTF-8, else `ANSI_1252`: found out when the first byte that is not ASCII is met.
+    /// UTF-8 if the whole file is valid UTF-8, else `ANSI_1252`. Decided at the first byte that is not ASCII.
     Either(&'a [u8]),
-    /// Declared, but nobody knows it.
+    /// Declared, but unknown.
     Unknown,
 }
 
 impl<'a> Decoder<'a> {
-    /// Decides on the encoding of `file`, whose header is known. A byte order mark says that it is UTF-8.
+    /// Chooses the encoding of `file` by its header. A byte order mark means UTF-8.
     pub(crate) fn new(file: &'a [u8], header: &Header<'_>, has_bom: bool) -> Self {
         let declared = header.code_page().unwrap_or_default();
         let is_utf8 = header.is_unicode() || has_bom;
@@ -52,14 +52,14 @@ impl<'a> Decoder<'a> {
         Self { charset, name, doubt: None }
     }
 
-    /// Decodes a string that begins on this line. What can not be decoded becomes U+FFFD, and one PB008 a file.
+    /// Decodes a string that starts on this line. Undecodable bytes become U+FFFD and one PB008 per file.
     #[inline]
     pub(crate) fn decode<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
-        // ASCII is Latin-1 as well, which is borrowed then, and known sooner than UTF-8.
+        // ASCII is valid Latin-1, which is borrowed and recognised faster than UTF-8.
         if is_plain(bytes) { decode_latin1(bytes) } else { self.decode_others(bytes, line) }
     }
 
-    /// The same as bytes: UTF-8.
+    /// Decodes to UTF-8 bytes.
     pub(crate) fn decode_bytes<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, [u8]> {
         if is_plain(bytes) {
             return bytes.into();
@@ -67,7 +67,7 @@ impl<'a> Decoder<'a> {
         Cow::Owned(self.decode_others(bytes, line).into_owned().into_bytes())
     }
 
-    /// What was doubtful.
+    /// Returns PB008 if any string was doubtful.
     pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
         self.doubt
     }
@@ -91,8 +91,8 @@ impl<'a> Decoder<'a> {
             Charset::Dos(page) => dos(page, bytes),
             Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
             Charset::Either(file) => {
-                // Where a string is not, the file is not.
-                let is_utf8 = [bytes, file].into_iter().all(|it| std::str::from_utf8(it).is_ok());
+                // If a single string is not UTF-8, the file is not; testing the string first is cheaper.
+                let is_utf8 = [bytes, file].into_iter().all(|text| std::str::from_utf8(text).is_ok());
                 let encoding = if is_utf8 { UTF_8 } else { WINDOWS_1252 };
                 self.charset = Charset::Standard(encoding);
                 standard(encoding, bytes)
@@ -101,7 +101,7 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// Whether a string stands for itself: ASCII, without a backslash.
+/// Whether a string needs no decoding: ASCII without a backslash.
 #[inline]
 pub(crate) fn is_plain(bytes: &[u8]) -> bool {
     match (bytes.first_chunk(), bytes.last_chunk()) {
@@ -110,13 +110,13 @@ pub(crate) fn is_plain(bytes: &[u8]) -> bool {
     }
 }
 
-/// Whether there is a backslash among these characters, or one that is not ASCII.
+/// Whether any of these characters is a backslash or not ASCII.
 #[inline]
 fn has_other(characters: [u8; 8]) -> bool {
     const ONES: u64 = u64::from_le_bytes([1; 8]);
     let word = u64::from_le_bytes(characters);
     let zero_where_backslash = word ^ (ONES * u64::from(b'\\'));
-    // Of ASCII characters only a zero has its top bit set when one is taken from it, or from all.
+    // Among ASCII bytes, only a zero gets its top bit set by subtracting one.
     (word | zero_where_backslash.wrapping_sub(ONES)) & (ONES * 0x80) != 0
 }
 
@@ -128,13 +128,13 @@ fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnos
 
 fn standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
     let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
-    // The web's Windows pages give bytes that have no character in them their own number as a control character.
+    // The WHATWG Windows pages map bytes without a character to the control character of the same number.
     let has_holes = encoding.is_single_byte() && text.chars().any(|c| ('\u{80}'..='\u{9f}').contains(&c));
     (text, !had_errors && !has_holes)
 }
 
 fn dos<'b>(page: &TableType, bytes: &[u8]) -> (Cow<'b, str>, bool) {
-    // Two pages give bytes that have no character their own number.
+    // Two pages map bytes without a character to the control character of the same number.
     let is_hole = |character: char| ('\u{80}'..='\u{9f}').contains(&character);
     let text = page.decode_string_lossy(bytes).replace(is_hole, "\u{fffd}");
     let is_known = !text.contains(char::REPLACEMENT_CHARACTER);

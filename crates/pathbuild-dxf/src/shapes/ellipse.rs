@@ -9,20 +9,20 @@ use crate::placement::{Placement, is_near};
 use crate::trouble::Trouble;
 use crate::{Geometry, Point3};
 
-/// An ellipse or a part of one.
+/// An ellipse or elliptical arc.
 #[derive(Clone, Debug)]
 pub(crate) struct Ellipse {
     centre: Point3,
-    /// From the centre to where the parameter is 0.
+    /// Vector from the centre to the point with parameter 0.
     major: Vector,
-    /// From the centre to where the parameter is a quarter turn.
+    /// Vector from the centre to the point a quarter turn later.
     minor: Vector,
     start: f64,
     end: f64,
 }
 
 impl Ellipse {
-    /// Reads one; its points are in world coordinates.
+    /// Reads an ELLIPSE, whose points are in world coordinates.
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
         let major = fields.point(11)?;
         let ratio = fields.length(40)?;
@@ -46,7 +46,7 @@ impl Ellipse {
         })
     }
 
-    /// Its arcs in the coordinates of the drawing.
+    /// Approximates it by arcs in the coordinates of the drawing.
     pub(crate) fn pieces(
         &self,
         placement: &Placement,
@@ -69,7 +69,7 @@ impl Ellipse {
         Ok(pieces)
     }
 
-    /// Whether it can be part of a drawing at all.
+    /// Whether all of it is within the largest coordinate of a drawing.
     fn is_near(&self) -> bool {
         let Point3 { x, y, .. } = self.centre;
         [Vector { x, y }, self.major, self.minor].into_iter().all(is_near)
@@ -89,7 +89,7 @@ impl Ellipse {
     }
 }
 
-/// How far the parameter goes. A full turn with its last digits rounded is a full turn.
+/// Range of the parameter. A full turn up to rounding counts as a full turn.
 fn sweep(start: f64, end: f64) -> f64 {
     const ROUNDED: f64 = 1e-9;
     let turn = libm::fmod(end - start, TAU);

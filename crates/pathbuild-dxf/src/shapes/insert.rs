@@ -1,4 +1,4 @@
-//! INSERT: a block, or rows and columns of it, at another place. (book: reference/dxf)
+//! INSERT: places a block, or rows and columns of it. (book: reference/dxf)
 
 use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::reading::INSERT_SCALED;
@@ -14,26 +14,26 @@ use crate::trouble::Trouble;
 /// An insertion.
 #[derive(Clone, Debug)]
 pub(crate) struct Insert<'a> {
-    /// The block's name as it is spelt here.
+    /// The block's name as spelt here.
     pub(crate) block: SmolStr,
-    /// Where; whatever is wrong with that is only of interest if the block holds something that is wanted.
+    /// Its placement. A fault in it matters only if the block holds something wanted.
     pub(crate) array: Result<Array, Trouble<'a>>,
 }
 
-/// Where the copies of a block go. Most blocks hold nothing that is wanted, so it is not worked out before.
+/// The placement of the copies of a block, computed on demand because most blocks hold nothing wanted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Array {
-    /// In object coordinates.
+    /// Insertion point in object coordinates.
     at: Point3,
     is_mirrored: bool,
     scaled: Placement,
-    /// Degrees.
+    /// Rotation in degrees.
     turn: f64,
     columns: Steps,
     rows: Steps,
 }
 
-/// Copies of a block, and how far it is from each to the next.
+/// Number of copies in one direction and their distance.
 #[derive(Clone, Copy, Debug)]
 struct Steps {
     count: u32,
@@ -41,7 +41,7 @@ struct Steps {
 }
 
 impl<'a> Insert<'a> {
-    /// Reads one.
+    /// Reads an INSERT.
     pub(crate) fn read(fields: &Fields<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Trouble<'a>> {
         let name = fields.get(2).ok_or(BadGroup::Missing { code: 2 })?;
         let block: SmolStr = decoder.decode(name.bytes, name.line).trim().into();
@@ -70,22 +70,22 @@ impl Array {
         })
     }
 
-    /// The point of insertion.
+    /// The insertion point.
     pub(crate) fn begin(&self) -> Point {
         let at = self.first().point(Point3::default());
         Point::new(at.x, at.y)
     }
 
-    /// From the block's coordinates, with its base point at the origin, to those of the space, for the first copy.
+    /// Maps the block's coordinates, with the base point at the origin, to those of the space for the first copy.
     fn first(&self) -> Placement {
         let moved = object(self.is_mirrored).after(&Placement::moved(self.at));
         moved.after(&Placement::turned(self.turn)).after(&self.scaled)
     }
 
-    /// The placement of each copy, for a block with this base point.
+    /// The placements of all copies of a block with this base point.
     pub(crate) fn copies(self, base: Point3) -> impl Iterator<Item = Placement> {
         let first = self.first().after(&Placement::moved(Point3 { x: -base.x, y: -base.y, z: -base.z }));
-        // Copies are set off along the turned axes, but not scaled.
+        // The grid of copies is turned but not scaled.
         let direction = object(self.is_mirrored).after(&Placement::turned(self.turn));
         let column_step = direction.direction(self.columns.distance, 0.0);
         let row_step = direction.direction(0.0, self.rows.distance);
@@ -106,17 +106,17 @@ impl Steps {
     }
 }
 
-/// From object coordinates to those of the space.
+/// Maps object coordinates to those of the space.
 fn object(is_mirrored: bool) -> Placement {
     if is_mirrored { Placement::MIRRORED } else { Placement::IDENTITY }
 }
 
-/// A scale, 1 when it is missing.
+/// An optional scale, 1 by default.
 fn scale<'a>(fields: &Fields<'a>, code: i32) -> Result<f64, BadGroup<'a>> {
     Ok(fields.number(code)?.unwrap_or(1.0))
 }
 
-/// A number of copies: one when it is missing or 0.
+/// A number of copies; missing or 0 means one.
 fn count<'a>(fields: &Fields<'a>, code: i32) -> Result<u32, BadGroup<'a>> {
     let count = fields.whole(code)?.unwrap_or(1).max(1);
     Ok(u32::try_from(count).unwrap_or(u32::MAX))

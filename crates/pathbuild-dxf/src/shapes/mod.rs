@@ -1,4 +1,4 @@
-//! Groups of an entity to its shape, in the coordinates of the space it is in: the drawing's or its block's.
+//! Converts the groups of an entity to its shape, in the coordinates of its space: the drawing's or the block's.
 
 mod ellipse;
 mod insert;
@@ -21,9 +21,9 @@ pub(crate) use polyline::{OpenPolyline, lightweight};
 pub(crate) use spline::Spline;
 pub(crate) use text::{mtext, text};
 
-/// Whether object coordinates are mirrored against those of the space: extrusion (0, 0, -1).
+/// Whether object coordinates are mirrored: extrusion (0, 0, -1).
 fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, Trouble<'a>> {
-    /// Components of a normal that is straight but was computed.
+    /// Tolerance for the components of a normal that was computed.
     const NOISE: f64 = 1e-9;
     if fields.get(210).is_none() && fields.get(220).is_none() && fields.get(230).is_none() {
         return Ok(false);
@@ -36,7 +36,7 @@ fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, Trouble<'a>> {
     Ok(z < 0.0)
 }
 
-/// Brings a shape from object coordinates to those of the space.
+/// Maps a shape from object coordinates to those of the space.
 fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> Result<Geometry, Trouble<'a>> {
     if is_mirrored(fields)? {
         Placement::MIRRORED.apply(&mut geometry);
@@ -44,7 +44,7 @@ fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> R
     Ok(geometry)
 }
 
-/// The number of a group that its entity repeats.
+/// Parses a repeated group as a number.
 fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
     let value = Value::new(pair.value, pair.line);
     real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })

@@ -1,4 +1,4 @@
-//! LWPOLYLINE and two-dimensional POLYLINE as their lines and arcs. Widths mean nothing to a milling cutter.
+//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs. Widths are ignored, since the cutter has its own.
 
 use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
 
@@ -10,7 +10,7 @@ use crate::{Arc, Geometry, Line, Point3};
 
 use super::{is_mirrored, repeated_number};
 
-/// The lines and arcs of an LWPOLYLINE.
+/// Converts an LWPOLYLINE to lines and arcs.
 pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Trouble<'a>> {
     let flags = fields.whole(70)?.unwrap_or(0);
     let z = fields.number(38)?.unwrap_or(0.0);
@@ -33,7 +33,7 @@ pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Trou
     Ok(pieces(&corners, flags & CLOSED != 0, is_mirrored(fields)?))
 }
 
-/// A POLYLINE whose VERTEX records follow.
+/// A POLYLINE that is waiting for its VERTEX records.
 pub(crate) struct OpenPolyline {
     elevation: f64,
     is_closed: bool,
@@ -43,7 +43,7 @@ pub(crate) struct OpenPolyline {
 }
 
 impl OpenPolyline {
-    /// The beginning of a POLYLINE.
+    /// Starts a POLYLINE.
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if flags & (THREE_DIMENSIONAL | MESH | POLYFACE) != 0 {
@@ -58,7 +58,7 @@ impl OpenPolyline {
         })
     }
 
-    /// Its next VERTEX. Those of the frame that a smoothed polyline was made from are none of its corners.
+    /// Adds the next VERTEX. Frame points of a smoothed polyline are not corners.
     pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), Trouble<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if self.is_spline_fit && flags & FRAME_POINT != 0 {
@@ -71,25 +71,25 @@ impl OpenPolyline {
         Ok(())
     }
 
-    /// Its lines and arcs.
+    /// Finishes the polyline.
     pub(crate) fn end(self) -> Vec<Geometry> {
         pieces(&self.corners, self.is_closed, self.is_mirrored)
     }
 }
 
-/// Flags of a polyline (70).
+/// Flags of a polyline (group 70).
 const CLOSED: i64 = 1;
 const SPLINE_FIT: i64 = 4;
 const THREE_DIMENSIONAL: i64 = 8;
 const MESH: i64 = 16;
 const POLYFACE: i64 = 64;
-/// Flag of a VERTEX (70).
+/// Flag of a VERTEX (group 70).
 const FRAME_POINT: i64 = 16;
 
-/// Bulges below this are straight: over a chord of a metre they are 5 nm high, and the radius would be too large to be accurate.
+/// Largest bulge that counts as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
 const FLAT: f64 = 1e-8;
 
-/// An arc that is no higher than this, in mm, over its chord is printed as a line. It is one where its centre is too far off.
+/// Height over the chord, in mm, up to which an arc may become a line where its centre is too far away: programs print no difference.
 const INVISIBLE: f64 = 0.0005;
 
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +97,7 @@ struct Corner {
     x: f64,
     y: f64,
     z: f64,
-    /// Of the piece to the next corner: the tangent of a quarter of its angle, > 0 counterclockwise.
+    /// Bulge of the piece to the next corner: the tangent of a quarter of its angle, positive for counterclockwise.
     bulge: f64,
 }
 
@@ -107,7 +107,7 @@ impl Corner {
     }
 }
 
-/// The pieces between corners, without those that have no length.
+/// The pieces between corners, without those of zero length.
 fn pieces(corners: &[Corner], is_closed: bool, is_mirrored: bool) -> Vec<Geometry> {
     let next = corners.iter().skip(1).chain(corners.first().filter(|_| is_closed));
     let mut pieces: Vec<Geometry> =
@@ -133,10 +133,10 @@ fn piece(from: Corner, to: Corner) -> Option<Geometry> {
     Some(if height < INVISIBLE && !arc.is_sound() { Geometry::Line(Line { start, end }) } else { arc })
 }
 
-/// The arc over a chord. Its height is half the chord times the bulge.
+/// The arc over a chord. Its height is the bulge times half the chord.
 fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
     let [x, y] = [end.x - start.x, end.y - start.y];
-    // From the middle of the chord to the centre, in units of the chord, to its left.
+    // From the middle of the chord to the centre, to the left, in units of the chord.
     let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
     let centre = Point3 {
         x: f64::midpoint(start.x, end.x) - y * to_centre,

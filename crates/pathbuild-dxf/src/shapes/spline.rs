@@ -9,7 +9,7 @@ use crate::placement::{Placement, is_near};
 use crate::trouble::Trouble;
 use crate::{Geometry, Point3};
 
-/// A B-spline in a plane parallel to that of the drawing.
+/// A B-spline in a plane parallel to the drawing's.
 #[derive(Clone, Debug)]
 pub(crate) struct Spline {
     degree: usize,
@@ -24,24 +24,24 @@ struct ControlPoint {
     weight: f64,
 }
 
-/// A spline between two neighbouring knots, where it is smooth.
+/// The smooth part of a spline between two neighbouring knots.
 struct Span<'s> {
     spline: &'s Spline,
-    /// Index of the knot that it begins with.
+    /// Index of the knot at its start.
     knot: usize,
 }
 
-/// Point and weight as a vector that can be mixed.
+/// Point and weight in homogeneous coordinates.
 type Homogeneous = [f64; 3];
 
-/// What is meant when no degree is given.
+/// The degree where none is given.
 const CUBIC: i64 = 3;
 
-/// Splines of higher degree do not occur; one evaluation takes the square of it.
+/// Largest degree. Higher ones do not occur, and evaluation takes time quadratic in the degree.
 const HIGHEST_DEGREE: usize = 15;
 
 impl Spline {
-    /// Reads one; its points are in world coordinates whatever its extrusion. One that is defined by its fit points only is left out.
+    /// Reads a SPLINE, whose points are in world coordinates. One defined by fit points only is left out.
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
         is_mirrored(fields)?;
         let groups = Groups::of(fields)?;
@@ -57,7 +57,7 @@ impl Spline {
         Ok(spline)
     }
 
-    /// Its lines and arcs in the coordinates of the drawing.
+    /// Approximates it by lines and arcs in the coordinates of the drawing.
     pub(crate) fn pieces(
         &self,
         placement: &Placement,
@@ -77,7 +77,7 @@ impl Spline {
         Ok(pieces)
     }
 
-    /// Whether it can be part of a drawing at all: it lies between its control points.
+    /// Whether all of it is within the largest coordinate of a drawing; it lies within the hull of its control points.
     fn is_near(&self) -> bool {
         self.points.iter().all(|control| is_near(control.point))
     }
@@ -131,7 +131,7 @@ impl Groups {
         Ok(groups)
     }
 
-    /// The control points; none, if their weights do not fit them.
+    /// The control points, or none if the number of weights does not match.
     fn control_points<'a>(&self) -> Result<Vec<ControlPoint>, BadGroup<'a>> {
         if !self.weights.is_empty() && self.weights.len() != self.points.len() {
             return Ok(Vec::new());
@@ -155,7 +155,7 @@ impl Curve for Span<'_> {
 }
 
 impl Span<'_> {
-    /// Value and derivative, by de Boor's algorithm.
+    /// Value and derivative by de Boor's algorithm.
     fn homogeneous(&self, parameter: f64) -> (Homogeneous, Homogeneous) {
         let Spline { degree, knots, points, .. } = self.spline;
         let first = self.knot - degree;

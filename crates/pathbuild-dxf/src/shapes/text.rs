@@ -12,7 +12,7 @@ use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAli
 
 use super::{from_object_coordinates, is_mirrored};
 
-/// A TEXT.
+/// Reads a TEXT.
 pub(crate) fn text<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
@@ -39,7 +39,7 @@ pub(crate) fn text<'a>(
     from_object_coordinates(Geometry::Text(text), fields)
 }
 
-/// An MTEXT; its point and direction are in world coordinates.
+/// Reads an MTEXT, whose point and direction are in world coordinates.
 pub(crate) fn mtext<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
@@ -65,7 +65,7 @@ const ALIGNED: i64 = 3;
 const MIDDLE: i64 = 4;
 const FITTED: i64 = 5;
 
-/// The anchor of a TEXT, and its direction where two points give that.
+/// The anchor of a TEXT, and its direction if two points define it.
 fn anchor<'a>(
     fields: &Fields<'a>,
     horizontal: i64,
@@ -86,7 +86,7 @@ fn between(a: Point3, b: Point3) -> Point3 {
     Point3 { x: f64::midpoint(a.x, b.x), y: f64::midpoint(a.y, b.y), z: f64::midpoint(a.z, b.z) }
 }
 
-/// The angle of a vector in degrees, unless it is nothing.
+/// Angle of a vector in degrees; `None` for a vector of zero length.
 fn direction(x: f64, y: f64) -> Option<f64> {
     (x != 0.0 || y != 0.0).then(|| angle::of(x, y))
 }
@@ -108,7 +108,7 @@ fn vertical_align(code: i64) -> VerticalAlign {
     }
 }
 
-/// 1 to 9 are three rows of three, from the top left to the bottom right.
+/// Attachment of an MTEXT: 1 to 9 are three rows of three, from top left to bottom right.
 fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     let horizontal = match code {
         2 | 5 | 8 => HorizontalAlign::Centre,
@@ -123,8 +123,8 @@ fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     (horizontal, vertical)
 }
 
-/// The rotation that an MTEXT has when seen from above: 50 or 11/21, the later of which holds. A mirrored one is read from the other
-/// end, so that its lines run the same way.
+/// Rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT is read from the other end, so that its lines
+/// run the same way.
 fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
     let by_angle = fields.get(50).map(|value| value.line);
     let by_point = fields.get(11).map(|value| value.line).filter(|line| Some(*line) > by_angle);
@@ -140,7 +140,7 @@ fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<
     })
 }
 
-/// The chunks of an MTEXT, joined as bytes before they are decoded: a character or a `\U+` may be cut in two.
+/// Joins the chunks of an MTEXT as bytes before decoding, since a character or `\U+` may be split between two.
 fn joined_chunks<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
