@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
-use pathbuild_db::{Db, SourceFile, drawing_names};
+use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
 use super::changes::Changes;
+use super::names::NameSnapshots;
 use super::reverse::Reverse;
 use crate::Inputs;
 use crate::check::check_drawings;
@@ -25,6 +26,7 @@ pub(super) struct Library<'a> {
     /// The drawings that have a Q-project, each with it; `None` until somebody asks.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
     reverse: Reverse,
+    names: NameSnapshots,
     /// What is still to be asked, in order of name.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
     /// The files because of which.
@@ -71,6 +73,7 @@ impl<'a> Library<'a> {
             q_projects: BTreeMap::new(),
             pairs: None,
             reverse: Reverse::default(),
+            names: NameSnapshots::default(),
             open: BTreeMap::new(),
             late: BTreeSet::new(),
         }
@@ -108,7 +111,8 @@ impl<'a> Library<'a> {
         let mut update = Batch::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
-        let mut is_other_library = self.take_over_names(&files, &mut concerned) || changes.is_incomplete;
+        let mut is_other_library =
+            self.take_over_names(changes, &files, &mut concerned) || changes.is_incomplete;
         for path in &files {
             concerned.extend(self.reverse.of_file(self.session.db().file(path)));
             self.session.touch_file(path);
@@ -145,15 +149,21 @@ impl<'a> Library<'a> {
         let found = found.filter(|found| is_passing(found)).filter_map(|found| found.file.as_ref());
         let files: BTreeSet<Utf8PathBuf> = found.chain(further).cloned().collect();
         concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
-        let open = concerned.into_iter().filter(|drawing| !asked.contains(drawing));
-        self.open = open.map(|drawing| (drawing.path(db).clone(), drawing)).collect();
-        if self.is_behind() {
+        concerned.retain(|drawing| !asked.contains(drawing));
+        if !concerned.is_empty() {
             // What is said of a directory is that it could not be listed.
             for path in &files {
                 self.session.touch_file(path);
-                self.session.touch_directory(as_listed(path));
+                let directory = as_listed(path);
+                if self.names.has(directory) {
+                    self.renew_names(directory, &mut concerned);
+                } else {
+                    self.session.touch_directory(directory);
+                }
             }
         }
+        let db = self.session.db();
+        self.open = concerned.into_iter().map(|drawing| (drawing.path(db).clone(), drawing)).collect();
         let again = self.open.keys().filter(|path| !update.changed.contains(*path)).cloned();
         let listed = update.before.iter().filter(|problem| !update.now.contains(problem));
         update.tried_again = again.chain(listed.filter_map(|problem| problem.file.clone())).collect();
@@ -212,32 +222,37 @@ impl<'a> Library<'a> {
     /// whether any came or went.
     fn take_over_names(
         &mut self,
+        changes: &Changes,
         files: &BTreeSet<Utf8PathBuf>,
         concerned: &mut HashSet<SourceFile>,
     ) -> bool {
-        let mut by_directory: BTreeMap<&Utf8Path, Vec<&Utf8PathBuf>> = BTreeMap::new();
+        let system = &*self.session.workspace().system;
+        let is_there = |path: &Utf8Path| system.kind(path) == FileKind::File;
+        let mut have_changed = files.iter().any(|path| is_there(path) != self.drawings.contains_key(path));
+        let mut directories: BTreeSet<Utf8PathBuf> = BTreeSet::new();
         for path in files {
-            by_directory.entry(path.parent().unwrap_or(Utf8Path::new(""))).or_default().push(path);
+            let (directory, name) = (parent(path), path.file_name().unwrap_or_default());
+            if self.names.has(directory) && self.names.holds(directory, name) != is_there(path) {
+                directories.insert(directory.to_owned());
+            }
         }
-        let mut have_changed = false;
-        for (directory, files) in by_directory {
-            let db = self.session.db();
-            let is_there = |path: &Utf8Path| db.system().kind(path) == FileKind::File;
-            have_changed |= files.iter().any(|path| is_there(path) != self.drawings.contains_key(*path));
-            if !self.reverse.knows_directory(directory) {
-                continue;
-            }
-            let listed: HashSet<&str> = drawing_names(db, db.directory(directory)).iter().collect();
-            let names = files.iter().filter_map(|path| Some((path, path.file_name()?)));
-            let changed = names.filter(|(path, name)| listed.contains(name) != is_there(path));
-            let changed: Vec<&str> = changed.map(|(_, name)| name).collect();
-            if !changed.is_empty() {
-                have_changed = true;
-                concerned.extend(self.reverse.of_names(directory, changed, &self.coverage));
-                self.session.touch_directory(directory);
-            }
+        // Of the names in a directory that came or went as a whole, or of which changes were lost, none is told.
+        let is_doubtful = |directory: &Utf8PathBuf| {
+            changes.is_incomplete || changes.paths.iter().any(|path| directory.starts_with(path))
+        };
+        directories.extend(self.names.directories().filter(|directory| is_doubtful(directory)).cloned());
+        for directory in directories {
+            have_changed |= self.renew_names(&directory, concerned);
         }
         have_changed
+    }
+
+    /// Lists a directory again and collects the drawings that looked there for what came or went; whether anything did.
+    fn renew_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
+        let changed = self.names.renew(&mut self.session, directory);
+        let names = changed.iter().map(|name| &**name);
+        concerned.extend(self.reverse.of_names(directory, names, &self.coverage));
+        !changed.is_empty()
     }
 
     /// Finds the drawings anew: those that came are concerned, those that went are forgotten.
@@ -279,6 +294,9 @@ impl<'a> Library<'a> {
     fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Batch) {
         let results = self.session.settled(|session| check_drawings(session, &asked, false));
         for (file, (result, traces)) in asked.iter().zip(results) {
+            for directory in searched(&traces) {
+                self.names.take(&self.session, directory);
+            }
             self.reverse.set(*file, traces);
             update.now.extend_from_slice(&result.diagnostics);
             let before = self.drawings.insert(file.path(self.session.db()).clone(), result);
@@ -322,4 +340,14 @@ impl<'a> Library<'a> {
 /// A directory of which something is said: the working directory is shown as `.`.
 fn as_listed(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
+}
+
+/// The directories in which paths were looked for.
+fn searched(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
+    traces.iter().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories)
+}
+
+/// The directory of a file; the working directory has no name.
+fn parent(path: &Utf8Path) -> &Utf8Path {
+    path.parent().unwrap_or(Utf8Path::new(""))
 }

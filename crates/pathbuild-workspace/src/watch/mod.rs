@@ -6,6 +6,7 @@
 
 mod changes;
 mod library;
+mod names;
 mod places;
 mod reverse;
 mod writing;

@@ -77,11 +77,6 @@ impl Reverse {
     pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
         self.by_file.keys().copied()
     }
-
-    /// Whether anything was looked for in a directory.
-    pub(super) fn knows_directory(&self, directory: &Utf8Path) -> bool {
-        self.by_lookup.contains_key(directory)
-    }
 }
 
 fn lookups(trace: &Trace) -> impl Iterator<Item = (&Utf8PathBuf, &PathName)> {

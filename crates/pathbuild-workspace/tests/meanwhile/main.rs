@@ -8,6 +8,7 @@
     reason = "a test that cannot set up its files has failed"
 )]
 
+mod arrivals;
 mod bugs;
 mod emitting;
 mod keeping;

@@ -1,0 +1,232 @@
+//! Files that come to, go from and change in a library while one session watches it: after each step, what the session has told adds up to what
+//! a check from scratch finds. Each step waits for the one before, so that all of them meet the same living session.
+
+use std::cell::{Cell, RefCell};
+use std::fs;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_testkit::{Workshop, sheet};
+use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
+use pathbuild_workspace::{Inputs, check};
+
+use crate::Chance;
+use crate::on_disk::{OnDisk, sorted};
+
+/// Changed after each step: when the session has told of it, it has taken over the step as well.
+const TICK: &str = "lib/ticks/9999.1P.dxf";
+
+/// The next step of a test; `false` if there is none.
+type Step<'s> = Box<dyn FnMut(&OnDisk) -> bool + 's>;
+
+/// Takes one step after the other.
+struct Driver<'s> {
+    name: String,
+    place: OnDisk,
+    step: RefCell<Step<'s>>,
+    bell: RefCell<Option<Bell>>,
+    told: RefCell<Vec<String>>,
+    ticks: Cell<u32>,
+    is_patient: Cell<bool>,
+}
+
+/// A little more than the watcher's.
+const PATIENCE: Duration = Duration::from_millis(2_100);
+
+impl Driver<'_> {
+    fn tick(&self) {
+        self.ticks.set(self.ticks.get() + 1);
+        let text = format!("layer 9999.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 {},0", self.ticks.get());
+        self.place.draw(TICK, &format!("{text}\nend {},0", self.ticks.get()));
+    }
+
+    /// Compares what was told with what there is to tell, and goes on.
+    fn settle(&self) {
+        let expected = self.checked_anew();
+        let told = sorted(self.told.borrow().clone());
+        // The watcher waits for the end of a drawing that has none.
+        if told != expected && !self.is_patient.replace(true) {
+            thread::sleep(PATIENCE);
+            return self.tick();
+        }
+        self.is_patient.set(false);
+        assert_eq!(told, expected, "{}, after {} steps", self.name, self.ticks.get());
+        if (self.step.borrow_mut())(&self.place) {
+            self.tick();
+        } else if let Some(bell) = &*self.bell.borrow() {
+            bell.end();
+        }
+    }
+
+    fn checked_anew(&self) -> Vec<String> {
+        let inputs = Inputs::default();
+        let workspace = self.place.workspace(&inputs, Arc::new(OsSystem), false);
+        let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
+        let checked = request.run(&mut request.session(&workspace)).unwrap();
+        sorted(checked.diagnostics.iter().map(shown).collect())
+    }
+}
+
+fn shown(found: &Diagnostic) -> String {
+    format!("{:?} {:?} {:?}", found.code(), found.file, found.arguments)
+}
+
+impl Listener for Driver<'_> {
+    fn bell(&self, bell: Bell) {
+        self.bell.replace(Some(bell.clone()));
+        thread::spawn(move || {
+            thread::sleep(Duration::from_mins(3));
+            bell.end();
+        });
+    }
+
+    fn begun(&self, beginning: &Beginning) {
+        self.told.borrow_mut().extend(beginning.diagnostics.iter().map(shown));
+        self.settle();
+    }
+
+    fn updated(&self, update: &Update) {
+        {
+            let mut told = self.told.borrow_mut();
+            for before in update.before.iter().map(shown) {
+                let index = told.iter().position(|found| *found == before).expect("it was told");
+                told.swap_remove(index);
+            }
+            told.extend(update.now.iter().map(shown));
+        }
+        let is_ticked = update.changed.iter().any(|path| path.ends_with(TICK));
+        if is_ticked && update.open == 0 {
+            self.settle();
+        }
+    }
+}
+
+/// Watches a library until there is no further step; how many were taken.
+fn drive(name: String, place: OnDisk, step: Step<'_>) -> u32 {
+    fs::create_dir_all(place.path().join("lib/ticks")).unwrap();
+    let (bell, told, ticks, is_patient) = Default::default();
+    let driver = Driver { name, place, step: RefCell::new(step), bell, told, ticks, is_patient };
+    driver.tick();
+    driver.ticks.set(0);
+    let inputs = Inputs::default();
+    let mut workspace = driver.place.workspace(&inputs, Arc::new(OsSystem), false);
+    workspace.settings.watch.debounce.value = Duration::from_millis(10);
+    let request = Request { inputs: &inputs, emits: false, lists: false, polls: false };
+    let ended = request.run(&workspace, &driver);
+    assert!(matches!(ended, Ended::Over), "{ended:?}");
+    driver.ticks.get()
+}
+
+fn component(names: &[&str]) -> String {
+    let layer =
+        |name: &&str| format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0\n");
+    names.iter().map(layer).collect()
+}
+
+fn project(name: &str, embeds: &[&str]) -> String {
+    let at = |index: usize| 40 * index;
+    let part = |(index, name)| format!("subpath {},0 {},0 \">{name}\"\n", at(index), at(index + 1));
+    let parts: String = embeds.iter().enumerate().map(part).collect();
+    format!("layer {name}\nstart 0,0 \"T5 O2 MX\"\n{parts}end {},0\n", at(embeds.len()))
+}
+
+const CONFIGURATION: &str = "library = [\"lib\"]\nsearch = [\"spare\"]\nfeed = 100\nspindle = \"manual\"\n";
+
+/// Projects that embed components, some of which are there.
+fn place() -> OnDisk {
+    let place = OnDisk::configured(CONFIGURATION, &[]);
+    for directory in ["spare", "lib/more", "away"] {
+        fs::create_dir(place.path().join(directory)).unwrap();
+    }
+    place.draw("lib/1001.dxf", &component(&["1001.1P"]));
+    place.draw("lib/8001.1P.dxf", &project("8001.1P", &["1001.1P", "1002.1P"]));
+    place.draw("lib/more/8002.1P.dxf", &project("8002.1P", &["1003.1P", "1001.1P"]));
+    place
+}
+
+/// What may come: the components that are missing, once more what is there, in files of one path and of ranges, and what has nothing to do with
+/// the projects.
+const ARRIVALS: [(&str, &[&str]); 13] = [
+    ("lib/1002.1P.dxf", &["1002.1P"]),
+    ("lib/1002 b.dxf", &["1002.1P"]),
+    ("lib/1001-1003.dxf", &["1001.1P", "1002.1P", "1003.1P"]),
+    ("lib/4148.1P.dxf", &["4148.1P"]),
+    ("lib/4149.1P.dxf", &["4149.1P"]),
+    ("lib/more/1003.dxf", &["1003.1P"]),
+    ("lib/more/1001.1P.DXF", &["1001.1P"]),
+    ("lib/more/4150.1P.dxf", &["4150.1P"]),
+    ("spare/1002.1P.dxf", &["1002.1P"]),
+    ("spare/1001-1003.dxf", &["1003.1P"]),
+    ("spare/4151.1P.dxf", &["4151.1P"]),
+    ("lib/1002.2P.dxf", &[]),
+    ("lib/1001.dxf", &["1001.1P"]),
+];
+
+/// A drawing comes, goes, changes its name or moves with its directory.
+fn take_step(place: &OnDisk, chance: &mut Chance) {
+    let path = |name: &str| place.path().join(name);
+    let (file, names) = *chance.pick(&ARRIVALS);
+    match chance.below(10) {
+        0..7 if path(file).parent().unwrap().is_dir() => {
+            // As a program saves that writes beside the file first.
+            let bytes = sheet(&component(names)).unwrap().to_dxf();
+            fs::write(path("away/new"), bytes).unwrap();
+            fs::rename(path("away/new"), path(file)).unwrap();
+        }
+        7 => _ = fs::remove_file(path(file)),
+        8 => _ = fs::rename(path(file), path(chance.pick(&ARRIVALS).0)),
+        _ if path("lib/more").exists() => fs::rename(path("lib/more"), path("away/more")).unwrap(),
+        _ => fs::rename(path("away/more"), path("lib/more")).unwrap(),
+    }
+}
+
+#[test]
+fn one_session_takes_over_any_sequence_of_arrivals() {
+    for seed in 0..12 {
+        let mut chance = Chance(0x9e37_79b9_7f4a_7c15 ^ seed);
+        let mut left = crate::steps() / 5;
+        let step = move |place: &OnDisk| {
+            // Often one by one, sometimes several at once.
+            for _ in 0..=(chance.below(3) / 2 * chance.below(3)) {
+                take_step(place, &mut chance);
+            }
+            left -= 1;
+            left > 0
+        };
+        drive(format!("arrivals {seed}"), place(), Box::new(step));
+    }
+}
+
+/// The case in which the second file was taken for known: the first one made the directory's names be listed late.
+#[test]
+fn a_component_that_arrives_after_another_drawing_is_found() {
+    for (first, second) in [(3, 0), (3, 2), (7, 5), (10, 8), (10, 9), (3, 1)] {
+        let mut arrivals = [first, second].into_iter();
+        let step = move |place: &OnDisk| {
+            let arrival = arrivals.next().map(|index: usize| ARRIVALS[index]);
+            arrival.inspect(|(file, names)| place.draw(file, &component(names))).is_some()
+        };
+        assert_eq!(drive(format!("{first}, then {second}"), place(), Box::new(step)), 2);
+    }
+}
+
+/// Edits of a whole library, which make paths ambiguous, missing and cyclic.
+#[test]
+fn one_session_takes_over_edits_of_a_library() {
+    for seed in 0..2 {
+        let mut workshop = Workshop::new(seed);
+        let place = OnDisk::new(&workshop);
+        let mut left = crate::steps() / 3;
+        let step = move |place: &OnDisk| {
+            for path in workshop.edit() {
+                place.put(&workshop, &path);
+            }
+            left -= 1;
+            left > 0
+        };
+        drive(format!("library {seed}"), place, Box::new(step));
+    }
+}
