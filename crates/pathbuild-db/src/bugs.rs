@@ -1,4 +1,4 @@
-//! Panics: bugs that one drawing shows must not keep the others from being compiled.
+//! Catches panics, so that a bug that one drawing triggers does not keep the others from being compiled.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -10,14 +10,14 @@ use salsa::Cancelled;
 
 use crate::guard::too_slow;
 
-/// What work unwinds with that has taken longer than this.
+/// Panic payload of work that exceeded this time limit.
 pub(crate) struct TooLong(pub(crate) Duration);
 
-/// Does some work, mostly without queries: what a query unwinds with where a drawing changes meanwhile counts as a bug here. Where it is given
-/// up because its result is no longer wanted, that is passed on.
+/// Runs work, usually without queries of its own. If a drawing changes meanwhile, the unwinding query counts as a bug here. Cancellation is
+/// passed on.
 ///
 /// # Errors
-/// PB006 when it panicked, PB005 when it took too long; without a place.
+/// PB006 if it panicked, PB005 if it exceeded its time limit; both without a place.
 pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         if payload.is::<Cancelled>() {
@@ -28,14 +28,14 @@ pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
     })
 }
 
-/// PB006 for a panic.
+/// PB006 for the payload of a panic.
 pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
     let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let reason = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
     bug(&reason)
 }
 
-/// PB006, without a place.
+/// PB006 with this reason, without a place.
 pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", reason)
 }

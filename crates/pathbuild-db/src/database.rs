@@ -1,4 +1,4 @@
-//! The database: the system, and the inputs that stand for its files.
+//! The database: results of all queries, the system, and the inputs that stand for files.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -14,28 +14,28 @@ use crate::listing::{Listings, PendingListing};
 use crate::scratch::ScratchPool;
 use crate::system::{Names, System};
 
-/// All queries' results. Clones share them; each thread needs its own.
+/// The results of all queries. Clones share them; each thread needs its own clone.
 #[salsa::db]
 #[derive(Clone)]
 pub struct Database {
     shared: Arc<Shared>,
-    /// Last: it must be dropped after everything that its threads could still use.
+    /// Declared last, because it must be dropped after everything that its threads may still use.
     storage: salsa::Storage<Self>,
 }
 
-/// What all clones share besides results.
+/// State shared by all clones besides query results.
 struct Shared {
     system: Arc<dyn System>,
     inputs: Mutex<Inputs>,
     listings: Listings,
-    /// Drawings with other bytes than their indexes were made from, some more than once.
+    /// Drawings whose bytes no longer match their indexes; may contain duplicates.
     changed: Mutex<Vec<SourceFile>>,
-    /// Those that ever did.
+    /// All drawings that ever changed during the run.
     drifted: Mutex<FxHashSet<SourceFile>>,
     scratch: ScratchPool,
 }
 
-/// The inputs by path. Paths are normalised, so that equal ones are equal texts, which are compared sooner than their parts.
+/// The inputs by path. Paths are normalised, so they can be compared as plain strings, which is faster than by components.
 #[derive(Default)]
 struct Inputs {
     files: FxHashMap<Box<str>, SourceFile>,
@@ -44,12 +44,12 @@ struct Inputs {
 }
 
 impl Database {
-    /// A database without settings: [`Settings`](crate::Settings) must be made before the first query.
+    /// Creates a database. [`Settings`](crate::Settings) must be set before the first query.
     pub fn new(system: Arc<dyn System>) -> Self {
         Self::over(system, salsa::Storage::default())
     }
 
-    /// A database that tells which queries run, for tests: the name of each query function as it is about to execute.
+    /// Creates a database that logs the name of each query function before it executes, for tests.
     pub fn with_log(system: Arc<dyn System>, log: Arc<Mutex<Vec<String>>>) -> Self {
         let listener = move |event: salsa::Event| {
             if let salsa::EventKind::WillExecute { database_key } = event.kind {
@@ -71,14 +71,14 @@ impl Database {
         Self { shared: Arc::new(shared), storage }
     }
 
-    /// The inputs that stand for files, there or not. The paths must be normalised.
+    /// The inputs of these files, which need not exist. The paths must be normalised.
     pub fn files(&self, paths: Vec<Utf8PathBuf>) -> Vec<SourceFile> {
         let mut inputs = self.inputs();
         inputs.files.reserve(paths.len());
         paths.into_iter().map(|path| self.file_among(&mut inputs, Cow::Owned(path))).collect()
     }
 
-    /// The input that stands for a path of a drawing in a role: the same one whenever it is asked for.
+    /// The input for a path of a drawing in a role. The same arguments always give the same input.
     pub fn target(&self, file: SourceFile, name: &str, role: Role) -> Target {
         let key = (file, name.into(), role);
         let new = |(file, name, role): &(SourceFile, Box<str>, Role)| {
@@ -87,7 +87,7 @@ impl Database {
         *self.inputs().targets.entry(key).or_insert_with_key(new)
     }
 
-    /// Tells that a file may have changed, appeared or gone.
+    /// Marks a file as possibly changed, created or removed.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         let file = self.file(path);
         self.touch(file);
@@ -98,7 +98,7 @@ impl Database {
         file.set_revision(self).to(next);
     }
 
-    /// Tells that a directory may hold other names.
+    /// Marks the names in a directory as possibly changed.
     pub fn touch_directory(&mut self, path: &Utf8Path) {
         let directory = self.directory(path);
         self.shared.listings.forget(directory);
@@ -106,8 +106,8 @@ impl Database {
         directory.set_revision(self).to(next);
     }
 
-    /// Raises the revision of the drawings that turned out to have other bytes than those that they were indexed by. Whether there were any:
-    /// then what was asked meanwhile must be asked again.
+    /// Starts a new revision for drawings whose bytes no longer match their indexes. Returns whether there were any; if so, the results
+    /// since must be queried again.
     pub fn take_over_changes(&mut self) -> bool {
         let changed = std::mem::take(&mut *lock(&self.shared.changed));
         let has_changes = !changed.is_empty();
@@ -118,30 +118,28 @@ impl Database {
         has_changes
     }
 
-    /// Whether a drawing turned out to have other bytes than those that it was indexed by, however long ago: what was made before that
-    /// and what was made after it may be of different bytes.
+    /// Whether the bytes of a drawing ever changed under its index. Results from before and after that may stem from different bytes.
     pub fn has_drifted(&self, file: SourceFile) -> bool {
         lock(&self.shared.drifted).contains(&file)
     }
 
-    /// A directory will be listed by another thread. The query that wants its names waits for them.
+    /// Announces that another thread will list a directory. The query for its names waits for that listing.
     pub fn list_ahead(&self, path: &Utf8Path) -> PendingListing {
         let system = Arc::clone(&self.shared.system);
         self.shared.listings.begin(self.directory(path), path.to_owned(), system)
     }
 
-    /// The names of files in a directory that was just listed, so that it is not listed once more when a query wants them.
+    /// Provides the names in a directory that was just listed, so that the query need not list it again.
     pub fn know_names(&self, path: &Utf8Path, names: Names) {
         self.shared.listings.put(self.directory(path), names);
     }
 
-    /// What reads and writes files, for who works beside the queries.
+    /// The system, for code that works beside the queries.
     pub fn shared_system(&self) -> Arc<dyn System> {
         Arc::clone(&self.shared.system)
     }
 
-    /// Drops the large values that were not used lately: what was read from drawings, what was made of single paths, programs. They are made
-    /// again where they are asked for again.
+    /// Evicts large values that were not used recently: parsed drawings, single paths, programs. They are recomputed on demand.
     pub fn drop_unused(&mut self) {
         salsa::Database::trigger_lru_eviction(self);
     }
@@ -161,7 +159,7 @@ impl Database {
     }
 }
 
-/// What is locked is whole whenever the lock is free: nothing panics in between but an allocation that fails.
+/// Locks a mutex and ignores poisoning: only a failed allocation can panic while it is held, and the data stays consistent.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

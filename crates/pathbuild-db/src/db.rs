@@ -1,4 +1,4 @@
-//! What queries may ask besides each other.
+//! The interface of queries to the database.
 
 use camino::Utf8Path;
 
@@ -6,25 +6,24 @@ use crate::inputs::{Directory, SourceFile};
 use crate::scratch::ScratchPool;
 use crate::system::{Names, System};
 
-/// What queries may ask besides each other.
+/// The interface of queries to the database.
 #[salsa::db]
 pub trait Db: salsa::Database {
     /// The outside world.
     fn system(&self) -> &dyn System;
 
-    /// The input that stands for a file, there or not. The path must be normalised.
+    /// The input of a file, which need not exist. The path must be normalised.
     fn file(&self, path: &Utf8Path) -> SourceFile;
 
-    /// The input that stands for a directory, there or not. The path must be normalised.
+    /// The input of a directory, which need not exist. The path must be normalised.
     fn directory(&self, path: &Utf8Path) -> Directory;
 
-    /// The names in a directory that was listed before a query wanted them; waits for a listing that is under way. `None` where the
-    /// directory must be listed now.
+    /// The names in a directory that was listed in advance; waits for a listing in progress. `None` if the directory has yet to be listed.
     fn listed(&self, directory: Directory) -> Option<Names>;
 
-    /// Notes that a file has other bytes than those that its index was made from.
+    /// Records that a file's bytes no longer match its index.
     fn note_changed(&self, file: SourceFile);
 
-    /// Memory for reading drawings.
+    /// Scratch buffers for reading drawings.
     fn scratch(&self) -> &ScratchPool;
 }

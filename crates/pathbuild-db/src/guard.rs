@@ -1,4 +1,4 @@
-//! Guarding work on one target: what takes too long is given up, what panics is reported, and neither keeps the others from being done.
+//! Guards work on one target with a time limit and a panic handler, so that one target cannot stop the others.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -12,16 +12,16 @@ use crate::database::Database;
 use crate::db::Db as _;
 use crate::drift::Drifted;
 
-/// Work that is under way over one handle of the database.
+/// Work in progress on one handle of the database.
 #[derive(Debug)]
 pub struct Underway {
-    /// `None`: there is no clock.
+    /// Start time; `None` without a clock.
     begun: Option<Instant>,
     token: CancellationToken,
 }
 
 impl Underway {
-    /// Gives up the work if it has taken longer than this.
+    /// Cancels the work if it exceeds this time limit.
     pub fn stop_after(&self, limit: Duration) {
         if self.begun.is_some_and(|begun| begun.elapsed() > limit) {
             self.token.cancel();
@@ -30,26 +30,26 @@ impl Underway {
 }
 
 impl Database {
-    /// Forgets that work was given up which has ended: what is asked next is not meant.
+    /// Clears a cancellation whose work has ended, so that it does not hit the next query.
     pub fn forget_given_up(&self) {
-        // Salsa does so whenever a query ends that no other asked for.
+        // Salsa clears it at the end of every query that was not called by another.
         self.attach(|_| ());
     }
 
-    /// Gives up the work here, between two queries, if it has taken too long.
+    /// Cancels the current work, between two queries, if it exceeds its time limit.
     pub fn give_up_if_late(&self) {
         self.unwind_if_revision_cancelled();
     }
 
-    /// Work that begins now on this handle.
+    /// Starts the clock for work on this handle.
     pub fn underway(&self) -> Underway {
         Underway { begun: self.system().now(), token: self.cancellation_token() }
     }
 
-    /// Does some work on this handle.
+    /// Runs work on this handle.
     ///
     /// # Errors
-    /// PB005 when it was given up, PB001 when a drawing changed meanwhile, PB006 when it panicked; without a place.
+    /// PB005 if it exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if it panicked; all without a place.
     pub fn guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
         loop {
             let payload = match catch_unwind(AssertUnwindSafe(&work)) {
@@ -57,7 +57,7 @@ impl Database {
                 Err(payload) => payload,
             };
             let problem = match payload.downcast_ref::<Cancelled>() {
-                // A query that another thread was running has panicked there. If it panics here too, it is known why.
+                // The query panicked on another thread. Running it here gives the reason, if it panics again.
                 Some(Cancelled::PropagatedPanic) => continue,
                 Some(_) => too_slow(limit),
                 None if payload.is::<Drifted>() => {
@@ -71,7 +71,7 @@ impl Database {
     }
 }
 
-/// PB005 for work that took longer than this, without a place.
+/// PB005 for work beyond this time limit, without a place.
 pub fn too_slow(limit: Duration) -> Diagnostic {
     Diagnostic::new(&messages::LIMIT)
         .with("what", "the time that this path takes")

@@ -1,11 +1,11 @@
-//! What queries start from: files, directories, and what is asked for.
+//! Inputs of the queries: files, directories and targets.
 
 use camino::Utf8PathBuf;
 
-/// A drawing. Its bytes are read inside queries, after `revision` was asked for, and not kept.
+/// A drawing. Queries read its bytes after they have read `revision`, and do not keep them.
 #[salsa::input(debug)]
 pub struct SourceFile {
-    /// Normalised: relative to the working directory where it was given so.
+    /// The normalised path: relative to the working directory if it was given so.
     #[returns(ref)]
     pub path: Utf8PathBuf,
     /// Raised whenever the file may have changed, appeared or gone.
@@ -13,10 +13,10 @@ pub struct SourceFile {
     pub revision: u64,
 }
 
-/// A directory whose file names say where paths are.
+/// A directory, whose file names tell where paths are defined.
 #[salsa::input(debug)]
 pub struct Directory {
-    /// Normalised.
+    /// The normalised path.
     #[returns(ref)]
     pub path: Utf8PathBuf,
     /// Raised whenever a file in it was created, removed or renamed.
@@ -24,7 +24,7 @@ pub struct Directory {
     pub revision: u64,
 }
 
-/// A path that somebody asks for.
+/// A path that a client asks for.
 #[salsa::input(debug)]
 pub struct Target {
     /// The drawing that defines it.
@@ -33,18 +33,18 @@ pub struct Target {
     /// The path's name.
     #[returns(ref)]
     pub name: Box<str>,
-    /// What for.
+    /// The purpose of the query.
     #[returns(ref)]
     pub role: Role,
 }
 
-/// What a path is asked for.
+/// The purpose for which a path is queried.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// Its program: it must have no variables, and its S is `--sweep-height` where it gives none.
+    /// To emit its program: it must not have variables, and where it gives no S, `--sweep-height` applies.
     Emitted,
-    /// Whether it is right, with example values for its variables, and S as if it were embedded.
+    /// To check it, with example values for its variables and S as if it were embedded.
     Checked,
-    /// The same with these values.
+    /// To check it with these values.
     CheckedWith(pathbuild_path::Bindings),
 }

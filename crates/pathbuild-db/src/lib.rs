@@ -3,9 +3,9 @@
 //! A drawing is source text; each stage from it to the finished program is a memoized query, keyed by file, path and the values of the
 //! path's variables. This is the only crate with salsa's macros, and it does no IO but through [`System`]. (design: ARCHITECTURE.md)
 //!
-//! Rules that keep it right: rayon only outside queries, over clones of the [`Database`]; whoever asks from outside begins at a query
-//! keyed by an input ([`Target`], [`SourceFile`], [`Directory`]), since what is interned outside queries is never reclaimed;
-//! diagnostics are values of queries, and know elements by number, not by line: [`locate`] fills in lines and handles at the end.
+//! Rules that keep it correct: rayon is used only outside queries, over clones of the [`Database`]; clients start at a query keyed by an
+//! input ([`Target`], [`SourceFile`], [`Directory`]), since values interned outside queries are never reclaimed; diagnostics are values of
+//! queries and refer to elements by number, and [`locate`] fills in lines and handles at the end.
 
 #![expect(missing_docs, reason = "salsa makes constructors and setters, which cannot be documented")]
 
@@ -28,9 +28,9 @@ pub use guard::{Underway, too_slow};
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use listing::PendingListing;
 pub use queries::{
-    Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey, Outcome,
-    Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, Reached, Resolved, Sought, Trace, Traced,
-    assigned_texts, chains, check_file, check_target, closure, combinations, content, content_hash,
+    Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
+    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, Reached, Resolved, Trace,
+    Traced, assigned_texts, chains, check_file, check_target, closure, combinations, content, content_hash,
     drawing_names, drawn_path, embeds, embeds_others, file_index, holders, in_force, keep_outs, likely_file,
     locate, may_hold, name_table, other_layers, path, path_index, path_names, path_place, placed_keep_outs,
     prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path, summary, trace,

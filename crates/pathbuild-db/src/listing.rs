@@ -1,4 +1,4 @@
-//! Directories that are listed before a query wants their names.
+//! Directory listings made ahead of the queries that need them.
 
 use std::fmt;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -11,20 +11,20 @@ use crate::bugs::catch_bugs;
 use crate::inputs::Directory;
 use crate::system::{Names, System};
 
-/// The listings that no query has taken yet.
+/// Listings that no query has taken yet.
 #[derive(Debug, Default)]
 pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
 
-/// What is known of the names in a directory.
+/// The state of a listing.
 #[derive(Debug)]
 enum ListingState {
-    /// All of them.
+    /// Complete.
     Known(Names),
-    /// Another thread lists them. The channel ends without names where it fails or never runs.
+    /// In progress on another thread. The channel closes without names if the listing fails or never runs.
     Pending(Receiver<Names>),
 }
 
-/// Lists a directory, on any thread. If it is dropped instead, the directory is listed by the query that wants its names.
+/// A listing to run on any thread. If it is dropped, the query lists the directory itself.
 pub struct PendingListing {
     system: Arc<dyn System>,
     path: Utf8PathBuf,
@@ -32,10 +32,10 @@ pub struct PendingListing {
 }
 
 impl PendingListing {
-    /// Lists the directory. A bug that this shows is left to the query: it would end the run on this thread.
+    /// Lists the directory. A panic is left to the query, since here it would end the run.
     pub fn run(self) {
         if let Ok(Ok(listing)) = catch_bugs(|| self.system.list(&self.path)) {
-            // Nobody waits for the names of a directory that has changed since.
+            // Sending fails if the directory has changed since and the listing was discarded.
             _ = self.names.send(listing.files);
         }
     }
@@ -48,7 +48,7 @@ impl fmt::Debug for PendingListing {
 }
 
 impl Listings {
-    /// A directory is going to be listed.
+    /// Registers a listing in progress.
     pub(crate) fn begin(
         &self,
         directory: Directory,
@@ -60,17 +60,17 @@ impl Listings {
         PendingListing { system, path, names }
     }
 
-    /// A directory was listed.
+    /// Adds a complete listing.
     pub(crate) fn put(&self, directory: Directory, names: Names) {
         self.states().entry(directory).or_insert(ListingState::Known(names));
     }
 
-    /// The directory has changed: what was listed before does not count.
+    /// Discards the listing of a directory that has changed.
     pub(crate) fn forget(&self, directory: Directory) {
         self.states().remove(&directory);
     }
 
-    /// The names in a directory, once; waits for a listing that is under way.
+    /// Takes the names in a directory; waits for a listing in progress.
     pub(crate) fn take(&self, directory: Directory) -> Option<Names> {
         let state = self.states().remove(&directory)?;
         match state {

@@ -1,29 +1,29 @@
-//! Memory for reading drawings, used again for the next one.
+//! Scratch buffers for reading drawings, reused from one drawing to the next.
 
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
 use pathbuild_dxf::Drawing;
 
-/// What one drawing after the other is read into.
+/// Buffers for one drawing.
 #[derive(Default)]
 pub(crate) struct Scratch {
     /// The bytes of the file.
     pub(crate) bytes: Vec<u8>,
-    /// What they say.
+    /// The parsed drawing.
     pub(crate) drawing: Drawing,
 }
 
-/// Scratch memory that nobody uses at the moment.
+/// Scratch buffers that are not in use.
 #[derive(Default)]
 pub struct ScratchPool(Mutex<Vec<Scratch>>);
 
-/// Larger buffers are given back to the system: few drawings need them.
+/// Largest buffer in bytes that is kept. Few drawings need more.
 const MOST_BYTES: usize = 1 << 20;
 const MOST_ENTITIES: usize = 1 << 12;
 
 impl ScratchPool {
-    /// Works with scratch memory. Its content is what the last drawing left.
+    /// Calls `work` with a scratch buffer, which holds the content of the previous drawing.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
         let mut scratch = self.free().pop().unwrap_or_default();
         let result = work(&mut scratch);

@@ -1,4 +1,4 @@
-//! Binding and walking along a path, without its bugs.
+//! Binds and walks a path, guarded against panics.
 
 use std::panic::resume_unwind;
 
@@ -9,16 +9,16 @@ use crate::bugs::{TooLong, catch_bugs};
 use crate::db::Db;
 use crate::settings::Settings;
 
-/// A path, and what is wrong with its drawing or its values.
+/// A bound path and its diagnostics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundPath {
-    /// The path, where nothing is an error.
+    /// The path, unless a diagnostic is an error.
     pub path: Option<Path>,
-    /// What is wrong with the drawing alone or, where nothing is, with the values.
+    /// Diagnostics of the drawing or, if it has none, of the values.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Binds and checks a path's parameters.
+/// Binds and checks the parameters of a path.
 pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
     let mut diagnostics = raw.diagnostics.clone();
     if !raw.is_sound() {
@@ -30,17 +30,16 @@ pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> B
     BoundPath { path, diagnostics }
 }
 
-/// Walks along a path. What takes too long is PB005 here, and not only where it is watched: indexes of drawings are made before anybody asks
-/// for a target.
+/// Walks a path. The time limit is enforced here as PB005, not only by the driver, because indexes are built before any target is queried.
 pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> Walked {
     catch_bugs(|| walk_in_time(db, path, language)).unwrap_or_else(|problem| {
-        // Another time the machine may be less busy: whoever asks after the next change walks again.
+        // The machine may be less busy next time, so the result is not memoized beyond this revision.
         db.report_untracked_read();
         Walked::failed(problem.in_path(path.name.as_str()))
     })
 }
 
-/// The same where findings have been asked for already: unwinds with what keeps it from the end, which nobody would hear of else.
+/// Walks a path whose findings are known already. Unwinds at the time limit, which could not be reported here.
 pub(super) fn walk_in_time(db: &dyn Db, path: &Path, language: &Language) -> Walked {
     let limit = Settings::get(db).reading(db).walk_time;
     let begun = db.system().now();

@@ -1,4 +1,4 @@
-//! The values that a path is checked with when all are asked for.
+//! The combinations of variable values that a path is checked with. (book: language/variables)
 
 use pathbuild_diagnostic::messages::variables as messages;
 use pathbuild_diagnostic::{Diagnostic, Severity};
@@ -8,8 +8,8 @@ use super::raw::raw_by_name;
 use crate::db::Db;
 use crate::inputs::SourceFile;
 
-/// The combinations of values of a path's variables, and a warning where there are more than `limit`; `None` for a path without variables,
-/// or one whose drawing is not in order.
+/// The combinations of a path's variable values, with a warning if there are more than `limit`. `None` for a path without variables or with
+/// errors.
 pub fn combinations(
     db: &dyn Db,
     file: SourceFile,

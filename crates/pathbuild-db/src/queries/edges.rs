@@ -1,4 +1,4 @@
-//! The embeddings of a closure, as edges from path to path: what commands show of a library.
+//! The embeddings of a closure as graph edges, for the commands that show a library.
 
 use pathbuild_diagnostic::{Code, Diagnostic, Point};
 use pathbuild_path::PathName;
@@ -11,22 +11,22 @@ use crate::db::Db;
 /// A subpath segment of a path in a closure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge<'db> {
-    /// The path that embeds.
+    /// The embedding path.
     pub from: Instance<'db>,
-    /// Where its subpath segment begins, in its drawing.
+    /// The start of its subpath segment, in its drawing.
     pub point: Point,
-    /// What the segment embeds.
+    /// The embedded path.
     pub to: Destination<'db>,
 }
 
-/// What a subpath segment leads to.
+/// The target of a subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Destination<'db> {
     /// A path with its values.
     Path(Instance<'db>),
-    /// Nothing, for the first reason why not.
+    /// None; only the first reason is kept.
     Nowhere {
-        /// The path that it names, where it names one.
+        /// The name it refers to, if any.
         name: Option<PathName>,
         /// The reason.
         code: Code,
@@ -34,7 +34,7 @@ pub enum Destination<'db> {
 }
 
 impl<'db> Closure<'db> {
-    /// Every embedding in it: path by path in the order in which they are reached, segment by segment.
+    /// All embeddings, path by path in the order in which paths are reached, segment by segment.
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
         let of_path =
             |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
@@ -48,7 +48,7 @@ fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
         Outcome::Found { child, .. } => Destination::Path(*child),
         Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
         Outcome::Unlisted(_) => nowhere(Code::UnreadableFile),
-        // There is one problem at least.
+        // An unbound segment has at least one problem.
         Outcome::Unbound(problems) => {
             nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
         }

@@ -1,4 +1,4 @@
-//! What is known of a drawing without keeping it: the names of its paths, and what other paths and a check ask of each.
+//! A compact index of a drawing: the names of its paths, and what other paths and a check need of each.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -15,39 +15,39 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::{Reading, Settings};
 
-/// A drawing in short. It has no positions: an edit that shifts lines and handles leaves it as it was, and ends here.
+/// The index of a drawing. It has no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
 #[derive(Clone, Debug, Default)]
 pub struct FileIndex {
-    /// In order of first appearance.
+    /// Names in order of first appearance.
     names: Vec<PathName>,
-    /// In order of name: a drawing may have as many paths as it has layers.
+    /// Paths in order of name, since a drawing may have as many paths as layers.
     paths: Vec<Arc<PathIndex>>,
     diagnostics: Vec<Diagnostic>,
-    /// Where there is anything on layers with clamps.
+    /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
     content: Content,
 }
 
-/// The bytes that an index was made from. Not compared: other bytes may say the same.
+/// Fingerprint of the bytes that an index was built from. Ignored in comparisons, since other bytes may give the same index.
 #[derive(Clone, Debug, Default)]
 struct Content {
     fingerprint: Option<Fingerprint>,
-    /// Where the settings ask for it: their hash, and under which stamp they were read.
+    /// If the settings ask for it, the hash and the stamp of the bytes.
     hash: Option<([u8; 32], Stamp)>,
 }
 
-/// A path in short.
+/// The index of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathIndex {
-    /// The path before its variables have values.
+    /// The path before its variables are bound.
     pub header: PathHeader,
     /// Example values for its variables.
     pub examples: Bindings,
-    /// What comes of the path with the example values.
+    /// The path's summary for the example values.
     pub summary: PathSummary,
 }
 
-/// A path's name without regard to case, as a key.
+/// A path's name folded for comparison, as a key.
 #[salsa::interned(debug)]
 pub struct NameKey<'db> {
     /// Upper case.
@@ -55,7 +55,7 @@ pub struct NameKey<'db> {
     pub folded: Box<str>,
 }
 
-/// Reads a drawing, keeps what others ask of it, and drops the rest.
+/// Reads a drawing, keeps its index and drops the rest.
 #[salsa::tracked]
 pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let settings = Settings::get(db);
@@ -90,13 +90,13 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     index
 }
 
-/// Reads clamps. No curve is left out without a word, also where paths are read as PathDxf2GCode reads them.
+/// Reads clamps. Unsupported curves among them are reported even in compatible mode, where paths skip them.
 fn keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepOuts {
     let reading = Reading { compatible: false, ..reading.clone() };
     pathbuild_path::keep_outs(&entities(bytes, &reading, &|layer| language.is_keep_out(layer)), language)
 }
 
-/// A path of a drawing in short: unchanged by edits of other paths in the drawing.
+/// The index of one path of a drawing, unaffected by edits of other paths.
 #[salsa::tracked]
 pub fn path_index<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<PathIndex>> {
     file_index(db, file).path(&name.name(db)).cloned()
@@ -107,12 +107,12 @@ pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
     &file_index(db, file).names
 }
 
-/// The hash of the bytes that a drawing was indexed by; `None` where it could not be read, or the settings do not ask for hashes.
+/// The hash of the bytes that a drawing was indexed by. `None` if it could not be read or the settings ask for no hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
     content(db, file).map(|(hash, _)| hash)
 }
 
-/// The same, with the stamp that these bytes were read under.
+/// The hash of the indexed bytes, with their stamp.
 pub fn content(db: &dyn Db, file: SourceFile) -> Option<([u8; 32], Stamp)> {
     file_index(db, file).content.hash
 }
@@ -121,14 +121,14 @@ impl FileIndex {
     fn new(db: &dyn Db, raw: RawFile, ends: &LayerEnds<'_>, content: Content) -> Self {
         let names = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let path = |(raw, _): (RawPath, _)| Arc::new(PathIndex::new(db, &raw, ends));
-        // Not collected: that would keep the memory of the raw paths.
+        // Pushed one by one: `collect` would keep the raw paths' allocation.
         let mut paths: Vec<Arc<PathIndex>> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         Self { names, paths, diagnostics: raw.diagnostics, keep_outs: None, content }
     }
 
-    /// With what is wrong with the file's name, if the drawing's paths are known.
+    /// Adds findings about the file's name, if the drawing's paths are known.
     fn with_name_judged(mut self, db: &dyn Db, file: SourceFile) -> Self {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
@@ -139,14 +139,14 @@ impl FileIndex {
         self
     }
 
-    /// With its clamps. What is wrong with them is wrong with the drawing.
+    /// Adds the clamps. Their faults count as faults of the drawing.
     fn with_keep_outs(mut self, keep_outs: Option<KeepOuts>) -> Self {
         self.diagnostics.extend(keep_outs.iter().flat_map(|found| found.problems.iter().cloned()));
         self.keep_outs = keep_outs.map(Arc::new);
         self
     }
 
-    /// A drawing of which nothing is known.
+    /// The index of a drawing that could not be read.
     fn failed(problem: Diagnostic, content: Content) -> Self {
         Self { diagnostics: vec![problem], content, ..Self::default() }
     }
@@ -156,28 +156,28 @@ impl FileIndex {
         &self.names
     }
 
-    /// One of its paths.
+    /// The index of one of its paths.
     pub fn path(&self, name: &PathName) -> Option<&Arc<PathIndex>> {
         let place = self.paths.binary_search_by(|path| path.header.name.cmp(name)).ok()?;
         Some(&self.paths[place])
     }
 
-    /// All of its paths, in order of name.
+    /// The indexes of its paths, in order of name.
     pub fn paths(&self) -> impl Iterator<Item = &PathIndex> {
         self.paths.iter().map(|path| &**path)
     }
 
-    /// What is wrong with the drawing as a whole.
+    /// Findings about the drawing as a whole.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// Its clamps, where there is anything on layers with clamps.
+    /// Its clamps, if any layer has some.
     pub(super) fn keep_outs(&self) -> Option<&Arc<KeepOuts>> {
         self.keep_outs.as_ref()
     }
 
-    /// The bytes that it was made from; `None` where there are none.
+    /// The fingerprint of the bytes it was built from, if there were any.
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
     }

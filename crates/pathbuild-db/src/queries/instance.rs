@@ -1,4 +1,4 @@
-//! Paths with values for their variables.
+//! Paths with bound variables.
 
 use pathbuild_path::{Bindings, Walked};
 
@@ -12,7 +12,7 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
-/// A path of a file with values for its variables. Made inside queries only.
+/// A path of a file with values for its variables. Created inside queries only.
 #[salsa::interned(debug)]
 pub struct Instance<'db> {
     /// The drawing that defines it.
@@ -26,7 +26,7 @@ pub struct Instance<'db> {
     pub bindings: Bindings,
 }
 
-/// What comes of a path, in short. With example values it is a part of the drawing's index.
+/// The summary of a path. For example values it is part of the drawing's index.
 pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db PathSummary {
     match path_index(db, instance.file(db), instance.name(db)) {
         Some(index) if index.examples == *instance.bindings(db) => &index.summary,
@@ -42,7 +42,7 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
     PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all))
 }
 
-/// Binds and checks a path's parameters. A program needs the path itself; few are kept.
+/// The bound and checked path. Only programs need it, so few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     let language = Settings::get(db).language(db);
@@ -50,7 +50,7 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
     raw.map(|raw| bind(raw, instance.bindings(db), language)).unwrap_or_default()
 }
 
-/// Walks along a path, for its program. Empty where there is no sound path. Few are kept.
+/// The walk along a path, for its program. Empty for an unsound path. Few are kept.
 #[salsa::tracked(lru = 256)]
 pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
     let language = Settings::get(db).language(db);

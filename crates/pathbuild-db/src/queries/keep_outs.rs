@@ -1,4 +1,4 @@
-//! Clamps: those of a drawing, where they stand in a program, and which moves come into them. (book: language/keep-outs)
+//! Clamps: those of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,14 +16,14 @@ use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 use crate::settings::Settings;
 
-/// A clamp where it stands in a program.
+/// A clamp as placed in a program.
 #[derive(Clone, Debug)]
 pub struct PlacedKeepOut {
     /// The clamp, placed and raised.
     pub placed: KeepOut,
-    /// As its drawing has it.
+    /// The clamp as drawn.
     pub drawn: KeepOut,
-    /// The path of that drawing that brings it: index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences).
+    /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of the path whose drawing brings it.
     pub occurrence: u32,
 }
 
@@ -32,30 +32,29 @@ pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
     of_file(db, file).map_or(&[], |found| &found.all)
 }
 
-/// What is wrong with the clamps of a drawing; while there is an error, none of its paths becomes a program.
+/// Findings about the clamps of a drawing. While one is an error, none of its paths becomes a program.
 pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     of_file(db, file).map_or(&[], |found| &found.problems)
 }
 
 fn of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
-    // Most have none, and need no query for that.
+    // Most libraries have no clamps; no query is needed then.
     Settings::get(db).language(db).keep_out.as_ref()?;
     indexed_keep_outs(db, file).as_deref()
 }
 
-/// The clamps in a drawing's index: unchanged by edits of its paths.
+/// The clamps in a drawing's index, unaffected by edits of its paths.
 #[salsa::tracked]
 fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
     file_index(db, file).keep_outs().cloned()
 }
 
-/// The clamps around the program of a target: those of each drawing in it, wherever that lies; one that stands twice in the same place is
-/// there once. None where there is no program.
+/// The clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.
 pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
     with_keep_outs(db, target).map(|traced| placed(db, traced)).unwrap_or_default()
 }
 
-/// The program of a target in whose drawings there are clamps.
+/// The program of a target, if its drawings have clamps.
 fn with_keep_outs(db: &dyn Db, target: Target) -> Option<&Traced> {
     if has_keep_outs(db, target) { traced_program(db, target).as_deref() } else { None }
 }
@@ -82,9 +81,9 @@ fn placed(db: &dyn Db, traced: &Traced) -> Vec<PlacedKeepOut> {
     all
 }
 
-/// Where the tool comes into clamps: PB407, one for each kind of move, element and clamp, in the path that holds both.
+/// PB407 for moves that hit clamps: one per kind of move, element and clamp, reported in the path that contains both.
 pub(super) fn entered_keep_outs(db: &dyn Db, target: Target) -> &[Diagnostic] {
-    // Around most there is none, and they need no query for that.
+    // Most programs have no clamps around them; no query is needed then.
     if has_keep_outs(db, target) { moves_into_keep_outs(db, target) } else { &[] }
 }
 
@@ -93,25 +92,25 @@ fn moves_into_keep_outs(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
     with_keep_outs(db, target).map(|traced| Search::new(db, traced).findings()).unwrap_or_default()
 }
 
-/// A program and the clamps around it.
+/// Searches a program for moves that hit clamps.
 struct Search<'t> {
     db: &'t dyn Db,
     traced: &'t Traced,
     clamps: Vec<PlacedKeepOut>,
 }
 
-/// Moves of one kind along one element into one clamp.
+/// Key of a finding: moves of one kind along one element into one clamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
     clamp: usize,
-    /// The path that holds both the clamp and the element.
+    /// The innermost path that contains both the clamp and the element.
     occurrence: u32,
-    /// The element there.
+    /// The element in that path.
     element: Option<u32>,
     what: &'static str,
 }
 
-/// How many moves, and how deep in mm.
+/// Number of moves, and their lowest Z in mm.
 struct Extent {
     what: &'static Word,
     moves: u64,
@@ -141,7 +140,7 @@ impl<'t> Search<'t> {
         entries.iter().map(|(entry, extent)| self.finding(entry, extent)).collect()
     }
 
-    /// The innermost path that holds an element and a clamp, and the element in it that leads there.
+    /// The innermost path that contains both an element and a clamp, and its element that leads to the former.
     fn common(&self, mut at: Drawn, clamp: u32) -> (u32, Option<u32>) {
         let around_clamp: Vec<u32> = self.outwards(clamp).collect();
         while !around_clamp.contains(&at.occurrence) {
@@ -151,7 +150,7 @@ impl<'t> Search<'t> {
         (at.occurrence, at.element)
     }
 
-    /// A path and those around it.
+    /// A path and the paths around it, from the inside out.
     fn outwards(&self, occurrence: u32) -> impl Iterator<Item = u32> {
         let parent = |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
         std::iter::successors(Some(occurrence), parent)

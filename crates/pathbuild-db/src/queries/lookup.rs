@@ -1,4 +1,4 @@
-//! Where paths are: file names to files. (book: language/layers-and-names)
+//! Finds the files that define a path. (book: language/layers-and-names)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
@@ -11,19 +11,18 @@ use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
 
-/// Where a path is, or where it was looked for.
+/// The result of looking for a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Resolved {
-    /// The files that define it. One is right, none or several are errors.
+    /// The files that define it. Exactly one is right; none and several are errors.
     pub files: Vec<SourceFile>,
-    /// The files that may hold it by their names.
+    /// The files whose names admit the path.
     pub searched: Vec<SourceFile>,
-    /// PB001 of the directories that cannot be listed: it may be there, or once more.
+    /// PB001 for directories that cannot be listed: the path may be defined there.
     pub unlisted: Vec<Diagnostic>,
 }
 
-/// Where a path is that a drawing refers to: in any file of its directory and the search directories. `None` where the drawing itself defines
-/// it.
+/// Looks for a path that a drawing refers to, in its own directory and the search directories. `None` if the drawing itself defines it.
 pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Option<&'db Resolved> {
     if path_index(db, from, name).is_some() {
         return None;
@@ -31,7 +30,7 @@ pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'d
     Some(resolve_path(db, own_directory(db, from), name))
 }
 
-/// Where a path is that drawings in a directory refer to. Unchanged by files that cannot hold it.
+/// Looks for a path that drawings in a directory refer to. Unaffected by files whose names do not admit it.
 #[salsa::tracked]
 pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Resolved {
     let directories = search_path(db, directory);
@@ -39,7 +38,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
     let defines = |file: &&SourceFile| path_index(db, **file, name).is_some();
     let mut files: Vec<SourceFile> = searched.iter().filter(defines).copied().collect();
     if files.len() > 1 {
-        // The same file reached under two names is no duplicate.
+        // A file reached under two names is no duplicate.
         let mut seen = FxHashSet::default();
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }
@@ -47,7 +46,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
     Resolved { files, searched, unlisted }
 }
 
-/// The directories in which paths are looked for that drawings in a directory refer to, in order, that one first.
+/// The directories to search for paths that drawings in a directory refer to, starting with that directory.
 #[salsa::tracked]
 pub fn search_path(db: &dyn Db, own: Directory) -> Vec<Directory> {
     let searched = Settings::get(db).search(db).iter();
@@ -59,26 +58,26 @@ pub(super) fn own_directory(db: &dyn Db, file: SourceFile) -> Directory {
     db.directory(file.path(db).parent().unwrap_or(Utf8Path::new("")))
 }
 
-/// The files of a directory that define a path, for whoever asks by name from outside. (Not through an interned name, which nobody would
-/// reclaim there.)
+/// The files of a directory that define a path, for clients outside of queries. It takes a plain name, since a name interned outside a
+/// query is never reclaimed.
 pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     let files = may_hold(db, directory, name).into_iter();
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
 }
 
-/// The files of a directory that may define a path by their names; none is read.
+/// The files of a directory whose names admit a path. None is read.
 pub fn may_hold(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     files_for(db, directory, name.as_str())
 }
 
-/// The files of a directory that may hold a path by their names.
+/// The files of a directory whose names admit a path.
 fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let key = PathKey::new(name, pattern);
     key.map(|key| name_table(db, directory).files(db, directory, &key)).unwrap_or_default()
 }
 
-/// Each of them once, in their order.
+/// Removes duplicates and keeps the order.
 fn distinct<T: Copy + Eq + std::hash::Hash>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut all: Vec<T> = all.collect();
     if all.len() > 1 {

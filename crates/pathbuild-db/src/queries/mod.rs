@@ -50,5 +50,5 @@ pub use raw::{PathPlace, path_place, raw_file};
 pub use report::{check_file, check_target, locate};
 pub use summary::PathSummary;
 pub use texts::assigned_texts;
-pub use traces::{Sought, Trace, trace};
+pub use traces::{NameLookup, Trace, trace};
 pub use views::{DrawnPath, Part, Traced, drawn_path, in_force, other_layers, traced_program};

@@ -1,4 +1,4 @@
-//! What file names say about paths: the drawings of a directory by the name ranges in theirs. (book: language/layers-and-names)
+//! Maps the name ranges in file names to the drawings of a directory. (book: language/layers-and-names)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::files as messages;
@@ -12,17 +12,17 @@ use crate::inputs::{Directory, SourceFile};
 use crate::settings::Settings;
 use crate::system::{Names, ReadError, join};
 
-/// The drawings of a directory by the path names in theirs.
+/// The drawings of a directory by the path names that their file names admit.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameTable {
     names: Names,
     ranges: RangeTable,
-    /// Why the directory cannot be listed: nobody knows what is in it.
+    /// The reason why the directory cannot be listed.
     fault: Option<ReadError>,
 }
 
 impl NameTable {
-    /// The drawings among some file names.
+    /// Selects the drawings among file names.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
         let (mut names, mut ranges) = (Names::default(), Vec::new());
         for name in files.iter().filter(|name| is_drawing(name)) {
@@ -34,7 +34,7 @@ impl NameTable {
         Self { names, ranges: ranges.into_iter().collect(), fault: None }
     }
 
-    /// The files that may hold a path, in order of name.
+    /// The files that may define a path, in order of name.
     pub(super) fn files(&self, db: &dyn Db, directory: Directory, key: &PathKey) -> Vec<SourceFile> {
         let name = |file: &u32| self.names.get(*file as usize);
         let mut files = self.ranges.files(key);
@@ -44,7 +44,7 @@ impl NameTable {
     }
 }
 
-/// The name ranges in a directory's file names; none where there is no such directory, or it cannot be listed.
+/// The name ranges in a directory. Empty if it does not exist or cannot be listed.
 #[salsa::tracked]
 pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     directory.revision(db);
@@ -57,13 +57,13 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     }
 }
 
-/// PB001 of a directory that cannot be listed: a path may be in it, or once more.
+/// PB001 for a directory that cannot be listed, since it may define the path.
 pub fn unlisted(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
     let fault = name_table(db, directory).fault.as_ref()?;
     Some(unlistable(directory.path(db), fault))
 }
 
-/// The same of any directory.
+/// PB001 for a directory with this error.
 pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     let reason = match fault {
         ReadError::Other(reason) => reason.clone(),
@@ -75,16 +75,16 @@ pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
-/// The names of the drawings in a directory, as its name ranges were read from them; none where that shows a bug.
+/// The file names that the name ranges of a directory were read from. Empty after a panic.
 pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     static NONE: Names = Names::none();
     catch_bugs(|| &name_table(db, directory).names).unwrap_or(&NONE)
 }
 
-/// What drawings' names end in.
+/// File name extension of drawings.
 pub(super) const EXTENSION: &str = ".dxf";
 
-/// `.dxf` counts in any case.
+/// Whether a file name has the extension, in any case.
 fn is_drawing(name: &str) -> bool {
     let bytes = name.as_bytes();
     bytes.len() > EXTENSION.len()

@@ -1,4 +1,4 @@
-//! What helps with a path that does not go on: ends near by on other layers. Looked for only when it does not go on.
+//! Hints for a path that breaks off: nearby ends on other layers, searched only in that case.
 
 use std::cell::OnceCell;
 
@@ -7,9 +7,9 @@ use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Number, Point};
 use pathbuild_dxf::{Drawing, Geometry};
 use pathbuild_path::{PathName, PathPattern, Xy, on_circle};
 
-/// The ends of all lines and arcs of a drawing, on whatever layer: the drawing is read once more for them when they are first wanted.
+/// The ends of all lines and arcs of a drawing. The drawing is read again when they are first needed.
 pub(super) struct LayerEnds<'a> {
-    /// All layers of the drawing.
+    /// Reads all layers of the drawing.
     read: &'a dyn Fn() -> Drawing,
     ends: OnceCell<Vec<LayerEnd>>,
 }
@@ -21,7 +21,7 @@ struct LayerEnd {
     point: Point,
 }
 
-/// How far off an end on another layer is still worth naming, in mm.
+/// Largest distance in mm at which an end on another layer is worth a hint.
 const WORTH_NAMING: f64 = 1.0;
 
 impl<'a> LayerEnds<'a> {
@@ -29,7 +29,7 @@ impl<'a> LayerEnds<'a> {
         Self { read, ends: OnceCell::new() }
     }
 
-    /// Adds to PB401 the nearest end on another layer: a line on the wrong layer is its second most usual cause.
+    /// Adds the nearest end on another layer to PB401. A line on the wrong layer is its second most frequent cause.
     pub(super) fn with_hint(
         &self,
         path: &PathName,

@@ -1,5 +1,5 @@
-//! Reading drawings before it is known that they are needed, while directories are listed. Only their indexes are made, which do not depend
-//! on other drawings: nothing that is shown comes from a guess.
+//! Indexes drawings ahead of time, while directories are listed. An index does not depend on other drawings, so a wrong guess costs time
+//! but cannot affect results.
 
 use pathbuild_path::{PathName, SubpathName};
 use rustc_hash::FxHashSet;
@@ -11,7 +11,7 @@ use crate::db::Db;
 use crate::inputs::{Directory, SourceFile};
 use crate::system::{FileKind, join};
 
-/// The drawing of a directory that most likely defines a path: the one of its name, if there is one.
+/// The drawing of a directory that most likely defines a path: the one with its name.
 pub fn likely_file(db: &dyn Db, directory: Directory, name: &str) -> Option<SourceFile> {
     let path = join(directory.path(db), format!("{name}{EXTENSION}"));
     (db.system().kind(&path) == FileKind::File).then(|| db.file(&path))
@@ -22,7 +22,7 @@ pub fn embeds_others(db: &dyn Db, file: SourceFile) -> bool {
     file_index(db, file).paths().any(|path| path.summary.has_subpaths())
 }
 
-/// Indexes the drawings that most likely define what a drawing embeds, directly or not.
+/// Indexes the drawings that most likely define what a drawing embeds, recursively.
 pub fn prefetch(db: &dyn Db, file: SourceFile) {
     let (mut open, mut seen) = (vec![file], FxHashSet::from_iter([file]));
     while let Some(file) = open.pop() {
@@ -35,7 +35,7 @@ pub fn prefetch(db: &dyn Db, file: SourceFile) {
     }
 }
 
-/// The paths that the paths of a drawing embed.
+/// The names that the paths of a drawing embed.
 fn embedded_names(index: &FileIndex) -> impl Iterator<Item = &PathName> {
     let signatures = index.paths().filter_map(|path| path.summary.signature.as_ref());
     signatures.flat_map(|signature| &signature.subpaths).filter_map(|call| match &call.subpath.name {

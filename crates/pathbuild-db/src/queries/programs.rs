@@ -13,8 +13,8 @@ use crate::db::Db;
 use crate::inputs::Target;
 use crate::settings::Settings;
 
-/// Joins a path and all that it embeds into a program; `None` where any of them has errors, an option is missing, or the tool comes into a
-/// clamp. Programs are large and used once: only the last few are kept.
+/// Joins a path and everything it embeds to a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
+/// Programs are large and used once, so only the last few are kept.
 #[salsa::tracked(lru = 16)]
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);

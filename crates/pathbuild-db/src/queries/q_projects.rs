@@ -17,7 +17,7 @@ pub fn q_project(db: &dyn Db, drawing: SourceFile) -> QProject {
     plan_q_project(&component(db, drawing))
 }
 
-/// What the proxy lines of a drawing and its Q-project say against each other.
+/// Disagreements between the proxy lines of a drawing and its Q-project.
 #[salsa::tracked]
 pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
     let paths = sound_paths(db, q_project);
@@ -33,14 +33,14 @@ fn component(db: &dyn Db, drawing: SourceFile) -> Component<'_> {
     Component::new(raw_file(db, drawing).paths(), proxy_lines(db, drawing), language)
 }
 
-/// The proxy lines of a drawing. The drawing is read once more for that, with all its layers.
+/// The proxy lines of a drawing, which is read again with all its layers.
 #[salsa::tracked]
 fn proxy_lines(db: &dyn Db, file: SourceFile) -> Vec<ProxyLine> {
     let drawing = read_layers(db, file, &|_| true);
     pathbuild_path::proxy_lines(&drawing, Settings::get(db).language(db))
 }
 
-/// The paths of a Q-project with example values; `None` where one has errors.
+/// The paths of a Q-project with example values. `None` if one of them has errors.
 fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<Path>> {
     let language = Settings::get(db).language(db);
     let is_readable = !check_file(db, file).iter().any(Diagnostic::is_error);

@@ -1,4 +1,4 @@
-//! The raw paths of files, and where they are drawn.
+//! Raw paths of files and their places.
 
 use std::sync::Arc;
 
@@ -13,38 +13,38 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
-/// What was read from a file.
+/// The raw paths of a file.
 #[derive(Clone, Debug, Default)]
 pub struct FileContents {
-    /// In order of first appearance.
+    /// Paths in order of first appearance.
     paths: Vec<PathEntry>,
-    /// Their numbers in the order of their names: a drawing may have as many paths as it has layers.
+    /// Indices sorted by name, since a drawing may have as many paths as layers.
     by_name: Vec<usize>,
 }
 
-/// A raw path, and beside it where its elements are in the file.
+/// A raw path and the source map of its elements.
 #[derive(Clone, Debug)]
 pub(super) struct PathEntry {
-    /// Shared with whoever asks for the path, so that each may be dropped for itself.
+    /// Shared with the per-path query, so that either can be evicted alone.
     pub(super) raw: Arc<RawPath>,
     pub(super) map: SourceMap,
 }
 
-/// Where a path is drawn.
+/// The place of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPlace {
-    /// The path, as its layer spells it.
+    /// The name as spelt by its layer.
     pub name: SpeltName,
     /// The first of its layers.
     pub layer: Box<str>,
-    /// Its start marker, or its first element where it has none.
+    /// Its start marker, or its first element if it has none.
     pub point: Option<Point>,
-    /// Where that is in the file.
+    /// The position of that point in the file.
     pub position: Option<Position>,
 }
 
-/// Reads an indexed drawing again, for all that is drawn. Empty where it cannot be read, or shows a bug: its index says so. Never the same as
-/// before an edit, which changes lines and handles at least. Few are kept.
+/// Reads an indexed drawing again, with everything drawn. Empty if it cannot be read or panics, which the index reports. Lines and handles
+/// differ after any edit, so comparing results is pointless. Few are kept.
 #[salsa::tracked(no_eq, lru = 256)]
 pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let settings = Settings::get(db);
@@ -60,26 +60,26 @@ pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     FileContents::new(raw.paths.into_iter().map(entry).collect())
 }
 
-/// A path of a file: unchanged by edits of other paths in the file.
+/// A raw path of a file, unaffected by edits of other paths.
 #[salsa::tracked(returns(as_deref), lru = 256)]
 pub(super) fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db>) -> Option<Arc<RawPath>> {
     let name = name.name(db);
     raw_file(db, file).entry(&name).map(|entry| Arc::clone(&entry.raw))
 }
 
-/// The same for whoever asks from outside. (Not through an interned name, which nobody would reclaim there.)
+/// A raw path, for clients outside of queries. It takes a plain name, since a name interned outside a query is never reclaimed.
 pub(super) fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
     raw_file(db, file).entry(name).map(|entry| &*entry.raw)
 }
 
-/// Fills in where the element of a diagnostic of that path is in the file.
+/// Fills in the position of the element that a diagnostic of this path is about.
 pub(super) fn locate_in(db: &dyn Db, file: SourceFile, path: &PathName, diagnostic: &mut Diagnostic) {
     if let Some(entry) = raw_file(db, file).entry(path) {
         entry.map.locate(diagnostic);
     }
 }
 
-/// Where a path of a file is drawn; `None` when the file has no such path.
+/// The place of a path; `None` if the file has no such path.
 pub fn path_place(db: &dyn Db, file: SourceFile, name: &PathName) -> Option<PathPlace> {
     let entry = raw_file(db, file).entry(name)?;
     let raw = &*entry.raw;

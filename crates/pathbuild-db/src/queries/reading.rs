@@ -1,4 +1,4 @@
-//! Reading drawings: a file to its entities, whatever is in it.
+//! Reads drawings into entities.
 
 use std::hash::Hasher;
 
@@ -14,7 +14,7 @@ use crate::inputs::SourceFile;
 use crate::settings::{Reading, Settings};
 use crate::system::ReadError;
 
-/// Which bytes something was made from.
+/// Identifies the bytes that a result was computed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Fingerprint(u64);
 
@@ -26,16 +26,16 @@ impl Fingerprint {
     }
 }
 
-/// Works on the bytes of a drawing, with memory for what they say. Of drawings that are hashed it is told under which stamp they were read.
+/// Calls `work` with the bytes of a drawing and a scratch drawing. If drawings are hashed, it also gets the stamp of the bytes.
 ///
 /// # Errors
-/// Why it cannot be read, without a place.
+/// The reason why the file cannot be read, without a place.
 pub(super) fn read<R>(
     db: &dyn Db,
     file: SourceFile,
     work: impl FnOnce(&[u8], Stamp, &mut Drawing) -> R,
 ) -> Result<R, Box<Diagnostic>> {
-    // Asked for first: it stands for the bytes that are read behind salsa's back.
+    // Read before the bytes, so that salsa knows about the dependency.
     file.revision(db);
     let reading = Settings::get(db).reading(db);
     let (path, limit) = (file.path(db), reading.file_size);
@@ -52,7 +52,7 @@ pub(super) fn read<R>(
     })
 }
 
-/// The entities on some layers; none where that shows a bug.
+/// The entities on some layers. Empty after a panic.
 pub(super) fn entities(bytes: &[u8], reading: &Reading, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
     let mut drawing = Drawing::default();
     _ = catch_bugs(|| read_entities(bytes, &mut drawing, reading, keep_layer));

@@ -1,4 +1,4 @@
-//! What is wrong, as it is reported.
+//! Findings as they are reported.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -10,17 +10,17 @@ use super::raw::locate_in;
 use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 
-/// What is wrong with a file as a whole; its paths are targets of their own.
+/// Findings about a file as a whole. Its paths are targets of their own.
 pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     file_index(db, file).diagnostics()
 }
 
-/// What is wrong with a path and all it embeds, and with the way of its tool past clamps; not located yet.
+/// Findings about a path, everything it embeds, and clamps in its way. They are not located yet.
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
     closure(db, target).diagnostics.iter().chain(entered_keep_outs(db, target))
 }
 
-/// Fills in the line and handle of the element that a diagnostic is about. Asked at the very end, so that no query depends on lines.
+/// Fills in line and handle of the element that a diagnostic is about. Called last, so that no query depends on lines.
 pub fn locate(db: &dyn Db, mut diagnostic: Diagnostic) -> Diagnostic {
     if let (Some(file), Some(path), Some(_)) = (&diagnostic.file, &diagnostic.path, diagnostic.place.element)
     {

@@ -1,4 +1,4 @@
-//! Reading indexed drawings once more, for what their indexes do not tell.
+//! Reads indexed drawings again for details that the index lacks.
 
 use pathbuild_dxf::Drawing;
 
@@ -9,8 +9,8 @@ use crate::drift;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
-/// Works on the bytes of an indexed drawing. They are those of its index: else the drawing counts as changed, and the query is given up. `None` where
-/// it cannot be read, which its index says.
+/// Calls `work` with the bytes of an indexed drawing. If they no longer match the index, the drawing is marked as changed and the query
+/// abandoned. `None` if it cannot be read, which the index reports.
 pub(super) fn read_again<R>(
     db: &dyn Db,
     file: SourceFile,
@@ -27,7 +27,7 @@ pub(super) fn read_again<R>(
     }
 }
 
-/// The entities of an indexed drawing on some of its layers; none where it cannot be read.
+/// The entities of an indexed drawing on some of its layers. Empty if it cannot be read.
 pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
     let reading = Settings::get(db).reading(db);
     read_again(db, file, |bytes, _| entities(bytes, reading, keep_layer)).unwrap_or_default()

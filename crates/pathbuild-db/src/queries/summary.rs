@@ -1,4 +1,4 @@
-//! What comes of a path with values for its variables, in short: all that a check and the paths that embed it ask.
+//! The summary of a bound path: everything that a check and the embedding paths need.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, PathSignature, RawPath};
@@ -9,23 +9,23 @@ use super::nearby_ends::LayerEnds;
 use crate::db::Db;
 use crate::settings::Settings;
 
-/// What came of a path with values for its variables.
+/// The summary of a path with bound variables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathSummary {
-    /// What is wrong with its drawing or its values.
+    /// Findings about its drawing or values.
     pub problems: Vec<Diagnostic>,
-    /// What others see of the path, where none of these is an error. What follows is empty where there is none.
+    /// The path as seen by others, unless a finding is an error. The following fields are empty in that case.
     pub signature: Option<PathSignature>,
-    /// What is wrong with the sweep height that it has where it is embedded or checked.
+    /// Findings about the sweep height it gets when embedded or checked.
     pub sweep_problems: Vec<Diagnostic>,
-    /// What is wrong with the walk along it.
+    /// Findings about the walk.
     pub walk_problems: Vec<Diagnostic>,
-    /// About how many moves it has without what it embeds.
+    /// Estimated number of moves, without embedded paths.
     pub moves: u64,
 }
 
 impl PathSummary {
-    /// Binds a path, walks along it, and keeps what others need to know.
+    /// Binds and walks a path.
     pub(super) fn new(db: &dyn Db, raw: &RawPath, bindings: &Bindings, ends: &LayerEnds<'_>) -> Self {
         let language = Settings::get(db).language(db);
         let BoundPath { path, diagnostics: problems } = bind(raw, bindings, language);
@@ -43,7 +43,7 @@ impl PathSummary {
         }
     }
 
-    /// Whether nothing is to be said of the path itself.
+    /// Whether the path itself has no findings.
     pub(super) fn is_clean(&self) -> bool {
         let Self { problems, sweep_problems, walk_problems, .. } = self;
         self.signature.is_some()

@@ -1,4 +1,4 @@
-//! Which element each parameter text belongs to.
+//! Assigns parameter texts to elements.
 
 use pathbuild_path::AssignedText;
 
@@ -7,7 +7,7 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
-/// The texts of a drawing's paths, and what each belongs to. The drawing is read once more for that.
+/// The texts of a drawing's paths with the element of each. The drawing is read again for that.
 #[salsa::tracked]
 pub fn assigned_texts(db: &dyn Db, file: SourceFile) -> Vec<AssignedText> {
     let language = Settings::get(db).language(db);

@@ -1,4 +1,4 @@
-//! What a target was made from: by which a driver knows after an edit which targets to ask again, and a cache whether a result is up to date.
+//! Dependencies of a target. After an edit they tell a driver which targets to query again, and a cache whether a result is up to date.
 
 use camino::Utf8PathBuf;
 use pathbuild_path::PathName;
@@ -11,25 +11,25 @@ use super::lookup::{find_path, own_directory, search_path};
 use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 
-/// Everything outside that a target depends on, besides the settings.
+/// Everything outside of the settings that a target depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// The drawings that were read, its own first: those that it reaches, and those that were searched in vain.
+    /// The drawings that were read, starting with its own, including those that were searched without a match.
     pub files: Vec<SourceFile>,
-    /// The paths that were looked for by name, each with the directories that were asked for files that may hold it.
-    pub lookups: Vec<Sought>,
+    /// The names that were looked up, with the searched directories.
+    pub lookups: Vec<NameLookup>,
 }
 
-/// A path that was looked for.
+/// A name that was looked up.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Sought {
+pub struct NameLookup {
     /// The path.
     pub name: PathName,
     /// The directories.
     pub directories: Vec<Utf8PathBuf>,
 }
 
-/// The trace of a target. An edit outside it does not change what comes of the target.
+/// The trace of a target. An edit outside of it cannot change the target's results.
 #[salsa::tracked]
 pub fn trace(db: &dyn Db, target: Target) -> Trace {
     let (mut files, mut lookups) = (Distinct::default(), Distinct::default());
@@ -41,13 +41,13 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
             let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
             resolved.searched.iter().for_each(|file| files.push(*file));
             let directories = search_path(db, own_directory(db, from)).iter().map(|it| it.path(db).clone());
-            lookups.push(Sought { name: (**name).clone(), directories: directories.collect() });
+            lookups.push(NameLookup { name: (**name).clone(), directories: directories.collect() });
         }
     }
     Trace { files: files.all, lookups: lookups.all }
 }
 
-/// A list of things, each once.
+/// A list without duplicates.
 struct Distinct<T> {
     all: Vec<T>,
     seen: FxHashSet<T>,

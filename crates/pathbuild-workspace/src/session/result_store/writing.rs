@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Record, Stamp};
-use pathbuild_db::{Db, Sought, SourceFile};
+use pathbuild_db::{Db, NameLookup, SourceFile};
 
 use super::lookups::Lookups;
 use super::seen::{Content, Seen};
@@ -203,7 +203,7 @@ impl<'a> Writing<'a> {
     }
 
     /// A question that was asked now.
-    fn lookup(&mut self, sought: &Sought) -> usize {
+    fn lookup(&mut self, sought: &NameLookup) -> usize {
         let list = sought.directories.iter().map(|directory| self.directory(directory)).collect();
         self.lookups.number(list, sought.name.as_str())
     }
