@@ -80,6 +80,18 @@ fn without_options_defaults_hold() {
     assert!(probe.contains(&"Z150 path".to_owned()), "{probe:?}");
 }
 
+/// The same drawing as its program: with --compatible the path's F is not that of its probes.
+#[test]
+fn probing_feeds_are_those_of_the_program() {
+    let feed = |configuration: &str| in_force(&place(configuration), [10.0, 10.0], "a Z-probe").pop();
+    assert_eq!(feed("feed = 99\n").as_deref(), Some("Z150 path"));
+    assert_eq!(feed("feed = 99\ncompatible = true\n").as_deref(), Some("Z99 option feed"));
+    assert_eq!(
+        feed("feed = 99\nprobe-feed = 40\ncompatible = true\n").as_deref(),
+        Some("Z40 option probe-feed")
+    );
+}
+
 #[test]
 fn the_table_is_for_people_in_both_languages() {
     let place = place("");

@@ -6,8 +6,7 @@ use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use pathbuild_dxf::Units;
-use pathbuild_path::{FilePattern, Language, Restriction};
-use pathbuild_toolpath::FoldOptions;
+use pathbuild_path::{FilePattern, Language, PathOptions, Restriction};
 
 /// The settings of a run.
 #[salsa::input(singleton, debug)]
@@ -29,7 +28,7 @@ pub struct Settings {
     pub restrictions: Vec<Restriction>,
     /// What holds where a drawing gives no F or S.
     #[returns(copy)]
-    pub fold: FoldOptions,
+    pub fold: PathOptions,
     /// What is refused as too much.
     #[returns(copy)]
     pub limits: Limits,

@@ -8,9 +8,11 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_path::{FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathPattern};
+use pathbuild_path::{
+    FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathOptions, PathPattern,
+};
 use pathbuild_post::{Job, PostOptions, ToolTable};
-use pathbuild_toolpath::{Correction, FoldOptions, Program};
+use pathbuild_toolpath::{Correction, Program};
 
 use crate::drawn::{Choices, dxf as drawn, written};
 
@@ -83,7 +85,7 @@ fn settle(db: &Database) {
         join_tolerance: 0.0,
     };
     let (files, search) = (FilePattern::default(), Vec::new());
-    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
+    let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
     // A fuzzer would find what takes long only because it is much.
     let limits = Limits { moves: 20_000, ..Limits::default() };
     Settings::new(db, Reading::default(), Arc::new(language), files, search, Vec::new(), fold, limits);

@@ -12,6 +12,7 @@ mod combinations;
 mod default_pattern;
 mod definition;
 mod doubts;
+mod effective;
 mod element;
 mod embedding;
 mod file_name;
@@ -45,6 +46,7 @@ pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};
 pub use doubts::Doubts;
+pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
     Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, near_names,
@@ -52,7 +54,7 @@ pub use embedding::{
 pub use file_name::{is_q_project, judge_file_name};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
-pub use in_force::{Fallbacks, InForce, Parameter, Provider, parameters_in_force};
+pub use in_force::{InForce, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use letter::Letter;
 pub use line_type::{LineType, LineTypeAliases};

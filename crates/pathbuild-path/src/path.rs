@@ -5,9 +5,11 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{EntityKind, Point, TextFault, Word, words};
 use smol_str::SmolStr;
 
+use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
+use crate::matrix::ElementClass;
 use crate::name::{PathName, SpeltName};
 use crate::raw::Drawn;
 use crate::text::TextId;
@@ -245,14 +247,22 @@ pub struct SubpathValue {
 }
 
 impl Path {
-    /// S of the path where it is embedded or checked: its own, else T + O.
+    /// S of the path where it is embedded or checked: its own, else the default.
     pub fn embedded_sweep_height(&self) -> f64 {
-        self.sweep_height.unwrap_or(self.thickness + self.tool)
+        self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
     }
 
-    /// S of the path where it is emitted: its own, else the option's; `None` where neither says.
-    pub fn emitted_sweep_height(&self, option: Option<f64>) -> Option<f64> {
-        self.sweep_height.or(option)
+    /// S of the path in a role: its own, else that of the option or the default; `None` where an option is missing.
+    pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
+        self.sweep_height.or_else(|| {
+            let height = fallback(Letter::S, ElementClass::PathStart, self.numbers(), options, role);
+            height.map(|(height, _)| height)
+        })
+    }
+
+    /// The numbers from which fallbacks follow.
+    pub fn numbers(&self) -> PathNumbers {
+        PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: self.feed }
     }
 
     /// Whether anything in it is milled at the feed of the options.

@@ -1,7 +1,10 @@
 //! The fold: one walk over a path and what it embeds that carries the tool's position.
 
 use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
-use pathbuild_path::{Hole, Item, Origin, Path, PlacedSubpath, Placement, SegmentKind, Sweep, Walked, Xy};
+use pathbuild_path::{
+    ElementClass, Hole, Item, Letter, Origin, Path, PathOptions, PathRole, PlacedSubpath, Placement,
+    SegmentKind, Sweep, Walked, Xy, fallback,
+};
 
 use crate::probes;
 use crate::program::{
@@ -27,21 +30,8 @@ pub trait Parts {
     fn checkpoint(&self) {}
 }
 
-/// What the options say where the drawing says nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FoldOptions {
-    /// --feed: F in mm/min. Paths that need it must not be folded without it.
-    pub feed: Option<f64>,
-    /// --sweep-height: S of the emitted path in mm; likewise.
-    pub sweep_height: Option<f64>,
-    /// --probe-feed: Z in mm/min. Probes without it fall back on feeds.
-    pub probe_feed: Option<f64>,
-    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (book: program/compatible)
-    pub compatible: bool,
-}
-
 /// Makes the program of a path, of about so many moves. Every path in it must be free of errors.
-pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: FoldOptions, moves: u64) -> Program {
+pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
     folded(parts, root, drawing, options, moves, None).0
 }
 
@@ -50,7 +40,7 @@ pub fn fold_traced<P: Parts>(
     parts: &P,
     root: P::Id,
     drawing: &str,
-    options: FoldOptions,
+    options: PathOptions,
 ) -> (Program, Trace<P::Id>) {
     let (program, trace) = folded(parts, root, drawing, options, 0, Some(Trace::default()));
     (program, trace.unwrap_or_default())
@@ -60,12 +50,12 @@ fn folded<P: Parts>(
     parts: &P,
     root: P::Id,
     drawing: &str,
-    options: FoldOptions,
+    options: PathOptions,
     moves: u64,
     trace: Option<Trace<P::Id>>,
 ) -> (Program, Option<Trace<P::Id>>) {
     let path = parts.path(root);
-    let sweep_height = path.emitted_sweep_height(options.sweep_height).unwrap_or_default();
+    let sweep_height = path.sweep_height(&options, PathRole::Emitted).unwrap_or_default();
     let mut program = Program {
         path: path.name.as_str().into(),
         output_suffix: path.output_suffix.as_str().into(),
@@ -79,8 +69,8 @@ fn folded<P: Parts>(
     let mut fold = Fold {
         parts,
         feed: options.feed.unwrap_or_default(),
-        probe_feed: options.probe_feed,
         compatible: options.compatible,
+        options,
         clearance: sweep_height,
         last_feed: FIRST_FEED,
         tip: Tip { at: Xy::origin(), z: program.start_height() },
@@ -110,8 +100,9 @@ pub(crate) struct Tip {
 
 pub(crate) struct Fold<'a, P: Parts> {
     parts: &'a P,
+    options: PathOptions,
+    /// F where neither an element nor its path gives one.
     feed: f64,
-    probe_feed: Option<f64>,
     pub(crate) compatible: bool,
     /// S of the emitted path: from there on nothing is in the way.
     clearance: f64,
@@ -157,12 +148,14 @@ impl<'a, P: Parts> Fold<'a, P> {
             sweep_height: raised + sweep_height,
             feed: path.feed.unwrap_or(self.feed),
         };
-        let path_feed = path.feed.filter(|_| !self.compatible);
+        let probe_feed =
+            fallback(Letter::Z, ElementClass::Probe, path.numbers(), &self.options, PathRole::Embedded);
+        let probe_feed = probe_feed.map_or(0.0, |(feed, _)| feed);
         self.probes.extend(path.probes.iter().map(|probe| ProbePoint {
             at: placement.place(probe.at),
             drawn_at: probe.at,
             height: probe.height + raised,
-            feed: probe.feed.or(self.probe_feed).or(path_feed).unwrap_or(self.feed),
+            feed: probe.feed.unwrap_or(probe_feed),
             label: probe.label.clone(),
         }));
         let origin = |segment: usize| path.origin(&path.segments[segment]);

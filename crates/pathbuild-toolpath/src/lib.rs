@@ -22,7 +22,7 @@ mod z_model;
 pub use bars::support_bars;
 pub use correction::{Correction, Outside};
 pub use cost::{memory, own_moves};
-pub use fold::{FoldOptions, Parts, fold, fold_traced};
+pub use fold::{Parts, fold, fold_traced};
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,

@@ -7,8 +7,8 @@ use std::slice;
 
 use pathbuild_diagnostic::messages::{files, subpaths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{Bindings, PathName, PathSignature, SubpathCall};
-use pathbuild_toolpath::{FoldOptions, memory};
+use pathbuild_path::{Bindings, PathName, PathOptions, PathRole, PathSignature, SubpathCall};
+use pathbuild_toolpath::memory;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::embedding::{Embedding, Outcome, embeds};
@@ -138,7 +138,7 @@ impl Closure<'_> {
 struct Walk<'db> {
     db: &'db dyn Db,
     is_emitted: bool,
-    options: FoldOptions,
+    options: PathOptions,
     missing_options: Vec<MissingOption>,
     limits: Limits,
     reached: Vec<Reached<'db>>,
@@ -242,12 +242,11 @@ impl<'db> Walk<'db> {
 
     /// S of a path in its role, where somebody says it: a path that is checked by itself may be emitted with another than T + O.
     fn sweep_height(&self, signature: &PathSignature, depth: u32) -> Option<f64> {
-        let fallback = match (depth, self.is_emitted) {
-            (0, true) => self.options.sweep_height,
-            (0, false) => None,
-            _ => Some(signature.thickness + signature.tool),
-        };
-        signature.sweep_height.or(fallback)
+        match (depth, self.is_emitted) {
+            (0, true) => signature.sweep_height(&self.options, PathRole::Emitted),
+            (0, false) => signature.sweep_height,
+            _ => signature.sweep_height(&self.options, PathRole::Embedded),
+        }
     }
 
     /// What is wrong with S of a path in its role. Where nobody says S and it is needed, that is noted.
@@ -260,7 +259,7 @@ impl<'db> Walk<'db> {
         if !self.is_emitted || depth > 0 {
             return Cow::Borrowed(&summary.sweep_problems);
         }
-        let Some(height) = signature.sweep_height.or(self.options.sweep_height) else {
+        let Some(height) = signature.sweep_height(&self.options, PathRole::Emitted) else {
             self.miss(MissingOption::SweepHeight);
             return Cow::default();
         };

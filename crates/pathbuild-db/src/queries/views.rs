@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use pathbuild_dxf::Drawing;
-use pathbuild_path::{Bindings, Fallbacks, InForce, Path, PathName, RawPath, SourceMap};
-use pathbuild_toolpath::{FoldOptions, Occurrence, Program, Trace, fold_traced};
+use pathbuild_path::{Bindings, InForce, Path, PathName, PathRole, RawPath, SourceMap, parameters_in_force};
+use pathbuild_toolpath::{Occurrence, Program, Trace, fold_traced};
 use rustc_hash::FxHashMap;
 
 use super::closures::closure;
@@ -88,8 +88,8 @@ pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Op
     Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
 }
 
-/// The parameters that hold for each element of a path, with these values of its variables. S is that of the path where it is emitted, or that of
-/// an embedded one.
+/// The effective parameters of each element of a path with these values of its variables. S is as in [`traced_program`]: where an option is
+/// missing, and for paths with variables, the path counts as embedded.
 pub fn in_force(
     db: &dyn Db,
     file: SourceFile,
@@ -98,11 +98,10 @@ pub fn in_force(
     is_emitted: bool,
 ) -> Vec<InForce> {
     let settings = Settings::get(db);
-    let FoldOptions { feed, sweep_height, probe_feed, .. } = settings.fold(db);
-    let sweep_height = sweep_height.filter(|_| is_emitted);
-    let fallbacks = Fallbacks { feed, sweep_height, probe_feed };
-    let of_path =
-        |raw: &RawPath| pathbuild_path::parameters_in_force(raw, bindings, &fallbacks, settings.language(db));
+    let options = settings.fold(db);
+    let is_emitted = is_emitted && bindings.is_empty() && options.sweep_height.is_some();
+    let role = if is_emitted { PathRole::Emitted } else { PathRole::Embedded };
+    let of_path = |raw: &RawPath| parameters_in_force(raw, bindings, &options, role, settings.language(db));
     raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
 }
 

@@ -2,8 +2,7 @@
 
 use camino::Utf8PathBuf;
 use pathbuild_db::Settings;
-use pathbuild_path::Restriction;
-use pathbuild_toolpath::FoldOptions;
+use pathbuild_path::{PathOptions, Restriction};
 use salsa::Setter;
 
 use crate::embedding::component;
@@ -34,7 +33,7 @@ const VALUES: [&str; 4] = ["path component", "path project", "chains component",
 fn another_feed_reads_no_drawing_again() {
     let mut world = world();
     let before = world.outcome("project");
-    let fold = FoldOptions { feed: Some(101.0), sweep_height: Some(20.0), ..FoldOptions::default() };
+    let fold = PathOptions { feed: Some(101.0), sweep_height: Some(20.0), ..PathOptions::default() };
     let settings = Settings::get(&world.db);
     settings.set_fold(&mut world.db).to(fold);
     world.expect(

@@ -10,9 +10,8 @@ use pathbuild_db::{
     Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathOptions, PathPattern};
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::FoldOptions;
 
 /// Files, a database over them, and the targets that somebody keeps asking for.
 pub(crate) struct World {
@@ -51,7 +50,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         join_tolerance: 0.0,
     };
     let search = search.iter().map(Utf8PathBuf::from).collect();
-    let fold = FoldOptions { feed: Some(100.0), sweep_height: Some(20.0), ..FoldOptions::default() };
+    let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
     Settings::new(
         db,
         Reading::default(),

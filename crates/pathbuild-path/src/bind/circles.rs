@@ -12,7 +12,6 @@ use crate::geometry::Xy;
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::path::{Helix, Hole, SegmentKind};
-use crate::values::Given;
 
 /// Orders at a star: holes come first, then circles, small ones before large ones. (book: language/chains-and-passes)
 const BEFORE_ALL: f64 = -1_000_000.0;
@@ -60,7 +59,7 @@ impl Binder<'_> {
     }
 
     fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Option<Helix> {
-        self.check_size(scope, radius, tool);
+        self.check_size(scope, radius);
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
         let bars = if cut == Cut::Support {
             let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
@@ -84,12 +83,8 @@ impl Binder<'_> {
         })
     }
 
-    fn check_size(&mut self, scope: &Scope<'_>, radius: f64, tool: f64) {
-        let largest = match self.values.number(Letter::A) {
-            Given::Absent => 4.0 * tool,
-            Given::Number(largest) => largest,
-            Given::Faulty => return,
-        };
+    fn check_size(&mut self, scope: &Scope<'_>, radius: f64) {
+        let Some(largest) = scope.texts(&self.values).number_or_default(Letter::A) else { return };
         if above(2.0 * radius, largest) {
             let problem =
                 Diagnostic::new(&walk::HELIX_TOO_LARGE).with("diameter", 2.0 * radius).with("limit", largest);

@@ -248,7 +248,8 @@ impl<'a> Binder<'a> {
             path.probes.push(Probe {
                 origin: marker.origin.clone(),
                 at: marker.at,
-                height: thickness + self.value(&scope, Letter::H).unwrap_or_default(),
+                height: thickness
+                    + scope.texts(&self.values).number_or_default(Letter::H).unwrap_or_default(),
                 feed: self.value(&scope, Letter::Z),
                 label: values.text(Letter::L).map(Into::into),
                 text: marker.text,

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use smol_str::SmolStr;
 
 use super::{At, Binder};
+use crate::effective::Texts;
 use crate::element::{Element, Role, Shape};
 use crate::geometry::Curve;
 use crate::letter::Letter;
@@ -75,7 +76,7 @@ impl Binder<'_> {
             thickness: self.value(scope, Letter::T)?,
             tool: self.value(scope, Letter::O)?,
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
-            height: self.value(scope, Letter::H).unwrap_or_default(),
+            height: scope.texts(&self.values).number_or_default(Letter::H).unwrap_or_default(),
             values: values.variables().map(value).collect(),
             text: element.text,
         })
@@ -96,15 +97,10 @@ impl Binder<'_> {
 
     /// What a letter says on an element by the table of letters: its own value, else the path's; PB201 where it is needed and neither gives one.
     pub(super) fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
-        let usage = scope.class.use_of(letter);
-        let given = match usage {
-            Use::Unknown | Use::Ignored => return None,
-            Use::PathOnly => self.values.number(letter),
-            _ => scope.values.number(letter).or(self.values.number(letter)),
-        };
+        let given = scope.texts(&self.values).number(letter);
         // What every path must give is missing there, and reported once.
         let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
-        if usage == Use::Needed && given == Given::Absent && is_missing_here() {
+        if scope.class.use_of(letter) == Use::Needed && given == Given::Absent && is_missing_here() {
             let problem = Diagnostic::new(&messages::MISSING)
                 .with("letter", letter.as_char())
                 .with("element", scope.class.word());
@@ -119,6 +115,13 @@ pub(super) struct Scope<'a> {
     pub(super) at: At<'a>,
     pub(super) class: ElementClass,
     pub(super) values: &'a Values<'a>,
+}
+
+impl<'a> Scope<'a> {
+    /// The texts that can give the element its parameters. Chains are not known yet, so letters of chains are its own.
+    pub(super) fn texts(&self, path: &'a Values<'a>) -> Texts<'a, 'a> {
+        Texts { class: self.class, own: self.values, chain: None, path }
+    }
 }
 
 /// The index of something behind all others.

@@ -6,8 +6,10 @@ use smol_str::SmolStr;
 use super::raised::ProbeTop;
 use super::sweep::SweepLimits;
 use crate::definition::Definition;
+use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::Origin;
 use crate::letter::Letter;
+use crate::matrix::ElementClass;
 use crate::name::SpeltName;
 use crate::path::{Path, Segment, SegmentKind, Subpath};
 use crate::raw::RawPath;
@@ -101,6 +103,17 @@ impl PathSignature {
             raised_probes: ProbeTop::raised(path),
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
+    }
+}
+
+impl PathSignature {
+    /// S of the path in a role: its own, else that of the option or the default; `None` where an option is missing.
+    pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
+        self.sweep_height.or_else(|| {
+            let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
+            let height = fallback(Letter::S, ElementClass::PathStart, numbers, options, role);
+            height.map(|(height, _)| height)
+        })
     }
 }
 

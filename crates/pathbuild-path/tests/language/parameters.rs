@@ -1,6 +1,6 @@
 //! Which value holds: the element's own, else the path's. (book: language/letters)
 
-use pathbuild_path::{CutParameters, Path, SegmentKind};
+use pathbuild_path::{CutParameters, Path, PathOptions, PathRole, SegmentKind};
 
 use crate::support::{compile, path, read, wrong};
 
@@ -137,14 +137,17 @@ fn a_sweep_has_its_own_height_or_that_of_the_path() {
 #[test]
 fn the_default_s_of_an_embedded_or_checked_path_is_t_and_o() {
     let path_of = |parameters: &str| compile(&path(parameters, "mill 0,0 40,0\nend 40,0")).path.unwrap();
+    let (none, options) =
+        (PathOptions::default(), PathOptions { sweep_height: Some(30.0), ..PathOptions::default() });
     let without = path_of("T5 O3 I1 B0");
     assert_eq!(without.embedded_sweep_height(), 8.0);
     assert_eq!(
-        (without.emitted_sweep_height(Some(30.0)), without.emitted_sweep_height(None)),
+        (without.sweep_height(&options, PathRole::Emitted), without.sweep_height(&none, PathRole::Emitted)),
         (Some(30.0), None)
     );
     let with = path_of("T5 O3 I1 B0 S20");
-    assert_eq!((with.embedded_sweep_height(), with.emitted_sweep_height(Some(30.0))), (20.0, Some(20.0)));
+    assert_eq!(with.embedded_sweep_height(), 20.0);
+    assert_eq!(with.sweep_height(&options, PathRole::Emitted), Some(20.0));
 }
 
 /// Everything that is milled or drilled needs a feed, but only a chain needs the path's even where all its segments have their own.

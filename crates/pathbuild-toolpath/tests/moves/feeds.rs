@@ -1,6 +1,7 @@
 //! The feeds of plunges, and of probing. ("Elementary moves"; book: language/letters, Z)
 
-use pathbuild_toolpath::{Class, FoldOptions, Move, Program, Step};
+use pathbuild_path::PathOptions;
+use pathbuild_toolpath::{Class, Move, Program, Step};
 
 use crate::support::{COMPATIBLE, OPTIONS, path, program, program_with};
 
@@ -59,11 +60,11 @@ fn plunges_into_a_bar_run_at_the_segments_feed() {
 
 #[test]
 fn probing_falls_back_on_the_paths_feed() {
-    let feed = |parameters: &str, probe: &str, options: FoldOptions| {
+    let feed = |parameters: &str, probe: &str, options: PathOptions| {
         let drawing = path(parameters, &format!("mill 0,0 40,0\nend 40,0\nprobe 20,20 {probe}"));
         program_with(&drawing, options).probes[0].feed
     };
-    let with = |options: FoldOptions| FoldOptions { probe_feed: Some(50.0), ..options };
+    let with = |options: PathOptions| PathOptions { probe_feed: Some(50.0), ..options };
     assert_eq!(feed("T5 O3 I5 B0 F80 Z60", "\"Z70\"", OPTIONS), 70.0);
     assert_eq!(feed("T5 O3 I5 B0 F80 Z60", "", with(OPTIONS)), 60.0);
     assert_eq!(feed("T5 O3 I5 B0 F80", "", with(OPTIONS)), 50.0);

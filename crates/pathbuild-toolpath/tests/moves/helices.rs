@@ -1,6 +1,7 @@
 //! Helical circles. ("Helical circle")
 
-use pathbuild_toolpath::{FoldOptions, Move, Step};
+use pathbuild_path::PathOptions;
+use pathbuild_toolpath::{Move, Step};
 
 use crate::support::{
     COMPATIBLE, OPTIONS, counts, estimate, moves, moves_and_comments, path, program, program_with, short,
@@ -153,7 +154,7 @@ fn below_d_full_circles_leave_bars() {
 /// From D down in steps of I, the last at B.
 #[test]
 fn circles_with_bars_go_down_by_infeeds() {
-    let lowest = |parameters: &str, options: FoldOptions| {
+    let lowest = |parameters: &str, options: PathOptions| {
         let moves = shown(&program_with(&path(parameters, &helix(BARS)), options), false);
         let below = moves
             .iter()

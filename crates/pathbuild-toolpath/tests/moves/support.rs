@@ -2,11 +2,11 @@
 
 use pathbuild_dxf::Options;
 use pathbuild_path::{
-    Bindings, Language, LineTypeAliases, Path, PathPattern, SegmentKind, SubpathName, Walked, bind, raw_file,
-    walk,
+    Bindings, Language, LineTypeAliases, Path, PathOptions, PathPattern, SegmentKind, SubpathName, Walked,
+    bind, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::{Comment, Count, FoldOptions, Move, Names, Parts, Program, Step, fold, own_moves};
+use pathbuild_toolpath::{Comment, Count, Move, Names, Parts, Program, Step, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
 struct Drawn(Vec<(Path, Walked)>);
@@ -29,11 +29,11 @@ impl Parts for Drawn {
     }
 }
 
-pub(crate) const OPTIONS: FoldOptions =
-    FoldOptions { feed: Some(100.0), sweep_height: Some(10.0), probe_feed: None, compatible: false };
+pub(crate) const OPTIONS: PathOptions =
+    PathOptions { feed: Some(100.0), sweep_height: Some(10.0), probe_feed: None, compatible: false };
 
 /// The same for programs as the original tool writes them.
-pub(crate) const COMPATIBLE: FoldOptions = FoldOptions { compatible: true, ..OPTIONS };
+pub(crate) const COMPATIBLE: PathOptions = PathOptions { compatible: true, ..OPTIONS };
 
 /// The program of the first path of a drawing.
 #[track_caller]
@@ -42,7 +42,7 @@ pub(crate) fn program(drawing: &str) -> Program {
 }
 
 #[track_caller]
-pub(crate) fn program_with(drawing: &str, options: FoldOptions) -> Program {
+pub(crate) fn program_with(drawing: &str, options: PathOptions) -> Program {
     fold(&drawn(drawing), 0, "1234.1P.dxf", options, 0)
 }
 

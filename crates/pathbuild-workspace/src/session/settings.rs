@@ -5,9 +5,8 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
-    Doubts, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathPattern, Restriction,
+    Doubts, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathOptions, PathPattern, Restriction,
 };
-use pathbuild_toolpath::FoldOptions;
 
 use super::normal;
 use crate::config::types;
@@ -45,7 +44,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let search = search.map(|directory| normal(directory, &context.working_directory)).collect();
     let rules = general.restrict.value.iter();
     let restrictions = rules.filter_map(|rule| Restriction::new(&rule.parent, &rule.child).ok()).collect();
-    let fold = FoldOptions {
+    let fold = PathOptions {
         feed: general.feed.value,
         sweep_height: general.sweep_height.value,
         probe_feed: general.probe_feed.value,

@@ -1,0 +1,192 @@
+//! Effective parameters: the value of a letter on an element, and what provides it. Binding, the fold, closures and the lists of
+//! parameters all ask this module, so that each rule stands once. (book: language/letters)
+
+use pathbuild_diagnostic::{Word, words};
+
+use crate::letter::Letter;
+use crate::matrix::{ElementClass, Use};
+use crate::name::PathName;
+use crate::values::{Given, Values};
+
+/// Option values that apply where a drawing gives none. Feeds in mm/min, lengths in mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathOptions {
+    /// --feed: F. Paths that need it must not be folded without it.
+    pub feed: Option<f64>,
+    /// --sweep-height: S of the emitted path; likewise.
+    pub sweep_height: Option<f64>,
+    /// --probe-feed: Z. Probes without it fall back on feeds.
+    pub probe_feed: Option<f64>,
+    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (book: program/compatible)
+    pub compatible: bool,
+}
+
+/// How a path is used: its sweep height depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathRole {
+    /// It is the path that a program is written for.
+    Emitted,
+    /// It is embedded, or checked on its own.
+    Embedded,
+}
+
+/// The numbers of a path from which fallbacks follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathNumbers {
+    /// O in mm.
+    pub tool: Option<f64>,
+    /// T in mm.
+    pub thickness: Option<f64>,
+    /// F in mm/min.
+    pub feed: Option<f64>,
+}
+
+/// What provides a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Provider {
+    /// The element's own text.
+    Own,
+    /// The text of the first segment of its chain.
+    Chain,
+    /// The text of the path's start.
+    Path,
+    /// The text of the path that @ names.
+    Lender(PathName),
+    /// An option, by its name without hyphens.
+    Option(&'static str),
+    /// The default of the language.
+    Default,
+}
+
+/// The texts that can give an element its parameters.
+#[derive(Clone, Copy)]
+pub(crate) struct Texts<'v, 't> {
+    pub(crate) class: ElementClass,
+    /// The element's own.
+    pub(crate) own: &'v Values<'t>,
+    /// That of the first segment of its chain, where that is another element.
+    pub(crate) chain: Option<&'v Values<'t>>,
+    /// That of its path.
+    pub(crate) path: &'v Values<'t>,
+}
+
+impl Provider {
+    /// A word for machines.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Own => "own",
+            Self::Chain => "chain",
+            Self::Path => "path",
+            Self::Lender(_) => "lender",
+            Self::Option(_) => "option",
+            Self::Default => "default",
+        }
+    }
+
+    /// The same for people.
+    pub fn word(&self) -> &'static Word {
+        match self {
+            Self::Own => &words::OWN_TEXT,
+            Self::Chain => &words::CHAIN_TEXT,
+            Self::Path => &words::PATH_TEXT,
+            Self::Lender(_) => &words::LENDER_TEXT,
+            Self::Option(_) => &words::OPTION,
+            Self::Default => &words::DEFAULT,
+        }
+    }
+
+    /// Which path, or which option.
+    pub fn which(&self) -> Option<&str> {
+        match self {
+            Self::Lender(path) => Some(path.as_str()),
+            Self::Option(name) => Some(name),
+            Self::Own | Self::Chain | Self::Path | Self::Default => None,
+        }
+    }
+}
+
+impl<'v, 't> Texts<'v, 't> {
+    /// The values that give a letter, and whose text they are; `None` where no text that counts has it.
+    pub(crate) fn source(&self, letter: Letter) -> Option<(&'v Values<'t>, Provider)> {
+        let own = match use_of(self.class, letter) {
+            Use::Unknown | Use::Ignored => return None,
+            Use::PathOnly => None,
+            // The path's text is the start's own.
+            Use::Needed | Use::Allowed if self.class == ElementClass::PathStart => None,
+            Use::ChainNeeded | Use::Chain => {
+                Some(self.chain.map_or((self.own, Provider::Own), |chain| (chain, Provider::Chain)))
+            }
+            Use::Needed | Use::Allowed => Some((self.own, Provider::Own)),
+        };
+        let path = || {
+            let can_inherit =
+                self.class == ElementClass::PathStart || !letter.is_text() || letter == Letter::M;
+            can_inherit.then_some((self.path, Provider::Path))
+        };
+        let has = |(values, _): &(&Values<'_>, Provider)| values.has(letter);
+        own.filter(has).or_else(|| path().filter(has))
+    }
+
+    /// The number that the texts give a letter.
+    #[inline]
+    pub(crate) fn number(&self, letter: Letter) -> Given {
+        self.source(letter).map_or(Given::Absent, |(values, _)| values.number(letter))
+    }
+
+    /// The number that a letter has, given or by the language's default; options aside.
+    pub(crate) fn number_or_default(&self, letter: Letter) -> Option<f64> {
+        match self.number(letter) {
+            Given::Absent => {
+                let options = PathOptions::default();
+                let path = PathNumbers::of(self.path);
+                fallback(letter, self.class, path, &options, PathRole::Embedded).map(|(value, _)| value)
+            }
+            given => given.number(),
+        }
+    }
+}
+
+impl PathNumbers {
+    pub(crate) fn of(path: &Values<'_>) -> Self {
+        let number = |letter| path.number(letter).number();
+        Self { tool: number(Letter::O), thickness: number(Letter::T), feed: number(Letter::F) }
+    }
+}
+
+/// The use of a letter on an element. Elements whose text is not read are swept along at the path's height.
+fn use_of(class: ElementClass, letter: Letter) -> Use {
+    match (class, letter) {
+        (_, Letter::At) => Use::Unknown,
+        (ElementClass::Unread, Letter::S) => Use::PathOnly,
+        (ElementClass::Unread, _) => Use::Unknown,
+        _ => class.use_of(letter),
+    }
+}
+
+/// The value of a letter that no text gives, and what provides it; [`Provider::Path`] where it follows from another letter of the path.
+pub fn fallback(
+    letter: Letter,
+    class: ElementClass,
+    path: PathNumbers,
+    options: &PathOptions,
+    role: PathRole,
+) -> Option<(f64, Provider)> {
+    if matches!(use_of(class, letter), Use::Unknown | Use::Ignored) {
+        return None;
+    }
+    let option = |value: Option<f64>, name| value.map(|value| (value, Provider::Option(name)));
+    match (letter, class) {
+        (Letter::F, _) => option(options.feed, "feed"),
+        (Letter::S, _) => match role {
+            PathRole::Emitted => option(options.sweep_height, "sweep-height"),
+            PathRole::Embedded => Some((path.thickness? + path.tool?, Provider::Default)),
+        },
+        (Letter::A, ElementClass::PathStart) => None,
+        (Letter::A, _) => Some((4.0 * path.tool?, Provider::Default)),
+        (Letter::H, ElementClass::Subpath | ElementClass::Probe) => Some((0.0, Provider::Default)),
+        (Letter::Z, ElementClass::Probe) => option(options.probe_feed, "probe-feed")
+            .or_else(|| path.feed.filter(|_| !options.compatible).map(|feed| (feed, Provider::Path)))
+            .or_else(|| option(options.feed, "feed")),
+        _ => None,
+    }
+}
