@@ -298,7 +298,7 @@ fn current_and_stale_programs_of_posts_are_known() {
 /// Where nobody says what the words of a post mean, its programs are compared byte for byte.
 #[test]
 fn a_program_that_cannot_be_read_is_compared_as_it_is() {
-    let post = "<PostProcessor><PostFile>(anna)\n{$mops}</PostFile></PostProcessor>";
+    let post = "<PostProcessor><PostFile>(anna)\n{$mops}\n{$footer}</PostFile></PostProcessor>";
     let place = library("").file("my.cbpp", post);
     assert_eq!(place.run("emit 1234.1P --post my.cbpp").status, Some(0));
     let check = |place: &Place, dialect: &str| {

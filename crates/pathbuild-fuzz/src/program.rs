@@ -15,7 +15,7 @@ pub(crate) fn post(data: &[u8]) {
     for file in ["post.cbpp", "post.toml"] {
         let Ok(post) = Post::read(data, Utf8Path::new(file)) else { continue };
         let steps = interpret(PROGRAM, Dialect::Native, &Options::default()).steps;
-        if let Ok(job) = Job::from_steps("1001", &steps, &native_remark) {
+        if let Ok(job) = Job::from_steps("1001", &steps, Dialect::Native, &native_remark) {
             _ = post.write(&job, &PostOptions::default());
         }
     }
@@ -34,7 +34,7 @@ pub(crate) fn gcode(data: &[u8]) {
     Summary::of(&result.steps, dialect == Dialect::Xpertmill);
     let machine = Kinematics { rates: [3000.0; 3], accelerations: [200.0; 3], junction_deviation: 0.01 };
     assert!(seconds(&result.steps, &machine) >= 0.0, "a program takes less than no time");
-    if let Ok(job) = Job::from_steps("1001", &result.steps, &native_remark)
+    if let Ok(job) = Job::from_steps("1001", &result.steps, dialect, &native_remark)
         && let Ok(post) = pathbuild_post::load("linuxcnc")
     {
         _ = post.write(&job, &PostOptions::default());

@@ -75,7 +75,7 @@ fn cuts(read: &Interpretation) -> Vec<Cut> {
     let mut cuts = Vec::new();
     for step in &read.steps {
         match &step.action {
-            Action::ChangeTool(number) => (layer, speed) = (*number, 0.0),
+            Action::ChangeTool(number) => (layer, speed) = (number.unwrap_or(0), 0.0),
             Action::Spindle(spindle) => speed = spindle.speed,
             Action::Move(it) => {
                 if let Pace::Feed(feed) = it.pace {

@@ -132,7 +132,7 @@ impl Post {
                 let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
-                output.note_switches(definition, job, options.spin_up);
+                output.note_switches(&written.switches, job, options.spin_up);
                 written.shadow
             }
         };
@@ -206,8 +206,14 @@ impl Post {
         }
         match job.operations.iter().find(stands).filter(|_| options.needs_speed && is_switched) {
             Some(operation) => {
-                let diagnostic = Diagnostic::new(&posts::SPINDLE_UNKNOWN).with("operation", &*operation.name);
-                Err(Box::new(diagnostic.with("diameter", operation.tool.diameter)))
+                let tool = &operation.tool;
+                let diagnostic = match tool {
+                    _ if !tool.is_named => Diagnostic::new(&posts::SPINDLE_UNSTATED),
+                    _ if tool.diameter == 0.0 => Diagnostic::new(&posts::SPINDLE_UNKNOWN_OF_NUMBER)
+                        .with("index", u64::from(tool.index)),
+                    _ => Diagnostic::new(&posts::SPINDLE_UNKNOWN).with("diameter", tool.diameter),
+                };
+                Err(Box::new(diagnostic.with("operation", &*operation.name)))
             }
             None => Ok(()),
         }
@@ -285,21 +291,22 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 }
 
 impl Output {
-    /// Tells what the job switches and the texts do not.
-    fn note_switches(&mut self, definition: &cad6::Definition, job: &Job, spin_up: f64) {
+    /// Tells what the job switches and the texts that were called do not. `switches`: the variables of switches in them.
+    fn note_switches(&mut self, switches: &[&str], job: &Job, spin_up: f64) {
         let cools =
             job.operations.iter().any(|it| matches!(it.coolant, Some(Coolant::Flood | Coolant::Mist)));
         let turns = job
             .operations
             .iter()
             .any(|it| matches!(it.spindle, Some(Spindle::Clockwise | Spindle::CounterClockwise)));
-        if cools && !definition.uses("ToolControl1") && !definition.uses("ToolControl2") {
+        let uses = |variable| switches.contains(&variable);
+        if cools && !uses("ToolControl1") && !uses("ToolControl2") {
             self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
         }
-        if turns && spin_up > 0.0 && definition.uses("MillingSpindleDir") && !definition.uses("SpinUpTime") {
+        if turns && spin_up > 0.0 && uses("MillingSpindleDir") && !uses("SpinUpTime") {
             self.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "~SpinUpTime~");
         }
-        if turns && !definition.uses("MillingSpindleDir") {
+        if turns && !uses("MillingSpindleDir") {
             self.note(&posts::SPINDLE_NOT_WRITTEN, "macro", "~MillingSpindleDir~");
         }
     }

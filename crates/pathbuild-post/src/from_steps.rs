@@ -5,6 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use super::job::{Coolant, Entry, Job, Operation, Plane, Spindle, Tool, describe};
 use super::recognise;
 use super::step::{Arc, Hole, Position, Step};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Action, Axes, Move, Pace, Path, Turning};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
@@ -39,18 +40,20 @@ pub fn is_of_head(text: &str) -> bool {
 }
 
 impl Job {
-    /// The steps of a program that was read. Operations begin where the tool, the spindle or the coolant changes, and where `remark`
-    /// says so. Several moves of one line are taken for a drilled hole where they are one. The upper face of the material is taken to
-    /// be at Z 0, as a program does not say where it is: see [`set_surface`](Self::set_surface).
+    /// The steps of a program that was read in a dialect. Operations begin where the tool, the spindle or the coolant changes, and where
+    /// `remark` says so. Several moves of one line are taken for a drilled hole where they are one. The upper face of the material is
+    /// taken to be at Z 0, as a program does not say where it is: see [`set_surface`](Self::set_surface).
     ///
     /// # Errors
-    /// What a job cannot say: other coordinate systems, places that only the machine knows, arcs of several turns.
+    /// What a job cannot say: other coordinate systems, places that only the machine knows, cuts from or to a place that is not known,
+    /// arcs of several turns.
     pub fn from_steps(
         name: &str,
         steps: &[interpret::Step],
+        dialect: Dialect,
         remark: &dyn Fn(&str) -> Remark<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let mut builder = Builder::new(name, steps);
+        let mut builder = Builder::new(name, steps, dialect);
         let mut rest = steps;
         // A line of which the beginning is no hole has none further on either.
         let mut plain_line = None;
@@ -76,7 +79,8 @@ impl Job {
 /// What the machine is set to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct State {
-    tool: u32,
+    /// `None`: the program has named none.
+    tool: Option<u32>,
     spindle: Option<Spindle>,
     speed: Option<f64>,
     coolant: Option<Coolant>,
@@ -88,6 +92,12 @@ struct Builder {
     state: State,
     /// M6 changes tools; in programs without it, T does.
     has_tool_changes: bool,
+    /// XpertMILL: tools are layers, the first of which holds from the beginning, and S alone makes the spindle turn.
+    has_layers: bool,
+    /// The line that changed to a tool without a number.
+    unnamed_change: Option<u32>,
+    /// The tool was changed below the clearance plane, and no move has changed its height since.
+    was_changed_low: bool,
     at: interpret::Position,
     clearance: f64,
     /// The last operation has cut something.
@@ -96,25 +106,33 @@ struct Builder {
     names: Vec<Box<str>>,
     /// The last operation is over.
     has_ended: bool,
+    /// The last move probed: where it stopped only the machine knows.
+    has_probed: bool,
     errors: Vec<Diagnostic>,
 }
 
 impl Builder {
-    fn new(name: &str, steps: &[interpret::Step]) -> Self {
+    fn new(name: &str, steps: &[interpret::Step], dialect: Dialect) -> Self {
+        let has_layers = dialect.rules().layers;
         let rapids =
             steps.iter().filter_map(interpret::Step::as_move).filter(|(_, it)| it.pace == Pace::Rapid);
         let heights =
             rapids.filter(|(_, it)| it.to.known.has(Axes::Z) && it.named.is_none()).map(|(_, it)| it.to.z());
-        let state = State { tool: 0, spindle: None, speed: None, coolant: None, plane: Plane::Xy };
+        let tool = has_layers.then_some(1);
+        let state = State { tool, spindle: None, speed: None, coolant: None, plane: Plane::Xy };
         Self {
             job: Job { name: name.into(), ..Job::default() },
             state,
             has_tool_changes: steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_))),
+            has_layers,
+            unnamed_change: None,
+            was_changed_low: false,
             at: interpret::Position::default(),
             clearance: heights.reduce(f64::max).unwrap_or(0.0),
             has_cut: false,
             names: Vec::new(),
             has_ended: false,
+            has_probed: false,
             errors: Vec::new(),
         }
     }
@@ -123,8 +141,8 @@ impl Builder {
         match &step.action {
             Action::Move(it) => self.go(step.line, it),
             Action::Dwell(seconds) => self.push(Step::Dwell { seconds: *seconds }),
-            Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(*tool),
-            Action::ChangeTool(tool) => self.change_tool(*tool),
+            Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(step.line, Some(*tool)),
+            Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
             Action::Spindle(spindle) => self.set_spindle(spindle),
             Action::Coolant(coolant) => self.set_coolant(*coolant),
             Action::System(system) if *system != interpret::WorkSystem::default() => {
@@ -147,13 +165,16 @@ impl Builder {
         }
     }
 
+    /// Reports the first line of each kind: what follows is mostly a consequence.
     fn refuse(&mut self, line: u32, message: &'static pathbuild_diagnostic::Message) {
-        self.errors.push(Diagnostic::new(message).at_line(line, None));
+        if self.errors.iter().all(|error| error.message != message) {
+            self.errors.push(Diagnostic::new(message).at_line(line, None));
+        }
     }
 
     /// Begins an operation where the tool is. One that has cut nothing yet gives way to it.
     fn begin(&mut self, name: &str) {
-        let mut operation = Operation::new(name, Tool::new(self.state.tool, 0.0, ""));
+        let mut operation = Operation::new(name, numbered(self.state.tool));
         operation.part.clone_from(&self.job.name);
         if !self.has_cut {
             let idle = self.job.operations.pop();
@@ -175,7 +196,7 @@ impl Builder {
     fn update(&mut self) {
         let State { tool, spindle, speed, coolant, plane } = self.state;
         if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
-            operation.tool.index = tool;
+            operation.tool = numbered(tool);
             operation.spindle = spindle;
             operation.speed = speed;
             operation.coolant = coolant;
@@ -193,10 +214,13 @@ impl Builder {
 
     /// The operation for a cut: a new one when the machine was set otherwise since the last cut.
     fn cutting(&mut self) -> &mut Operation {
+        if let Some(change) = self.unnamed_change.take() {
+            self.refuse(change, &posts::JOB_TOOL_UNNAMED);
+        }
         let State { tool, spindle, speed, coolant, plane } = self.state;
         let is_same = |last: &Operation| {
             let set = (last.tool.index, last.spindle, last.speed, last.coolant, last.plane);
-            set == (tool, spindle, speed, coolant, plane)
+            set == (tool.unwrap_or(0), spindle, speed, coolant, plane)
         };
         self.operation();
         if let Some(last) = self.job.operations.last().filter(|last| self.has_cut && !is_same(last)) {
@@ -212,8 +236,16 @@ impl Builder {
     }
 
     /// What was moved since the last cut was the way to the change.
-    fn change_tool(&mut self, tool: u32) {
-        self.state.tool = tool;
+    fn change_tool(&mut self, line: u32, tool: Option<u32>) {
+        // In the head, M6 without T means whatever is in the spindle; later it is a change by hand.
+        let has_cut = || self.job.operations.iter().any(Operation::cuts);
+        self.unnamed_change = (tool.is_none() && has_cut()).then_some(line);
+        let is_new = std::mem::replace(&mut self.state.tool, tool) != tool;
+        if is_new && self.has_layers {
+            // S belongs to the layer.
+            (self.state.spindle, self.state.speed) = (None, None);
+        }
+        self.was_changed_low |= is_new && self.at.known.has(Axes::Z) && self.at.z() < self.clearance;
         if self.has_cut {
             let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
             self.begin(&name);
@@ -229,6 +261,7 @@ impl Builder {
 
     fn set_spindle(&mut self, spindle: &interpret::Spindle) {
         self.state.spindle = match spindle.turning {
+            Turning::Unstated if self.has_layers => Some(Spindle::Clockwise),
             Turning::Unstated => None,
             Turning::Off => Some(Spindle::Off),
             Turning::Clockwise => Some(Spindle::Clockwise),
@@ -248,8 +281,19 @@ impl Builder {
     }
 
     fn hole(&mut self, hole: Hole) {
+        self.leave_change([Some(hole.at[0]), Some(hole.at[1])]);
         self.at = interpret::Position::known(hole.at[0], hole.at[1], hole.exit);
         self.cutting().steps.push(Step::Hole(hole));
+    }
+
+    /// Behind a change of tools the program goes on above a place in the plane: the new tool does not return to where the old one ended.
+    fn leave_change(&mut self, [x, y]: [Option<f64>; 2]) {
+        if !std::mem::take(&mut self.was_changed_low) {
+            return;
+        }
+        let operation = self.operation();
+        operation.entry = Entry::Clearance;
+        operation.steps.push(Step::Rapid { to: [x, y, None].into() });
     }
 
     fn go(&mut self, line: u32, it: &Move) {
@@ -271,10 +315,18 @@ impl Builder {
             _ => return self.refuse(line, &posts::JOB_MOVE),
         };
         if it.pace == Pace::Rapid {
+            if it.to.z() != it.from.z() {
+                self.leave_change([to.x, to.y]);
+            }
             self.push(step);
         } else {
+            if !is_known(it, self.has_probed) {
+                return self.refuse(line, &posts::JOB_PLACE_UNKNOWN);
+            }
+            self.was_changed_low = false;
             self.cutting().steps.push(step);
         }
+        self.has_probed = matches!(it.pace, Pace::Probe { .. });
         self.at = it.to;
     }
 
@@ -308,6 +360,16 @@ impl Job {
 /// Whether a step is none of those that only lead somewhere.
 fn is_no_way(step: &Step) -> bool {
     !matches!(step, Step::Rapid { .. })
+}
+
+/// The tool of a number; `None` before the program names one.
+fn numbered(tool: Option<u32>) -> Tool {
+    tool.map_or_else(Tool::unnamed, |index| Tool::new(index, 0.0, ""))
+}
+
+/// Whether a cut leads from a known place to a known one.
+fn is_known(it: &Move, has_probed: bool) -> bool {
+    it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed)
 }
 
 fn plane_of(plane: interpret::Plane) -> Plane {

@@ -36,12 +36,31 @@ impl Job {
         if self.operations.is_empty() {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
         }
-        match self.operations.iter().find(|operation| !operation.is_finite()) {
-            Some(broken) => {
-                Err(Box::new(Diagnostic::new(&posts::JOB_NOT_FINITE).with("operation", &*broken.name)))
-            }
-            None => Ok(()),
+        if let Some(broken) = self.operations.iter().find(|operation| !operation.is_finite()) {
+            return Err(Box::new(Diagnostic::new(&posts::JOB_NOT_FINITE).with("operation", &*broken.name)));
         }
+        self.check_changes()
+    }
+
+    /// A tool that was just put in never goes down to where the tool before it ended.
+    fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
+        let mut before = None;
+        for operation in &self.operations {
+            let is_new = before != Some(operation.tool.index);
+            before = Some(operation.tool.index);
+            match operation.entry {
+                Entry::At([.., z])
+                    if is_new && z < operation.surface.min(operation.clearance) && operation.cuts() =>
+                {
+                    let diagnostic =
+                        Diagnostic::new(&posts::CUT_AFTER_CHANGE).with("operation", &*operation.name);
+                    let diagnostic = diagnostic.with("z", z).with("surface", operation.surface);
+                    return Err(Box::new(diagnostic.with("index", u64::from(operation.tool.index))));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// The feeds of each operation, else any: an operation may have none.
@@ -60,6 +79,22 @@ impl Job {
     pub(super) fn lowest_surface(&self) -> Option<f64> {
         let surfaces = self.operations.iter().map(|operation| operation.surface);
         surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
+    }
+
+    /// Gives the cuts of a program that was read without feeds this one, in mm/min: those of XpertMILL's layers are in no file.
+    pub fn set_missing_feeds(&mut self, feed: f64) {
+        for operation in &mut self.operations {
+            for step in &mut operation.steps {
+                match step {
+                    Step::Feed { feed: own, .. } | Step::Probe { feed: own, .. } => {
+                        _ = own.get_or_insert(feed)
+                    }
+                    Step::Arc(arc) => _ = arc.feed.get_or_insert(feed),
+                    Step::Hole(hole) => _ = hole.feed.get_or_insert(feed),
+                    Step::Rapid { .. } | Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
+                }
+            }
+        }
     }
 
     /// The tools in order of first use, each once.
@@ -235,6 +270,8 @@ impl Operation {
 pub struct Tool {
     /// The number in T words.
     pub index: u32,
+    /// The program says which tool it is. One that does not is written without a change of tools.
+    pub is_named: bool,
     /// O in mm.
     pub diameter: f64,
     /// The name in the tool table.
@@ -256,6 +293,7 @@ impl Tool {
     pub fn new(index: u32, diameter: f64, name: &str) -> Self {
         Self {
             index,
+            is_named: true,
             diameter,
             name: name.into(),
             radius: 0.0,
@@ -264,6 +302,11 @@ impl Tool {
             comment: "".into(),
             vee_angle: None,
         }
+    }
+
+    /// The tool of a program that names none.
+    pub fn unnamed() -> Self {
+        Self { is_named: false, ..Self::new(0, 0.0, "") }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Diagnostic, Note, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
@@ -54,7 +54,13 @@ fn broken_rules(steps: &[interpret::Step], job: &Job, machine: Option<&Machine>)
         rules.step(step);
     }
     let mut broken = rules.finish();
-    broken.retain(Diagnostic::is_error);
+    broken.retain_mut(|problem| {
+        // What is only doubtful in a program of somebody else's is wrong in one that is about to be written.
+        if problem.message == &gcode::SPINDLE_LEFT_ON {
+            problem.severity = Severity::Error;
+        }
+        problem.is_error()
+    });
     broken
 }
 
@@ -84,8 +90,8 @@ fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
 }
 
 fn as_post_s(found: Diagnostic) -> Diagnostic {
-    if found.message.code == gcode::MOVES_MISSING.code && found.place.line.is_none() {
-        return Diagnostic::new(&posts::MOVES_LOST);
+    if found.message.code == posts::POST_DIFFERS.code && found.place.line.is_none() {
+        return found;
     }
     let line = u64::from(found.place.line.unwrap_or(0));
     let mut diagnostic = Diagnostic::new(&posts::POST_DIFFERS).with("line", line);

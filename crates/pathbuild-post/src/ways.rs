@@ -8,7 +8,8 @@ mod tests;
 
 use std::collections::HashSet;
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Value, Word};
 use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -24,6 +25,9 @@ pub(crate) fn check(
     clearance: f64,
     tolerance: &Tolerance,
 ) -> Checked<()> {
+    if let Some(blind) = blind_cut(expected) {
+        return Err(Box::new(Diagnostic::new(&posts::CUT_AT_UNKNOWN_PLACE).with("step", u64::from(blind))));
+    }
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut has_cut = false;
@@ -39,6 +43,20 @@ pub(crate) fn check(
         expected = rest;
         has_cut = true;
     }
+}
+
+/// The number of the first cut that leads from or to a place that is not known: nothing could be compared with it. Where a probe stopped
+/// is known to the machine alone; the way back from there is compared by its end.
+fn blind_cut(moves: Moves<'_>) -> Option<u32> {
+    let mut has_probed = false;
+    for (number, it) in moves {
+        let is_known = it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed);
+        if !is_rapid(it) && !is_known {
+            return Some(*number);
+        }
+        has_probed = matches!(it.pace, Pace::Probe { .. });
+    }
+    None
 }
 
 fn is_rapid(it: &Move) -> bool {
@@ -81,15 +99,66 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 
 /// How many of the moves at the beginning make these cuts.
 fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
-    let (run, _) = split(found, |it| !is_rapid(it));
+    // A move to an unknown place is none of the job's cuts; whether it may be a way is for the check of ways to say.
+    let (run, _) = split(found, |it| !is_rapid(it) && it.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
         None => Ok(run.len()),
         // What comes after them may be a way that the post goes by feed.
         Some(Difference { found: Some(next), expected: None, .. }) => {
             Ok(run.iter().position(|it| *it == next).unwrap_or(run.len()))
         }
-        Some(difference) => Err(Box::new(difference.diagnostic())),
+        Some(difference) => Err(Box::new(said(&difference))),
     }
+}
+
+/// What is said of a difference: the program that the text is held against has no lines.
+fn said(difference: &Difference) -> Diagnostic {
+    let said = match (&difference.found, &difference.expected) {
+        (Some((_, found)), Some((_, expected))) => match difference.kind {
+            DifferenceKind::Place if place(found) == place(expected) => {
+                Diagnostic::new(&posts::GOES_ANOTHER_WAY).with("place", place(found))
+            }
+            DifferenceKind::Place => Diagnostic::new(&posts::GOES_ELSEWHERE)
+                .with("found", place(found))
+                .with("expected", place(expected)),
+            DifferenceKind::Shape => Diagnostic::new(&posts::GOES_ANOTHER_WAY).with("place", place(found)),
+            DifferenceKind::Pace => Diagnostic::new(&posts::GOES_AT_ANOTHER_PACE)
+                .with("found", found.pace.word())
+                .with("expected", expected.pace.word()),
+            DifferenceKind::Feed => Diagnostic::new(&posts::GOES_WITH_ANOTHER_FEED)
+                .with("found", found.pace.feed().unwrap_or(0.0))
+                .with("expected", expected.pace.feed().unwrap_or(0.0)),
+        },
+        (Some((_, found)), None) => {
+            Diagnostic::new(&posts::GOES_TOO_FAR).with("found", found.pace.word()).with("place", place(found))
+        }
+        (None, _) => Diagnostic::new(&posts::MOVES_LOST),
+    };
+    match difference.found {
+        Some((line, _)) => said.at_line(line, None),
+        None => said,
+    }
+}
+
+/// A cut behind the last one.
+fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
+    let found = Some(cut);
+    Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected: None }))
+}
+
+/// Where a move ends. Axes that are not known are left out.
+fn place(it: &Move) -> Value {
+    place_of(&it.to)
+}
+
+fn place_of(at: &Position) -> Value {
+    let known = (0..3).filter(|axis| at.known.has(Axes::of(*axis)));
+    let axis = |axis: usize| format!("{}{:.3}", ["X", "Y", "Z"][axis], at.at[axis]);
+    let known: Vec<String> = known.map(axis).collect();
+    if known.is_empty() {
+        return Value::Word(&Word { en: "an unknown place", de: "einem unbekannten Ort" });
+    }
+    known.join(" ").into()
 }
 
 /// The job's rapid moves between two cuts.
@@ -148,7 +217,7 @@ impl<'m> Way<'m> {
 
     fn difference(&self, found: Option<(u32, Move)>, expected: Option<(u32, Move)>) -> Box<Diagnostic> {
         let expected = expected.or_else(|| self.expected.last().copied());
-        Box::new(Difference { kind: DifferenceKind::Place, found, expected }.diagnostic())
+        Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected }))
     }
 
     /// Whether moves touch nothing that the job does not.
@@ -165,7 +234,7 @@ impl<'m> Way<'m> {
                 }
             };
             if !is_fine {
-                return Err(self.difference(Some((line, it)), None));
+                return Err(self.not_free(line, &it));
             }
             // Behind a move to a place of the machine its height is not known, but above everything.
             is_home = !it.to.known.has(Axes::Z) && (it.named.is_some() || is_home);
@@ -173,12 +242,22 @@ impl<'m> Way<'m> {
         Ok(())
     }
 
-    /// Behind the last cut: no more cuts, and the tool ends as high as in the job.
+    /// A move between two cuts that the job does not make, and that may meet material.
+    fn not_free(&self, line: u32, it: &Move) -> Box<Diagnostic> {
+        if !is_rapid(it) && self.expected.is_empty() {
+            return too_far((line, *it));
+        }
+        let diagnostic = Diagnostic::new(&posts::WAY_NOT_FREE).with("found", it.pace.word());
+        let diagnostic = diagnostic.with("from", place_of(&it.from)).with("to", place(it));
+        Box::new(diagnostic.at_line(line, None))
+    }
+
+    /// Behind the last cut: no more cuts, and the tool ends as high as in the job. A rapid of the job may be written as a feed, as between
+    /// two cuts.
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
-        if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it)) {
-            return Err(Box::new(
-                Difference { kind: DifferenceKind::Place, found: Some(*cut), expected: None }.diagnostic(),
-            ));
+        let is_high = |it: &Move| it.from.z().min(it.to.z()) >= self.clearance - self.slack;
+        if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it) && is_high(it)) {
+            return Err(too_far(*cut));
         }
         self.check(found)?;
         let Some((_, expected)) = self.expected.last().filter(|_| has_cut) else { return Ok(()) };

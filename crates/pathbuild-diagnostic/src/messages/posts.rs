@@ -220,6 +220,20 @@ messages! {
         help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
+    /// The same, of a program that was read, whose tool the table does not have.
+    SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
+        en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
+        de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
+        help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
+        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
+    }
+    /// The same, of a program that was read and names no tool.
+    SPINDLE_UNSTATED: MissingPostValue {
+        en: "no spindle speed is known for {operation}: the program has no S with M3 or M4, and names no tool",
+        de: "für {operation} ist keine Spindeldrehzahl bekannt: das Programm hat kein S mit M3 oder M4 und nennt kein Werkzeug",
+        help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
+        help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
+    }
     /// A second speed of one tool.
     ONE_SPEED_A_TOOL: NothingToPost {
         en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
@@ -430,6 +444,20 @@ messages! {
         help_en: "add Z to the text; for a way straight down between passes, lift-between-passes = true also does (never for T-slot cutters)",
         help_de: "Z in den Text aufnehmen; für den Weg gerade hinab zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
     }
+    /// A text for what no program has.
+    TEXT_NEVER_CALLED: InvalidControlText {
+        en: "{text} is never called: no program has what it is for",
+        de: "{text} wird nie aufgerufen: kein Programm hat, wofür er da ist",
+        help_en: "delete it, so that nobody takes what it writes for granted",
+        help_de: "ihn löschen, damit niemand mit dem rechnet, was er schreibt",
+    }
+    /// A text in whose place another is called.
+    TEXT_NOT_CALLED: InvalidControlText {
+        en: "{text} is never called, because the definition has {other}",
+        de: "{text} wird nie aufgerufen, weil die Definition {other} hat",
+        help_en: "delete one of the two; what it switches (spindle, coolant) must stand in texts that are called, such as tool-change and program-end",
+        help_de: "einen der beiden löschen; was er schaltet (Spindel, Kühlung), muss in Texten stehen, die aufgerufen werden, etwa tool-change und program-end",
+    }
     /// No text at all.
     NO_TEXT_FOR: InvalidControlText {
         en: "{operation} needs the text {text}, which the post does not have",
@@ -477,6 +505,43 @@ messages! {
         help_en: "look at the post's texts for moves; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
         help_de: "die Texte für Bewegungen im Postprozessor ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
+    /// A cut of the program that is written, which nothing can be compared with.
+    CUT_AT_UNKNOWN_PLACE: PostDiffers {
+        en: "step {step} of the program cuts from or to a place that is not known",
+        de: "Schritt {step} des Programms fräst von oder zu einem unbekannten Ort",
+        help_en: "begin the program with absolute moves in Z, X and Y",
+        help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
+    }
+    /// A note: another end.
+    GOES_ELSEWHERE: PostDiffers {
+        en: "here the tool goes to {found}, in the program to {expected}",
+        de: "hier fährt das Werkzeug nach {found}, im Programm nach {expected}",
+    }
+    /// A note: the same end by another way.
+    GOES_ANOTHER_WAY: PostDiffers {
+        en: "the tool goes to {place} as in the program, but not by the same way",
+        de: "das Werkzeug fährt wie im Programm nach {place}, aber auf anderem Weg",
+    }
+    /// A note: rapid or not.
+    GOES_AT_ANOTHER_PACE: PostDiffers {
+        en: "this is {found}, in the program it is {expected}",
+        de: "das ist {found}, im Programm {expected}",
+    }
+    /// A note: F.
+    GOES_WITH_ANOTHER_FEED: PostDiffers {
+        en: "the feed is {found} here and {expected} in the program",
+        de: "der Vorschub ist hier {found}, im Programm {expected}",
+    }
+    /// A note: it goes on behind the last cut.
+    GOES_TOO_FAR: PostDiffers {
+        en: "this is {found} to {place}, but the program has made its last cut",
+        de: "das ist {found} nach {place}, aber das Programm hat seinen letzten Schnitt schon gemacht",
+    }
+    /// A note: a way between two cuts.
+    WAY_NOT_FREE: PostDiffers {
+        en: "this is {found} from {from} to {to}; between these two cuts the program does not go there, or only higher up",
+        de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten fährt das Programm dort nicht oder nur weiter oben",
+    }
     /// What is wrong is in a file that there will not be.
     IN_OUTPUT: PostDiffers {
         en: "in line {line} of the output",
@@ -486,6 +551,27 @@ messages! {
     JOB_SYSTEM: NothingToPost {
         en: "a program in several coordinate systems cannot be written through a post",
         de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
+    }
+    /// Cuts before the position is known, as by G91 from wherever the tool stands.
+    JOB_PLACE_UNKNOWN: NothingToPost {
+        en: "a cut from or to a place that is not known cannot be written through a post",
+        de: "einen Schnitt von oder zu einem unbekannten Ort kann kein Postprozessor schreiben",
+        help_en: "before its first cut the program must go to X, Y and Z once by absolute coordinates (G90)",
+        help_de: "vor seinem ersten Schnitt muss das Programm X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
+    }
+    /// M6 without T in mid-program.
+    JOB_TOOL_UNNAMED: NothingToPost {
+        en: "the tool is changed here, but the program does not say to which one",
+        de: "hier wird das Werkzeug gewechselt, aber das Programm sagt nicht, welches kommt",
+        help_en: "put T and the tool's number in front of M6",
+        help_de: "T und die Nummer des Werkzeugs vor M6 setzen",
+    }
+    /// A plunge with a new tool to where the old one ended.
+    CUT_AFTER_CHANGE: NothingToPost {
+        en: "{operation} goes on at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
+        de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug tauchte ein, wo das alte aufhörte",
+        help_en: "put a rapid move to a place above the material between the tool change and the next cut",
+        help_de: "zwischen Werkzeugwechsel und nächstem Schnitt eine Eilgangbewegung über das Material setzen",
     }
     /// G28, G30, G53.
     JOB_NAMED_PLACE: NothingToPost {

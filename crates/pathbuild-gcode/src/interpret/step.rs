@@ -1,5 +1,7 @@
 //! The canonical steps that a program consists of.
 
+use pathbuild_diagnostic::Word;
+
 use super::codes::{Plane, WorkSystem};
 
 /// One thing that the machine does, and the line that makes it.
@@ -30,8 +32,8 @@ pub enum Action {
     Dwell(f64),
     /// T: this tool is wanted next.
     SelectTool(u32),
-    /// M6: this tool is put in; of XpertMILL, the moves go to this layer.
-    ChangeTool(u32),
+    /// M6: this tool is put in, `None` where no T has named any; of XpertMILL, the moves go to this layer.
+    ChangeTool(Option<u32>),
     /// The spindle from here on.
     Spindle(Spindle),
     /// The coolant from here on.
@@ -184,6 +186,15 @@ impl Pace {
         match self {
             Self::Rapid => None,
             Self::Feed(feed) | Self::Probe { feed, .. } => Some(feed),
+        }
+    }
+
+    /// What a move at this pace is called in messages.
+    pub fn word(self) -> &'static Word {
+        match self {
+            Self::Rapid => &Word { en: "a rapid move", de: "eine Eilgangbewegung" },
+            Self::Feed(_) => &Word { en: "a cutting move", de: "eine Fräsbewegung" },
+            Self::Probe { .. } => &Word { en: "a probing move", de: "eine Messbewegung" },
         }
     }
 }

@@ -38,12 +38,11 @@ impl Interpreter<'_> {
                 d.with("word", "M6").with("missing", "the number of a layer")
             });
         }
-        let tool = self.state.tool.unwrap_or(0);
         if self.rules.layers {
-            self.state.layer = tool;
+            self.state.layer = self.state.tool.unwrap_or(0);
             self.state.layer_speed = None;
         }
-        self.step(block, Action::ChangeTool(tool));
+        self.step(block, Action::ChangeTool(self.state.tool));
         let is_turning = matches!(self.state.spindle.turning, Turning::Clockwise | Turning::Counterclockwise);
         if is_turning && !self.rules.layers {
             self.state.spindle.turning = Turning::Off;

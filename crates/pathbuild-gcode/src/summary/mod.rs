@@ -91,7 +91,7 @@ impl Collector {
             Action::Dwell(seconds) => self.summary.dwell += seconds,
             Action::SelectTool(tool) if !self.has_changes => self.tool = Some(*tool),
             Action::ChangeTool(tool) => {
-                self.tool = Some(*tool);
+                self.tool = Some(tool.unwrap_or(0));
                 self.summary.tool_changes += 1;
                 if self.layers {
                     self.spindle.speed = 0.0;

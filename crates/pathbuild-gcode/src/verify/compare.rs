@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Word};
+use pathbuild_diagnostic::{Diagnostic, Message};
 
 use super::walk::{Stretch, Walker, are_alike};
 use crate::interpret::{Axes, Course, Move, Pace, Path, Position};
@@ -143,8 +143,8 @@ impl Difference {
                     .with("expected", place(&expected.to)),
                 DifferenceKind::Shape => drawn(&say::DRAWN_OTHERWISE),
                 DifferenceKind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
-                    .with("found", pace(found))
-                    .with("expected", pace(expected)),
+                    .with("found", found.pace.word())
+                    .with("expected", expected.pace.word()),
                 DifferenceKind::Feed => drawn(&say::DRAWN_WITH_ANOTHER_FEED)
                     .with("found", found.pace.feed().unwrap_or(0.0))
                     .with("expected", expected.pace.feed().unwrap_or(0.0)),
@@ -167,9 +167,9 @@ fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) ->
             said(&say::PATHS_DIFFER).with("found", place(&found.1.to)).with("expected", place(&expected.1.to))
         }
         DifferenceKind::Shape => said(&say::SHAPES_DIFFER),
-        DifferenceKind::Pace => {
-            said(&say::KINDS_DIFFER).with("found", pace(&found.1)).with("expected", pace(&expected.1))
-        }
+        DifferenceKind::Pace => said(&say::KINDS_DIFFER)
+            .with("found", found.1.pace.word())
+            .with("expected", expected.1.pace.word()),
         DifferenceKind::Feed => {
             let feed = |it: &Move| it.pace.feed().unwrap_or(0.0);
             said(&say::FEEDS_DIFFER).with("found", feed(&found.1)).with("expected", feed(&expected.1))
@@ -179,14 +179,6 @@ fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) ->
 
 fn place(at: &Position) -> String {
     format!("X{:.3} Y{:.3} Z{:.3}", at.x(), at.y(), at.z())
-}
-
-fn pace(it: &Move) -> &'static Word {
-    match it.pace {
-        Pace::Rapid => &Word { en: "a rapid move", de: "eine Eilgangbewegung" },
-        Pace::Feed(_) => &Word { en: "a cutting move", de: "eine Fräsbewegung" },
-        Pace::Probe { .. } => &Word { en: "a probing move", de: "eine Messbewegung" },
-    }
 }
 
 fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {

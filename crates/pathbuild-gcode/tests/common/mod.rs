@@ -82,7 +82,7 @@ fn step_text(step: &Step) -> String {
         Action::Move(it) => move_text(it),
         Action::Dwell(seconds) => format!("dwell {seconds}"),
         Action::SelectTool(tool) => format!("select {tool}"),
-        Action::ChangeTool(tool) => format!("tool {tool}"),
+        Action::ChangeTool(tool) => format!("tool {}", tool.unwrap_or(0)),
         Action::Spindle(spindle) => format!("spindle {:?} {}", spindle.turning, spindle.speed),
         Action::Coolant(coolant) => format!("coolant mist={} flood={}", coolant.mist, coolant.flood),
         Action::System(system) => format!("system {}", system.name()),

@@ -118,7 +118,7 @@ pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
             }
         }),
         Action::Dwell(seconds) => Some(Call::Dwell(*seconds)),
-        Action::ChangeTool(tool) => Some(Call::Tool(i64::from(*tool))),
+        Action::ChangeTool(tool) => Some(Call::Tool(i64::from(tool.unwrap_or(0)))),
         _ => None,
     });
     without_standing(calls.collect())

@@ -94,6 +94,10 @@ impl<'a> Builder<'a> {
             index > 0 && self.job.operations[index - 1].tool.index != self.job.operations[index].tool.index;
         if is_new_tool {
             self.close()?;
+            if self.job.operations[index].entry == Entry::Clearance {
+                let [x, y, z] = self.end();
+                self.rapid([x, y, self.present().clearance.max(z)]);
+            }
         }
         self.index = index;
         self.enter();

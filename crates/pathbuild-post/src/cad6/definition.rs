@@ -65,9 +65,15 @@ impl Definition {
 
     /// Whether a text uses a variable, under its own name or another.
     pub(crate) fn uses(&self, variable: &str) -> bool {
+        self.uses_in(ControlTextKind::ALL, variable)
+    }
+
+    /// The same, of some texts.
+    pub(super) fn uses_in(&self, kinds: &[ControlTextKind], variable: &str) -> bool {
         let others = self.aliases.iter().filter(|(_, ours)| **ours == *variable).map(|(theirs, _)| &**theirs);
         let names: Vec<&str> = others.chain([variable]).collect();
-        self.texts.iter().flatten().any(|text| names.iter().any(|name| text.text.contains(name)))
+        let texts = kinds.iter().filter_map(|kind| self.text(*kind));
+        texts.into_iter().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
     /// Whether only changes of tools have the spindle's speed.
@@ -107,10 +113,32 @@ impl Definition {
         self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
     }
 
+    /// Why no program calls a text; `None` where one may.
+    pub(super) fn called_instead(&self, kind: ControlTextKind) -> Option<Uncalled> {
+        let instead = |other| self.text(other).map(|_| Uncalled::Instead(other));
+        match kind {
+            ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd => {
+                Some(Uncalled::Never)
+            }
+            ControlTextKind::ContourStart | ControlTextKind::ContourEnd => instead(ControlTextKind::Rapid),
+            ControlTextKind::Point => instead(ControlTextKind::Cycle),
+            _ => None,
+        }
+    }
+
     /// Every control text.
     pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
         ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
+}
+
+/// Why no program calls a text.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Uncalled {
+    /// No program has what it is for.
+    Never,
+    /// The definition has this text, which is called in its place.
+    Instead(ControlTextKind),
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;

@@ -4,49 +4,21 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
 use super::control_text::{ControlText, ControlTextKind};
-use super::definition::Definition;
+use super::definition::{Definition, Uncalled};
 use super::expand::next_variable;
-use super::fault::Fault;
 use super::report::locate;
 use super::variables::{KNOWN, TEXTS};
 
-/// The doubts about a definition, and what is broken in texts that no program calls: nobody else would say it.
+/// The doubts about a definition, and the texts in it that no program calls: what they switch would never be switched.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
-    let uncalled = |kind| {
-        matches!(
-            kind,
-            ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd
-        )
-    };
-    let broken = definition.texts().filter(|(kind, _)| uncalled(*kind));
-    let broken = broken.filter_map(|(kind, text)| {
-        let fault = fault(&text.text)?;
-        Some(locate(fault.diagnostic, kind, text, fault.span, file))
+    let uncalled = definition.texts().filter_map(|(kind, text)| {
+        let diagnostic = match definition.called_instead(kind)? {
+            Uncalled::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
+            Uncalled::Instead(other) => Diagnostic::new(&posts::TEXT_NOT_CALLED).with("other", other.name()),
+        };
+        Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
     });
-    definition.texts().flat_map(|(kind, text)| of_text(kind, text, file)).chain(broken).collect()
-}
-
-/// A variable or a brace that is not closed.
-fn fault(text: &str) -> Option<Box<Fault>> {
-    let mut rest = text;
-    loop {
-        match next_variable(rest) {
-            Ok(Some((_, _, after))) => rest = after,
-            Ok(None) => break,
-            Err(fault) => return Some(fault.shifted(text.len() - rest.len())),
-        }
-    }
-    let mut open = Vec::new();
-    let mut characters = text.char_indices();
-    while let Some((at, c)) = characters.next() {
-        match c {
-            '\\' => _ = characters.next(),
-            '{' => open.push(at),
-            '}' if open.pop().is_none() => return Some(Fault::new(&posts::LONE_BRACE, at..at + 1)),
-            _ => {}
-        }
-    }
-    open.pop().map(|at| Fault::new(&posts::OPEN_BRACE, at..at + 1))
+    definition.texts().flat_map(|(kind, text)| of_text(kind, text, file)).chain(uncalled).collect()
 }
 
 fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {

@@ -46,7 +46,12 @@ pub(super) struct Written {
     pub(super) shadow: String,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
+    /// The variables of switches that the texts have which were called.
+    pub(super) switches: Vec<&'static str>,
 }
+
+/// The variables that say what spindle and coolant do.
+const SWITCHES: &[&str] = &["ToolControl1", "ToolControl2", "MillingSpindleDir", "SpinUpTime"];
 
 /// Writes a job that has operations.
 pub(super) fn write(
@@ -58,10 +63,12 @@ pub(super) fn write(
 ) -> Result<Written, Vec<Diagnostic>> {
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
-    program::run(job, options, &mut runner).map_err(|error| vec![*error])?;
+    program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
+    let called = runner.called();
+    let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
     let (text, warnings) = runner.finish();
     let shadow = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(Written { text, shadow, warnings })
+    Ok(Written { text, shadow, warnings, switches })
 }
 
 fn shadow(text: &[u8], units: Units) -> String {

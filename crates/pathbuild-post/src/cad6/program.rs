@@ -11,6 +11,7 @@ use super::variables::Variables;
 use crate::arcs::Polar;
 use crate::job::{Coolant, Feeds, Job, Operation, Plane, Spindle, Units};
 use crate::step::{Arc, Hole, HoleKind};
+use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
 /// Makes the calls of a job.
@@ -26,17 +27,34 @@ pub(super) struct Caller<'a, 'r> {
     contours: u32,
     elements: u32,
     unchecked: bool,
+    /// Tools are XpertMILL's layers.
+    has_layers: bool,
 }
 
 /// Runs every text that a job calls.
-pub(super) fn run<'a>(job: &'a Job, options: &PostOptions<'_>, runner: &mut Runner<'a>) -> Called {
+pub(super) fn run<'a>(
+    job: &'a Job,
+    target: Option<&Target>,
+    options: &PostOptions<'_>,
+    runner: &mut Runner<'a>,
+) -> Called {
     let calls = calls(job, runner.definition)?;
     let units = runner.definition.settings.units.unwrap_or(job.units);
     let unit = units.millimetres();
     let unchecked = options.unchecked;
     let feeds = job.feeds();
-    let mut caller =
-        Caller { job, feeds, runner, unit, at: [0.0; 3], tool: None, contours: 0, elements: 0, unchecked };
+    let mut caller = Caller {
+        job,
+        feeds,
+        runner,
+        unit,
+        at: [0.0; 3],
+        tool: None,
+        contours: 0,
+        elements: 0,
+        unchecked,
+        has_layers: target.is_some_and(|target| target.reader.rules().layers),
+    };
     caller.constants(units, options);
     caller.runner.call(ControlTextKind::ProgramStart)?;
     for remark in &job.remarks {
@@ -99,7 +117,12 @@ impl Caller<'_, '_> {
         let operation = &self.job.operations[index];
         self.text("PathName", &operation.name);
         self.text("ToolName", &operation.tool.name);
-        self.set("MachineToolNo", f64::from(operation.tool.index));
+        match operation.tool.index {
+            index if operation.tool.is_named => self.set("MachineToolNo", f64::from(index)),
+            // What is on no layer is on the first.
+            _ if self.has_layers => self.set("MachineToolNo", 1.0),
+            _ => self.runner.variables.remove("MachineToolNo"),
+        }
         self.length("ToolDiameter", operation.tool.diameter);
         self.flag("MillingSpindleDir", operation.spindle == Some(Spindle::CounterClockwise));
         match operation.speed {

@@ -43,6 +43,8 @@ pub(super) struct Runner<'a> {
     /// Bytes that the texts may still come to, files that are inserted apart.
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
+    /// The texts that were called.
+    called: Vec<ControlTextKind>,
 }
 
 impl<'a> Runner<'a> {
@@ -66,6 +68,7 @@ impl<'a> Runner<'a> {
             most_bytes,
             fuel: FUEL,
             warnings: Vec::new(),
+            called: Vec::new(),
         }
     }
 
@@ -73,6 +76,9 @@ impl<'a> Runner<'a> {
     pub(super) fn call(&mut self, kind: ControlTextKind) -> Called {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
         self.fuel += FUEL_PER_CALL;
+        if !self.called.contains(&kind) {
+            self.called.push(kind);
+        }
         for line in self.evaluate(kind, text)? {
             self.line(&line, kind)?;
         }
@@ -185,6 +191,11 @@ impl<'a> Runner<'a> {
             }
         }
         Box::new(locate(diagnostic, kind, text, span, self.file))
+    }
+
+    /// The texts that were called, each once.
+    pub(super) fn called(&self) -> &[ControlTextKind] {
+        &self.called
     }
 
     /// The content of the file.

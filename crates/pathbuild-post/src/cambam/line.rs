@@ -18,6 +18,8 @@ pub(super) struct Line {
     pub(super) turned: Vec<Register>,
     /// The motion that a macro stood for.
     pub(super) code: Option<Code>,
+    /// It asks for the number of a tool where the program names none: such a line is not written.
+    pub(super) names_no_tool: bool,
     /// Something was left out at the end of the text; whether blanks stood before it.
     gap: Option<bool>,
 }

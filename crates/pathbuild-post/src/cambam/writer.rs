@@ -8,7 +8,7 @@ use super::fuel::fuel;
 use super::line::{Line, collapse};
 use super::lines::Lines;
 use super::machine::Machine;
-use super::macros::{Block, Macro};
+use super::macros::{Block, Macro, Value};
 use super::move_values::MoveValues;
 use super::plan::{Plan, framed};
 use super::registers::{Code, Register};
@@ -155,6 +155,10 @@ impl<'a> Writer<'a> {
             Macro::Value(value) if value.is_open() && self.plan.user_macro(value.name()).is_some() => {
                 self.plan.user_macro(value.name()).map_or(Ok(()), |own| self.template(own))
             }
+            Macro::Value(Value::ToolIndex) if !self.tool.is_named => {
+                self.line.names_no_tool = true;
+                Ok(())
+            }
             Macro::Value(value) => match self.value(*value) {
                 Some(text) if value.is_text() => self.foreign(&text, value.name(), section, line),
                 Some(text) => self.text(&text),
@@ -229,7 +233,7 @@ impl<'a> Writer<'a> {
 
     fn tool_table(&mut self) -> Written {
         let present = self.tool;
-        for tool in self.plan.job.tools() {
+        for tool in self.plan.job.tools().into_iter().filter(|tool| tool.is_named) {
             self.tool = tool;
             self.section(Section::ToolTableItem)?;
             self.end_line();
@@ -239,7 +243,7 @@ impl<'a> Writer<'a> {
     }
 
     fn tool_change(&mut self, tool: &'a Tool) -> Written {
-        if self.machine.tool == Some(tool.index) {
+        if self.machine.tool == Some(tool.index) || !tool.is_named {
             return Ok(());
         }
         let present = std::mem::replace(&mut self.tool, tool);
@@ -291,7 +295,7 @@ impl<'a> Writer<'a> {
         let line = std::mem::take(&mut self.line);
         let text = collapse(&line.text);
         let is_idle = line.asked && !line.answered && self.is_motion_alone(&line.rest);
-        if text.is_empty() || is_idle {
+        if text.is_empty() || is_idle || line.names_no_tool {
             return;
         }
         let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));

@@ -77,7 +77,8 @@ fn programs() {
 fn probing_run() -> Job {
     let text = "G17 G21 G90 G94\nT1\nG0 Z15\nG0 X0 Y0\nG0 X192 Y20\nG0 Z4\nG38.3 Z0 F40\nG4 P4\nG0 Z15\nG0 X268 Y20\nG0 Z4\nG38.3 Z0 F40\nG0 Z15\nM30\n";
     let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
-    Job::from_steps("8003.1P", &steps, &native_remark).unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
+    Job::from_steps("8003.1P", &steps, Dialect::Native, &native_remark)
+        .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
 }
 
 #[test]

@@ -344,20 +344,29 @@ fn what_is_wrong_in_a_text_is_an_error() {
 }
 
 #[test]
-fn texts_that_no_program_calls_are_read_too() {
+fn texts_that_no_program_calls_are_errors() {
     let read = |text: &str| {
         let definition = format!("[text]\nprogram-start = 'a'\n{text}\n");
         Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).map(drop).map_err(|errors| texts(&errors))
     };
     for (text, expected) in [
-        ("bezier = '{{{'", "3: PB759 bezier, line 1, column 3: a statement is not closed"),
-        ("subprogram-start = 'a}'", "3: PB759 subprogram-start, line 1, column 2: this brace closes nothing"),
-        ("subprogram-end = '~X1'", "3: PB759 subprogram-end, line 1, column 1: \"~\" begins no variable"),
+        ("bezier = 'a'", "bezier is never called: no program has what it is for"),
+        ("subprogram-start = 'a'", "subprogram-start is never called: no program has what it is for"),
+        ("subprogram-end = 'a'", "subprogram-end is never called: no program has what it is for"),
+        (
+            "contour-start = 'a'\nrapid = 'b'",
+            "contour-start is never called, because the definition has rapid",
+        ),
+        ("contour-end = 'a'\nrapid = 'b'", "contour-end is never called, because the definition has rapid"),
+        ("point = 'a'\ncycle = 'b'", "point is never called, because the definition has cycle"),
     ] {
         let errors = read(text).unwrap_err();
-        assert!(errors.iter().any(|error| error.starts_with(expected)), "{text}: {errors:?}");
+        assert_eq!(errors.len(), 1, "{text}: {errors:?}");
+        assert!(errors[0].starts_with(&format!("3: PB759 {expected}")), "{text}: {errors:?}");
     }
-    for text in ["bezier = '{{1}}'", r"subprogram-end = '\{ a \\\}'", "subprogram-start = '{.~X1~}'"] {
+    for text in
+        ["bezier = ''", "contour-end = ''\nrapid = 'b'", "contour-end = 'a'\nrapid = ''", "cycle = 'b'"]
+    {
         assert_eq!(read(text), Ok(()), "{text}");
     }
 }
@@ -640,9 +649,9 @@ fn a_hole_is_a_cycle_or_a_point_or_moves() {
     let point = "point = 'point {.~X1~} Z{.~Z1~} from {.~ZWorking~} at {.~ZClearance~} Q{.~PeckDepth~} F{.~LoweringVel~}'\n";
     let with_point = format!("{CALLS}{point}");
     assert_eq!(calls(&with_point, steps.clone())[5], "point 8 Z-3 from 1 at 5 Q2 F60");
-    let with_cycle = format!("{with_point}cycle = 'cycle {{.~X1~}} {{.~PeckDepth~}}'\n");
+    let with_cycle = format!("{CALLS}cycle = 'cycle {{.~X1~}} {{.~PeckDepth~}}'\n");
     assert_eq!(calls(&with_cycle, steps.clone())[5], "cycle 8 2");
-    let without_peck = format!("{with_point}cycle = 'cycle {{.~X1~}}'\n");
+    let without_peck = format!("{CALLS}cycle = 'cycle {{.~X1~}}'\n");
     assert_eq!(
         calls(&without_peck, steps.clone())[5],
         "contour 2 X8 Y0 Z-1 from 1 at 5 F60",

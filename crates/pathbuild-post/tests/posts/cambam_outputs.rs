@@ -12,7 +12,7 @@ fn read(text: &str, name: &str) -> Job {
     let interpretation = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
     assert_eq!(interpretation.problems.iter().filter(|problem| problem.is_error()).count(), 0);
     let header: Vec<&str> = text.lines().map_while(comment).collect();
-    let job = Job::from_steps(name, &interpretation.steps, &|text| match text.trim() {
+    let job = Job::from_steps(name, &interpretation.steps, Dialect::LinuxCnc, &|text| match text.trim() {
         text if header.contains(&text) || tool(text).is_some() => Remark::Goes,
         text if text.starts_with("MOP End: ") => Remark::End,
         text => Remark::Operation(text.trim_start_matches("MOP Start: ")),

@@ -214,7 +214,11 @@ fn a_tool_is_changed_above_where_the_tool_is() {
 
 #[test]
 fn between_operations_the_tool_is_as_high_as_the_higher_of_them() {
-    let definition = DIN.replace("contour-end =", "rapid = 'G00 X{+~X1~} Y{+~Y1~} Z{+~Z1~}'\ncontour-end =");
+    let without_contours =
+        DIN.replace("contour-start = '''", "_").replace("contour-end = 'G00 Z{+~ZClearance~}'\n", "");
+    let (before, after) = without_contours.split_once('_').expect("the start of contours");
+    let (_, after) = after.split_once("'''").expect("its end");
+    let definition = format!("{before}rapid = 'G00 X{{+~X1~}} Y{{+~Y1~}} Z{{+~Z1~}}'{after}");
     let mill = |tool, x, top| {
         let steps = vec![feed(x, 0.0, -1.0), rapid(x, 0.0, top)];
         let entry = Entry::At([x, 0.0, top]);
@@ -251,4 +255,39 @@ fn xpertmill_has_one_speed_for_each_layer() {
         let text = text.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
         assert!(text.contains(&format!("S{speed}")), "{text}");
     }
+}
+
+#[test]
+fn a_program_that_ends_with_the_spindle_turning_is_refused() {
+    let mut job = high(vec![rapid(0.0, 0.0, 2.0), feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 25.0)]);
+    job.operations[0].spindle = Some(Spindle::CounterClockwise);
+    let with = |change: &str, end: &str| {
+        let definition = DIN.replace("} S{", "} M06\nS{").replace("Rate~}", &format!("Rate~}} {change}"));
+        read_toml(&definition.replace("'M30'", end))
+            .write(&job, &PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() })
+    };
+    for end in ["'M30'", "'M05'", "'M2'"] {
+        assert!(with("M04", end).is_ok(), "{end}");
+    }
+    let left_on = with("M04", "''").expect_err("nothing stops the spindle");
+    assert!(texts(&left_on)[0].contains("PB770"), "{:?}", texts(&left_on));
+    let switched_on = with("M04", "'M05 M09\nM04'".replace('\'', "'''").as_str());
+    assert!(texts(&switched_on.expect_err("it is switched on again"))[0].contains("PB770"));
+}
+
+/// The way back from a helix within the material is a feed: at the end as between two cuts.
+#[test]
+fn a_program_may_end_with_a_helical_hole() {
+    let half = |from: [f64; 3], to: [f64; 3]| arc(from, [0.0; 2], to);
+    let mut steps = vec![rapid(10.0, 0.0, 25.0), rapid(10.0, 0.0, 2.0), feed(10.0, 0.0, 0.0)];
+    steps.extend([half([10.0, 0.0, 0.0], [-10.0, 0.0, -1.0]), half([-10.0, 0.0, -1.0], [10.0, 0.0, -2.0])]);
+    steps.extend([half([10.0, 0.0, -2.0], [10.0, 0.0, -2.0])]);
+    steps.extend([rapid(0.0, 0.0, -2.0), rapid(0.0, 0.0, 25.0)]);
+    let lines = written(DIN, &high(steps.clone()));
+    assert!(lines.contains(&"G01 X+0 Y+0 Z-2 F100".to_owned()), "{lines:?}");
+    // A cut behind the last one is none of the program's.
+    let more = DIN.replace("program-end = 'M30'", "program-end = '''\nG01 X+50 F100\nM30'''");
+    let found = read_toml(&more)
+        .write(&high(steps), &PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() });
+    assert!(texts(&found.expect_err("a cut too many"))[0].starts_with("PB767"));
 }

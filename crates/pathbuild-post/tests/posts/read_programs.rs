@@ -17,7 +17,7 @@ use crate::support::{rapid, texts};
 
 fn read(text: &str) -> Job {
     let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
-    match Job::from_steps("job", &steps, &|_| Remark::Stays) {
+    match Job::from_steps("job", &steps, Dialect::LinuxCnc, &|_| Remark::Stays) {
         Ok(job) => job,
         Err(errors) => panic!("{}", texts(&errors).join("\n")),
     }
@@ -71,7 +71,7 @@ fn t_alone_changes_the_tool_where_there_is_no_m6() {
 fn remarks_say_where_operations_begin_and_end() {
     let text = "G21 G90\nG0 X0 Y0 Z5\n(START Subpath A)\n(Q:a)\nG1 Z-1 F60\n(START Subpath B)\nG1 X1\n(END Subpath B)\nG1 X2\n(END Subpath A)\nG1 X3\nG0 Z5\nM30";
     let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
-    let job = Job::from_steps("outer", &steps, &native_remark).unwrap();
+    let job = Job::from_steps("outer", &steps, Dialect::Native, &native_remark).unwrap();
     let names: Vec<_> = job.operations.iter().map(|it| (&*it.name, it.steps.len())).collect();
     assert_eq!(names, [("A", 2), ("B", 1), ("A", 1), ("outer", 2)]);
     assert_eq!(job.operations[0].steps[0], Step::Comment("Q:a".into()));
@@ -120,7 +120,7 @@ fn cycles_of_other_kinds_are_moves() {
 fn what_a_job_cannot_say_is_an_error_with_its_line() {
     let errors = |text: &str| {
         let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
-        texts(&Job::from_steps("job", &steps, &|_| Remark::Stays).unwrap_err())
+        texts(&Job::from_steps("job", &steps, Dialect::LinuxCnc, &|_| Remark::Stays).unwrap_err())
     };
     let start = "G21 G90 G54 G0 X0 Y0 Z5\n";
     assert!(
@@ -287,7 +287,7 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
     };
     let text = native::program(&program, &Header::default(), &options);
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
-    let job = Job::from_steps("8001.1P", &read.steps, &native_remark).unwrap();
+    let job = Job::from_steps("8001.1P", &read.steps, Dialect::Native, &native_remark).unwrap();
     assert_eq!(job.operations.iter().map(|it| &*it.name).collect::<Vec<_>>(), ["1234.1A", "1234.2B"]);
     for name in definitions() {
         let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
@@ -295,4 +295,98 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
         let output = output.unwrap_or_else(|errors| panic!("{name}: {}", texts(&errors).join("\n")));
         assert_moves_alike(name, &output.text, &program);
     }
+}
+
+/// What a built-in post makes of a program in a dialect.
+fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<String>> {
+    let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
+    let mut job =
+        Job::from_steps("1001", &steps, dialect, &|_| Remark::Stays).map_err(|errors| texts(&errors))?;
+    job.set_surface(0.0);
+    let output =
+        load(post).unwrap().write(&job, &PostOptions { needs_speed: true, ..PostOptions::default() });
+    let output = output.map_err(|errors| texts(&errors))?;
+    Ok(String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect())
+}
+
+/// The lines behind the second change of tools.
+fn after_change(lines: &[String]) -> &[String] {
+    let change = lines.iter().rposition(|line| line.starts_with("M3 ")).expect("the spindle starts again");
+    &lines[change + 1..]
+}
+
+const TWO_TOOLS: &str =
+    "G21 G90 G17\nT1 M6\nS1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG1 X10\nT5 M6\nS2000 M3\n";
+
+#[test]
+fn a_new_tool_never_goes_down_where_the_old_one_ended() {
+    for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin"] {
+        let lines = posted(&format!("{TWO_TOOLS}G0 X20 Y20 Z5\nG1 Z-1\nG0 Z5\nM30"), Dialect::LinuxCnc, post);
+        let lines = lines.unwrap_or_else(|errors| panic!("{post}: {errors:?}"));
+        let first = after_change(&lines).iter().find(|line| line.starts_with('G')).expect("a move");
+        let is_over = first.contains("X20") && first.contains("Y20") && !first.contains('Z');
+        assert!(first.starts_with("G0 ") && is_over, "{post}: {first}");
+    }
+    let errors =
+        |rest: &str| posted(&format!("{TWO_TOOLS}{rest}\nG0 Z5\nM30"), Dialect::LinuxCnc, "linuxcnc");
+    for deep in ["G1 X20", "G1 Z-3", "G0 X20\nG1 Z-3"] {
+        let found = errors(deep).expect_err(deep);
+        assert!(
+            found[0].starts_with("PB765 1001 goes on at Z -2, below the surface at 0"),
+            "{deep}: {found:?}"
+        );
+    }
+    // At the surface nothing is met; to another depth the program itself goes by rapid.
+    for fine in ["G0 X20 Z0\nG1 Z-3", "G0 Z5\nG0 X20\nG1 Z-3", "G0 X20 Z-1\nG1 Z-3"] {
+        let lines = errors(fine).unwrap_or_else(|errors| panic!("{fine}: {errors:?}"));
+        assert!(!after_change(&lines).iter().any(|line| line.contains("Z-2.0")), "{fine}: {lines:?}");
+    }
+}
+
+#[test]
+fn a_cut_from_or_to_an_unknown_place_is_an_error() {
+    let head = "G21 G90 G17 S1000 M3\nG0 Z5\n";
+    for (cut, is_known) in [
+        ("G91\nG2 X5 Y-9 R-8 F100\nG90", false),
+        ("G91\nG1 X5 F100\nG90", false),
+        ("G1 Z-1 F100", false),
+        ("G0 X1\nG1 Z-1 F100", false),
+        ("G1 X0 Y0 F100", false),
+        ("G0 X1 Y1\nG91\nG1 X5 F100\nG90", true),
+        ("G0 X1 Y1\nG1 Z-1 F100", true),
+    ] {
+        let written = posted(&format!("{head}{cut}\nG0 X7 Y7 Z5\nM5\nM30"), Dialect::LinuxCnc, "grbl");
+        match written {
+            Ok(_) => assert!(is_known, "{cut}"),
+            Err(errors) => {
+                assert!(!is_known && errors[0].contains("PB765 a cut from or to a place"), "{errors:?}")
+            }
+        }
+    }
+}
+
+#[test]
+fn a_program_that_names_no_tool_is_written_without_a_change() {
+    let text = "G21 G90 G17\nS1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X10\nG0 Z5\nM5\nM30";
+    for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin"] {
+        let lines =
+            posted(text, Dialect::LinuxCnc, post).unwrap_or_else(|errors| panic!("{post}: {errors:?}"));
+        let is_change = |line: &&String| line.contains("T0") || line.contains("M6") || line.contains("H0");
+        assert_eq!(lines.iter().find(is_change), None, "{post}");
+    }
+    // M6 alone in the head changes nothing; later it would hide a change by hand.
+    assert!(posted(&text.replace("S1000", "M6\nS1000"), Dialect::LinuxCnc, "grbl").is_ok());
+    let by_hand = posted(&text.replace("G1 X10", "M6\nG1 X10"), Dialect::LinuxCnc, "grbl").unwrap_err();
+    assert!(by_hand[0].contains("PB765 the tool is changed here"), "{by_hand:?}");
+}
+
+#[test]
+fn xpertmill_s_first_layer_is_1_and_its_speeds_make_the_spindle_turn() {
+    let text = "G71\nG00 X0 Y0 Z1\nG01 X0 Y0 Z-2 F500 S30000\nG01 X9 Y0 Z-2\nM06 05\nS20000\nG00 X2 Y2 Z1\nG01 X2 Y2 Z-3\nM30";
+    let lines = posted(text, Dialect::Xpertmill, "linuxcnc").unwrap_or_else(|errors| panic!("{errors:?}"));
+    let switches: Vec<&String> =
+        lines.iter().filter(|line| line.contains("M6") || line.starts_with("M3 ")).collect();
+    assert_eq!(switches, ["T1 M6", "M3 S30000", "T5 M6", "M3 S20000"]);
+    let lines = posted(text, Dialect::Xpertmill, "xpertmill").unwrap_or_else(|errors| panic!("{errors:?}"));
+    assert!(lines.contains(&"M06 01".to_owned()) && lines.contains(&"M06 05".to_owned()), "{lines:?}");
 }

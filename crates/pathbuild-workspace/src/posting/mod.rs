@@ -43,6 +43,8 @@ pub struct PostProcessor {
     tools: ToolTable,
     macros: Vec<PostMacro>,
     cycles: bool,
+    /// mm/min for cuts of which a program says none.
+    feed: Option<f64>,
     charset: Charset,
     most_bytes: usize,
     wishes: PostArguments,
@@ -141,6 +143,7 @@ impl PostProcessor {
             tools: tool_table(context),
             macros,
             cycles: general.cycles.value,
+            feed: general.feed.value,
             most_bytes: context.settings.limits.output_size(),
             charset: match general.charset.value {
                 types::Charset::Ascii => Charset::Ascii,
@@ -196,6 +199,11 @@ impl PostProcessor {
     /// The tools of the configuration.
     pub fn tools(&self) -> &ToolTable {
         &self.tools
+    }
+
+    /// The configured feed in mm/min, for cuts of which a program says none.
+    pub fn feed(&self) -> Option<f64> {
+        self.feed
     }
 
     /// Whether holes become canned cycles.

@@ -46,6 +46,9 @@ pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     }
     let has_cuts = job.operations.iter().any(Operation::cuts);
     for operation in &mut job.operations {
+        if !operation.tool.is_named {
+            continue;
+        }
         let index = operation.tool.index;
         let Some(entry) = known.get(&index) else {
             if told.insert(index) {

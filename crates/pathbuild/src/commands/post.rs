@@ -145,7 +145,7 @@ fn output(
         (_, None) => |_| Remark::Stays,
     };
     let name = program.file.file_stem().unwrap_or_default();
-    let mut job = Job::from_steps(name, &steps, &remark)?;
+    let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     drop(steps);
     if let Some((provenance, title)) = head {
         // It is the same program in another dialect.
@@ -153,6 +153,9 @@ fn output(
     }
     if let Some(surface) = surface {
         job.set_surface(surface);
+    }
+    if let Some(feed) = poster.feed() {
+        job.set_missing_feeds(feed);
     }
     let unknown = furnish(&mut job, poster.tools());
     let mut output = poster.write(&job, to, &mut Vec::new())?;

@@ -80,8 +80,9 @@ impl Setup {
             Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
             Action::SelectTool(number) => self.select(line, *number, problems),
             Action::ChangeTool(number) => {
-                self.select(line, *number, problems);
-                self.inserted = Some(*number);
+                let number = number.unwrap_or(0);
+                self.select(line, number, problems);
+                self.inserted = Some(number);
             }
             Action::Spindle(spindle) => self.switch_spindle(line, *spindle, problems),
             Action::System(system) if *system != WorkSystem::default() => {

@@ -24,7 +24,7 @@ impl Tools {
     /// The next step of the program.
     pub(super) fn step(&mut self, step: &Step) {
         match step.action {
-            Action::ChangeTool(number) => self.inserted.push((step.line, number)),
+            Action::ChangeTool(number) => self.inserted.push((step.line, number.unwrap_or(0))),
             Action::SelectTool(number) => self.selected.push((step.line, number)),
             _ => {}
         }
