@@ -119,6 +119,7 @@ codes! {
     606 OutsideProbes "outside-probes" Warning "PB606: milling outside the hull of the probes";
     607 OddProbe "odd-probe" Warning "PB607: a probe that does not fit its neighbours";
     608 OldProgram "old-program" Error "PB608: a program to be adjusted that is not what its drawing gives now";
+    609 UnusedProbe "unused-probe" Error "PB609: a probe that no formula uses";
     701 NotGCode "not-g-code" Error "PB701: a file that holds no G-code at all";
     702 UnknownCharacter "unknown-character" Error "PB702: a character that begins no word";
     703 InvalidWord "invalid-word" Error "PB703: a letter without a number, or a number that is none";
@@ -185,6 +186,9 @@ codes! {
     772 ProbeNotRaised "probe-not-raised" Warning "PB772: a move in the plane straight after a probe has met something";
     773 ActiveComment "active-comment" Warning "PB773: a comment that the control obeys";
     774 OffsetLeftOn "offset-left-on" Warning "PB774: an offset (G52, G92) that still holds at the end";
+    775 FormulaDiffers "formula-differs" Error "PB775: a height that is not what its correction formula comes to, or a formula that is not the drawing's";
+    776 UncheckedFormula "unchecked-formula" Error "PB776: a correction formula whose probes or measured heights the program does not state, or a height that lacks one";
+    777 Disagreement "disagreement" Warning "PB777: two places say different things: header and tool table, option and drawing, comments and moves";
 }
 
 impl Code {

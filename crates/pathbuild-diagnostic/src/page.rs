@@ -111,6 +111,7 @@ pages! {
     OutsideProbes "PB606" example;
     OddProbe "PB607" example;
     OldProgram "PB608" example;
+    UnusedProbe "PB609" example;
     NotGCode "PB701" example;
     UnknownCharacter "PB702" example;
     InvalidWord "PB703" example;
@@ -177,4 +178,7 @@ pages! {
     ProbeNotRaised "PB772" example;
     ActiveComment "PB773" example;
     OffsetLeftOn "PB774" example;
+    FormulaDiffers "PB775" example;
+    UncheckedFormula "PB776" example;
+    Disagreement "PB777" example;
 }

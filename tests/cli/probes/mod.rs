@@ -1,6 +1,7 @@
 //! Z-probes from the drawing to the adjusted program. (book: language/probes)
 
 mod current;
+mod executed;
 mod machine;
 
 use crate::support::{Place, Run};

@@ -80,6 +80,13 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
+    /// `verify --against`: a probing run.
+    PROBING_NOT_DRAWN: MovesDiffer {
+        en: "the drawing's probing run has `{expected}` here",
+        de: "der Messlauf der Zeichnung hat hier `{expected}`",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
     /// `verify --against`: T.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, for the drawing it is T{expected}",
@@ -502,6 +509,118 @@ messages! {
         de: "kein {words} vor der ersten Bewegung, die davon abhängt; {taken} wird angenommen",
         help_en: "state it: the control keeps that of the program before",
         help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
+    }
+    /// The number is executed, whatever the formula says.
+    FORMULA_DIFFERS: FormulaDiffers {
+        en: "the machine goes to {number}, but the formula comes to {value}",
+        de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// With a drawing.
+    FORMULA_NOT_DRAWN: FormulaDiffers {
+        en: "the formula is {found}, the drawing gives {expected}",
+        de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
+        help_en: "the program was edited, or written with another --z-model: emit and adjust it again",
+        help_de: "das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben: noch einmal ausgeben und anpassen",
+    }
+    /// With a drawing.
+    PROBE_NOT_DRAWN: FormulaDiffers {
+        en: "the program states the probe {found}, the drawing gives {expected}",
+        de: "das Programm nennt die Probe {found}, die Zeichnung ergibt {expected}",
+        help_en: "emit again and measure with the new program",
+        help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
+    }
+    /// Nothing can be said of the formula's value.
+    PROBE_NOT_STATED: UncheckedFormula {
+        en: "the formula uses #{probe}, which the program's header does not state",
+        de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// Of an adjusted program.
+    HEIGHT_NOT_MEASURED: UncheckedFormula {
+        en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
+        de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
+        help_en: "an older version adjusted the program, or it was edited: run adjust again",
+        help_de: "eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet: noch einmal adjust aufrufen",
+    }
+    /// Of an adjusted program.
+    FORMULA_NOT_APPLIED: UncheckedFormula {
+        en: "this formula has not been worked out, although the program's header states measured heights",
+        de: "diese Formel ist nicht ausgerechnet, obwohl der Kopf des Programms gemessene Höhen nennt",
+        help_en: "run adjust again",
+        help_de: "noch einmal adjust aufrufen",
+    }
+    /// Of a program that pathbuild wrote.
+    FORMULA_WITHOUT_PROBES: UncheckedFormula {
+        en: "a correction formula in a program without probes",
+        de: "eine Korrekturformel in einem Programm ohne Proben",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+    }
+    /// A division by zero, or something else that is no number.
+    FORMULA_WITHOUT_VALUE: UncheckedFormula {
+        en: "the formula has no value",
+        de: "die Formel hat keinen Wert",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// Every other height in the program is corrected.
+    HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
+        en: "this height has no correction formula",
+        de: "diese Höhe hat keine Korrekturformel",
+        help_en: "an editor or sender may have removed it: emit again, and adjust it again",
+        help_de: "ein Editor oder Sender hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// Two lines of one probe.
+    PROBE_STATED_TWICE: UncheckedFormula {
+        en: "the header states #{probe} twice, with different values",
+        de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// Of another program.
+    HEIGHTS_NOT_STATED: UncheckedFormula {
+        en: "the program does not state its measured heights, so that the numbers before its formulas are not checked",
+        de: "das Programm nennt seine gemessenen Höhen nicht; die Zahlen vor den Formeln sind darum nicht geprüft",
+        help_en: "adjust it with pathbuild, which writes them into the header",
+        help_de: "mit pathbuild anpassen: adjust schreibt sie in den Kopf",
+    }
+    /// The header's cutter against the tool table's.
+    OTHER_CUTTER_IN_TABLE: Disagreement {
+        en: "the header says O{header}; T{index} of `[tool]` is {table} mm wide",
+        de: "der Kopf sagt O{header}; T{index} in `[tool]` ist {table} mm breit",
+        help_en: "put the cutter in that the header names, or correct `[tool]`",
+        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen",
+    }
+    /// The header's cutter against an option's.
+    OTHER_CUTTER_GIVEN: Disagreement {
+        en: "the header says O{header}, --cutter says {given}",
+        de: "der Kopf sagt O{header}, --cutter sagt {given}",
+        help_en: "the rapid moves were checked with --cutter",
+        help_de: "die Eilgänge wurden mit --cutter geprüft",
+    }
+    /// The cutter of the header or an option against the drawing's.
+    OTHER_CUTTER_DRAWN: Disagreement {
+        en: "{place} says O{found}, the drawing O{drawn}",
+        de: "{place} sagt O{found}, die Zeichnung O{drawn}",
+        help_en: "emit the program again, or leave the option out",
+        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+    }
+    /// The surface of the header or an option against the drawing's.
+    OTHER_SURFACE_DRAWN: Disagreement {
+        en: "{place} says the surface is at {found}, the drawing at {drawn}",
+        de: "{place} sagt, die Oberfläche liegt bei {found}, die Zeichnung sagt {drawn}",
+        help_en: "emit the program again, or leave the option out",
+        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+    }
+    /// A comment that emit writes otherwise.
+    TEXT_DIFFERS: Disagreement {
+        en: "emit writes `{expected}` here",
+        de: "emit schreibt hier `{expected}`",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
     /// XpertMILL.
     MOTION_NOT_STATED: MotionNotStated {

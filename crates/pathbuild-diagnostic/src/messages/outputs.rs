@@ -107,6 +107,20 @@ messages! {
         help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
     }
+    /// A corrected program that was edited, or that does not state its measured heights.
+    STALE_EDITED: StaleOutput {
+        en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
+        de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} macht",
+        help_en: "it was edited, or an older version adjusted it: do not run it, adjust again",
+        help_de: "es wurde bearbeitet, oder eine ältere Version hat es angepasst: nicht laufen lassen, noch einmal adjust aufrufen",
+    }
+    /// A corrected program, and values that somebody entered later.
+    STALE_VALUES: StaleOutput {
+        en: "{name} was adjusted with other heights than {values} has now",
+        de: "{name} wurde mit anderen Höhen angepasst, als {values} jetzt hat",
+        help_en: "do not run it: adjust again",
+        help_de: "nicht laufen lassen: noch einmal adjust aufrufen",
+    }
     /// Output of another post, of before the path was changed.
     STALE_OTHER_MOVES: StaleOutput {
         en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",

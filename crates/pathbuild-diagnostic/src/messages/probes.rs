@@ -172,6 +172,27 @@ messages! {
         help_en: "measure this probe again; if the value is right, nothing is to be done",
         help_de: "diese Probe noch einmal messen; wenn der Wert stimmt, ist nichts zu tun",
     }
+    /// A measured height that corrects nothing.
+    UNUSED: UnusedProbe {
+        en: "no formula in {file} uses #{probe}",
+        de: "keine Formel in {file} verwendet #{probe}",
+        help_en: "the formulas were removed or changed: emit again and use the new program. If the probe lies too far from everything that is milled, remove it from the drawing",
+        help_de: "die Formeln wurden entfernt oder geändert: noch einmal ausgeben und das neue Programm verwenden. Liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
+    }
+    /// The same while the program is written.
+    WILL_BE_UNUSED: UnusedProbe {
+        en: "the probe {probe} corrects no height of this path",
+        de: "die Probe {probe} korrigiert keine Höhe dieses Pfads",
+        help_en: "others lie nearer to everything that is milled: remove the probe, or move it nearer",
+        help_de: "andere liegen näher an allem, was gefräst wird: die Probe entfernen oder näher heran setzen",
+    }
+    /// Somebody has edited the program.
+    EDITED_PROGRAM: OldProgram {
+        en: "{name} is not what emit writes for {drawing}",
+        de: "{name} ist nicht das, was emit für {drawing} schreibt",
+        help_en: "it was edited, or written with other options: run emit again, then adjust with the same options (--z-model, --compatible)",
+        help_de: "es wurde bearbeitet oder mit anderen Optionen geschrieben: noch einmal emit aufrufen, dann adjust mit denselben Optionen (--z-model, --compatible)",
+    }
     /// The drawing has changed since.
     OLD_PROGRAM: OldProgram {
         en: "{name} is out of date: {drawing} gives other moves now",

@@ -11,7 +11,7 @@ use super::Inputs;
 use super::survey::{Survey, Used};
 use super::table::{ProbePoint, ProbeTable, ProgramProbe};
 use super::values::{Entered, ProbeLine};
-use crate::native::f3;
+use crate::native::{f3, push_exact};
 
 /// Measured heights by the number of the probe.
 pub(super) type Values = BTreeMap<u32, f64>;
@@ -24,7 +24,7 @@ pub(super) struct Check<'c, 'a> {
 }
 
 /// Places and heights with three decimals that are as far apart as this are not the same.
-const DIFFERENT: f64 = 0.000_5;
+pub(super) const DIFFERENT: f64 = 0.000_5;
 
 impl Check<'_, '_> {
     /// The values, each of which was checked.
@@ -55,7 +55,7 @@ impl Check<'_, '_> {
                 return Err(Box::new(problem.with("limit", self.inputs.max_correction)));
             }
         }
-        Ok(Some(value))
+        Ok(Some(as_stated(value)))
     }
 
     /// Whether the program was made with this probe, where it says what it was made with.
@@ -107,6 +107,20 @@ impl Check<'_, '_> {
         unknown.collect()
     }
 
+    /// Probes that were measured and that no formula uses: the formulas were removed or changed.
+    pub(super) fn unused(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
+        let file = self.inputs.program.file.file_name().unwrap_or_default();
+        let is_stated = |line: &&ProbeLine<'_>| {
+            self.table.probes.is_empty() || self.table.probes.contains_key(&line.probe)
+        };
+        let unused = lines.iter().filter(|line| !self.survey.probes.contains_key(&line.probe));
+        let unused = unused.filter(is_stated).map(|line| {
+            let problem = line.line.fault(&messages::UNUSED, 0..line.line.content().len());
+            problem.with("probe", u64::from(line.probe)).with("file", file)
+        });
+        unused.collect()
+    }
+
     /// Probes that do not fit their neighbours. Only programs that say where in them the probes are can be asked.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
@@ -124,6 +138,13 @@ impl Check<'_, '_> {
         });
         told.collect()
     }
+}
+
+/// A measured height as the adjusted program states it: with six decimals, so that its formulas come to the same again.
+fn as_stated(value: f64) -> f64 {
+    let mut text = String::new();
+    push_exact(&mut text, value);
+    text.parse().unwrap_or(value)
 }
 
 fn described(place: ProbePoint, height: f64) -> String {

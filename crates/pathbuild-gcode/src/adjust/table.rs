@@ -1,6 +1,8 @@
-//! The probe table in a program's header: what the program was made with. (`(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000)`)
+//! The probe table in a program's header: what the program was made with, and what was measured.
+//! (`(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000 Z2.050)`, in which `adjust` has put the Z.)
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::LazyLock;
 
 use pathbuild_path::{Xy, parse_number};
@@ -8,6 +10,7 @@ use regex::Regex;
 
 use super::Source;
 use super::lines::{Line, lines};
+use crate::native::f3;
 
 /// A program's probes. Programs of the original tool have no such table.
 #[derive(Debug, Default)]
@@ -17,12 +20,23 @@ pub(super) struct ProbeTable {
 
 /// A probe that the program was made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ProgramProbe {
+pub(crate) struct ProgramProbe {
     pub(super) place: ProbePoint,
-    /// th.
-    pub(super) height: f64,
+    /// The height that it was drawn at, in mm.
+    pub(crate) height: f64,
     /// Where it is in the program.
     pub(super) at: Option<Xy>,
+    /// The height that was measured, in mm; only an adjusted program states it.
+    pub(crate) measured: Option<f64>,
+}
+
+/// As the drawing gives it.
+impl fmt::Display for ProgramProbe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y] = self.place;
+        write!(f, "[{} {}] T={}", f3(x), f3(y), f3(self.height))?;
+        self.at.map_or(Ok(()), |at| write!(f, " X{} Y{}", f3(at.x), f3(at.y)))
+    }
 }
 
 /// A probe's place in its own drawing.
@@ -30,8 +44,9 @@ pub(super) type ProbePoint = [f64; 2];
 
 static ENTRY: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"(-?[0-9]+(?:\.[0-9]+)?)";
-    let pattern =
-        format!(r"^\(Probe #([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?\)\s*$");
+    let pattern = format!(
+        r"^Probe #([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?(?: Z{number})?$"
+    );
     Regex::new(&pattern).expect("a constant pattern")
 });
 
@@ -39,9 +54,8 @@ impl ProbeTable {
     /// Reads the comments before the first block of the program.
     pub(super) fn read(program: Source<'_>) -> Self {
         let mut table = Self::default();
-        let is_header = |line: &[u8]| matches!(line.first(), None | Some(b'(' | b'%' | b';'));
         for line in lines(program).map(Line::content).take_while(|line| is_header(line)) {
-            if let Some((probe, made)) = entry(&String::from_utf8_lossy(line)) {
+            if let Some((probe, made)) = entry_of_line(line) {
                 table.probes.entry(probe).or_insert(made);
             }
         }
@@ -49,10 +63,25 @@ impl ProbeTable {
     }
 }
 
-fn entry(line: &str) -> Option<(u32, ProgramProbe)> {
-    let parts = ENTRY.captures(line)?;
+/// Whether a line can stand in a program's header, which ends with its first word.
+pub(super) fn is_header(line: &[u8]) -> bool {
+    matches!(line.first(), None | Some(b'(' | b'%' | b';'))
+}
+
+/// The probe that a line of a header states.
+pub(super) fn entry_of_line(line: &[u8]) -> Option<(u32, ProgramProbe)> {
+    let comment = line.trim_ascii_end().strip_prefix(b"(")?.strip_suffix(b")")?;
+    probe_entry(str::from_utf8(comment).ok()?)
+}
+
+/// The probe that a comment states, with its number.
+pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
+    if !comment.starts_with("Probe #") {
+        return None;
+    }
+    let parts = ENTRY.captures(comment)?;
     let number = |index: usize| parts.get(index).and_then(|part| parse_number(part.as_str()));
     let at = number(5).zip(number(6)).map(|(x, y)| Xy::new(x, y));
-    let made = ProgramProbe { place: [number(2)?, number(3)?], height: number(4)?, at };
-    Some((parts[1].parse().ok()?, made))
+    let probe = ProgramProbe { place: [number(2)?, number(3)?], height: number(4)?, at, measured: number(7) };
+    Some((parts[1].parse().ok()?, probe))
 }

@@ -10,8 +10,9 @@ use super::formula::{self, Fault, Probes};
 use super::lines::{Line, lines, mark};
 use super::scan::{Spot, spots};
 use super::survey::{in_line, located, number};
+use super::table::{entry_of_line, is_header};
 use super::{Adjusted, Inputs};
-use crate::native::f3;
+use crate::native::{f3, push_exact};
 
 /// What a height may exceed the largest correction by, though no probe does: weights of three decimals need not sum to 1.
 const SLACK: (f64, f64) = (1.002, 0.002);
@@ -25,8 +26,14 @@ pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<Adjusted,
     let mut writer = Writer { inputs, values, adjusted: Adjusted::default(), problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
     writer.adjusted.program.extend_from_slice(mark(bytes));
+    let mut is_in_header = true;
     for line in lines(inputs.program) {
-        writer.line(line);
+        is_in_header &= is_header(line.content());
+        if is_in_header {
+            writer.header_line(line);
+        } else {
+            writer.line(line);
+        }
     }
     if writer.problems.is_empty() { Ok(writer.adjusted) } else { Err(writer.problems) }
 }
@@ -39,6 +46,24 @@ struct Writer<'w> {
 }
 
 impl Writer<'_> {
+    /// A line of the header: a probe's gets the measured height, by which `verify` evaluates the formulas again.
+    fn header_line(&mut self, line: Line<'_>) {
+        let content = line.content();
+        let entry = entry_of_line(content);
+        let value = entry.and_then(|(probe, _)| self.values.get(&probe));
+        let Some((value, end)) = value.zip(content.iter().rposition(|byte| *byte == b')')) else {
+            return self.line(line);
+        };
+        let mut text = String::from(" Z");
+        push_exact(&mut text, *value);
+        let (before, behind) = line.bytes.split_at(end);
+        let before =
+            entry.filter(|(_, probe)| probe.measured.is_some()).map_or(before, |_| without_last_word(before));
+        self.adjusted.program.extend_from_slice(before);
+        self.adjusted.program.extend_from_slice(text.as_bytes());
+        self.adjusted.program.extend_from_slice(behind);
+    }
+
     fn line(&mut self, line: Line<'_>) {
         let mut done = 0;
         for spot in spots(line.content()) {
@@ -90,6 +115,11 @@ impl Writer<'_> {
         *highest = highest.max(correction);
         Ok(())
     }
+}
+
+/// A text up to its last blank.
+fn without_last_word(text: &[u8]) -> &[u8] {
+    text.iter().rposition(|byte| *byte == b' ').map_or(text, |end| &text[..end])
 }
 
 /// Whether the number is a Z word's.

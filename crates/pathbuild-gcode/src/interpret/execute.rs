@@ -6,6 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 
 use super::codes;
 use super::evaluate::Parameters;
+use super::formulas::StatedProbes;
 use super::gather::{Gathered, Slot};
 use super::options::{Heights, Options};
 use super::state::State;
@@ -21,6 +22,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) words: Gathered,
     pub(super) problems: Problems,
     pub(super) parameters: Parameters,
+    pub(super) stated: StatedProbes,
     /// What the last block does.
     pub(super) out: Vec<Step>,
     pub(super) ended: bool,
@@ -35,6 +37,7 @@ impl<'i> Interpreter<'i> {
             words: Gathered::default(),
             problems: Problems::default(),
             parameters: Parameters::default(),
+            stated: StatedProbes::default(),
             out: Vec::new(),
             ended: false,
         }
@@ -63,11 +66,13 @@ impl<'i> Interpreter<'i> {
     pub(super) fn block(&mut self, block: &Block<'_>) {
         for comment in block.comments {
             self.check_active(block, comment.text);
+            self.take_stated(block, comment.text);
             self.step(block, Action::Comment(block.text_of(comment.text).into()));
         }
         if let Some(o_word) = block.o_word {
             self.report(block, &say::O_WORD, o_word, |d| d);
         }
+        self.begin_words(block);
         self.words.clear();
         if let Err((fault, span)) = self.gather(block) {
             self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
@@ -153,7 +158,7 @@ impl<'i> Interpreter<'i> {
     /// The height or coordinate that a slot stands for, in mm.
     pub(super) fn millimetres(&self, slot: Slot) -> f64 {
         let value = match self.options.heights {
-            Heights::Nominal => slot.nominal.unwrap_or(slot.value),
+            Heights::Nominal => slot.value - slot.correction,
             Heights::AsWritten => slot.value,
         };
         value * self.state.unit

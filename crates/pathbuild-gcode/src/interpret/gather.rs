@@ -54,8 +54,8 @@ pub(super) struct Slot {
     /// Digits behind the point; of expressions as many as a double has.
     pub(super) decimals: u8,
     pub(super) span: Span,
-    /// The number that the word's correction formula begins with.
-    pub(super) nominal: Option<f64>,
+    /// How much of the value is the correction of the word's formula.
+    pub(super) correction: f64,
 }
 
 /// The bit of a letter.

@@ -11,6 +11,7 @@ mod cycle;
 mod evaluate;
 mod execute;
 mod feed;
+mod formulas;
 mod gather;
 mod geometry;
 mod guess;

@@ -23,7 +23,8 @@ pub enum Heights {
     /// The number in front of the formula: where the tool goes.
     #[default]
     AsWritten,
-    /// The number that the formula begins with: where it would go if the material were as thick as drawn.
+    /// That number less the correction, which is the formula's value with the measured heights less its value with the drawn ones: where
+    /// the tool would go if the material were as thick as drawn.
     Nominal,
 }
 

@@ -9,7 +9,7 @@ use super::gather::{Setting, Slot, ValueFault};
 use super::limits;
 use super::options::UnitCodes;
 use crate::dialect::Acceptance;
-use crate::read::{Block, Op, Span, Target, Value, Word};
+use crate::read::{Block, Span, Target, Value, Word};
 
 impl Interpreter<'_> {
     /// Sorts the words of a block, and gives their values.
@@ -23,9 +23,15 @@ impl Interpreter<'_> {
                 b'G' => self.g_word(block, word, value),
                 b'M' => self.m_word(block, word, value),
                 letter => {
-                    let nominal =
-                        block.formula(index).and_then(|formula| leading_number(block.code(formula.code)));
-                    self.letter(block, letter, Slot { value, decimals, span: word.span, nominal });
+                    let correction = match block.formula(index) {
+                        Some(formula) => self.correction(block, formula, value),
+                        None if letter == b'Z' => {
+                            self.height_without_formula(block, word.span, value);
+                            0.0
+                        }
+                        None => 0.0,
+                    };
+                    self.letter(block, letter, Slot { value, decimals, span: word.span, correction });
                 }
             }
         }
@@ -181,14 +187,6 @@ impl Interpreter<'_> {
                 Setting::Named(name) => self.parameters.set_named(name, value),
             }
         }
-    }
-}
-
-/// The number that a correction formula begins with: `1.000` of `1.000+0.5*[#51-2.000]`.
-fn leading_number(code: &[Op]) -> Option<f64> {
-    match code {
-        [Op::Number(number), ..] => Some(*number),
-        _ => None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The formula by which measured probes correct a height. (book: language/probes)
 
-use pathbuild_toolpath::{Correction, Height, ProbePoint, Program, Surface};
+use pathbuild_toolpath::{Correction, Height, Move, ProbePoint, Program, Step, Surface};
 
 use super::number::{push_exact, push_f3};
 
@@ -48,7 +48,42 @@ impl<'a> Formulas<'a> {
         text.push(')');
     }
 
+    /// The formula of a height, without its brackets.
+    pub(super) fn text(&self, height: Height) -> String {
+        let mut text = String::new();
+        self.push(&mut text, height);
+        text["(=".len()..text.len() - 1].to_owned()
+    }
+
+    /// The probes that correct none of the heights of some steps, by their index.
+    pub(super) fn unused(&self, steps: &[Step]) -> Vec<usize> {
+        let mut is_used = vec![false; self.probes.len()];
+        for height in steps.iter().filter_map(height_of) {
+            for (probe, weight) in self.surface.weights(height.at) {
+                is_used[probe] |= self.is_rounded || weight.abs() >= NOTHING;
+            }
+        }
+        (0..is_used.len()).filter(|probe| !is_used[*probe]).collect()
+    }
+
     fn push_number(&self, text: &mut String, number: f64) {
         if self.is_rounded { push_f3(text, number) } else { push_exact(text, number) }
     }
+}
+
+/// The height that a step goes to, where it says one.
+pub(super) fn height_of(step: &Step) -> Option<Height> {
+    match step {
+        Step::Move { to, .. } => match *to {
+            Move::Sweep { .. } => None,
+            Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z),
+        },
+        Step::Comment(_) => None,
+    }
+}
+
+/// The probes of a program that correct no height, by their index: four others are nearer to everything.
+pub fn unused_probes(program: &Program, correction: Correction) -> Vec<usize> {
+    let formulas = Formulas::new(program, correction);
+    formulas.map_or_else(Vec::new, |formulas| formulas.unused(&correction.steps(program)))
 }

@@ -3,6 +3,7 @@
 mod arc_end;
 mod comment;
 mod correction;
+mod drawn;
 mod number;
 mod probing;
 mod program;
@@ -11,8 +12,10 @@ mod statistics;
 
 pub(crate) use arc_end::{is_doubtful, is_point};
 pub use comment::{Charset, transliterated};
-pub use correction::FIRST_PARAMETER;
+pub use correction::{FIRST_PARAMETER, unused_probes};
+pub use drawn::{OtherLine, Parts, first_other_line, formula_differences, unstated_heights};
 pub use number::f3;
+pub(crate) use number::push_exact;
 pub use probing::{probe_name, probing_program, values_file};
 pub use program::{
     Header, WriteOptions, drawing_of_title, is_title, is_title_of, path_of_title, plain_title, program,

@@ -80,7 +80,7 @@ fn thousandths(number: f64) -> Option<u64> {
 }
 
 /// Six decimals, of which zeros behind the third are left out.
-pub(super) fn push_exact(text: &mut String, number: f64) {
+pub(crate) fn push_exact(text: &mut String, number: f64) {
     let start = text.len();
     _ = write!(text, "{number:.6}");
     let zeros = text.bytes().rev().take(3).take_while(|byte| *byte == b'0').count();

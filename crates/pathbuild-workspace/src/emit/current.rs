@@ -4,12 +4,16 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{Db, MissingOption, Role, program};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_gcode::native::{drawing_of_title, is_title, path_of_title};
+use pathbuild_gcode::native::{
+    OtherLine, Parts, drawing_of_title, first_other_line, is_title, path_of_title,
+};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
+use pathbuild_toolpath::Program;
 
-use super::Provenances;
-use crate::session::{Session, WantedPath};
+use super::{Provenances, writing};
+use crate::session::{OutputKind, Session, WantedPath};
+use crate::workspace::Workspace;
 
 /// What a program is, held against its drawing.
 #[derive(Debug)]
@@ -20,6 +24,13 @@ pub enum Current {
     Other {
         /// The drawing.
         drawing: Utf8PathBuf,
+    },
+    /// It gives the same moves, but `emit` writes other lines.
+    Edited {
+        /// The drawing.
+        drawing: Utf8PathBuf,
+        /// The first line that differs.
+        other: OtherLine,
     },
     /// The drawing has errors.
     Wrong(Vec<Diagnostic>),
@@ -47,7 +58,7 @@ pub fn current(
         return Current::Unknown;
     };
     session.settled(|session| match defining(session, path, &title, beside, named) {
-        Ok(Some(path)) => compared(session, &path, &found),
+        Ok(Some(path)) => compared(session, &path, &found, text),
         Ok(None) => Current::NoDrawing { drawing: drawing.into() },
         Err(problem) => Current::Wrong(vec![*problem]),
     })
@@ -81,7 +92,7 @@ fn defining(
     Ok(file.map(|file| WantedPath { file, name }))
 }
 
-fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Current {
+fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance, text: &[u8]) -> Current {
     let db = session.db();
     let target = session.target(path, Role::Emitted);
     let checked = session.check(&[target]);
@@ -97,11 +108,32 @@ fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance) -> Cur
         Ok(now) => now,
         Err(problem) => return Current::Wrong(vec![*problem]),
     };
-    let now =
-        now.as_deref().map(|program| Provenances::new(&session.workspace().settings, None).of(&[program]));
-    if now.is_some_and(|now| now.moves == found.moves) {
-        Current::Same
-    } else {
-        Current::Other { drawing: path.file.path(db).clone() }
+    let drawing = || path.file.path(db).clone();
+    let Some(now) = now else { return Current::Other { drawing: drawing() } };
+    let provenance = Provenances::new(&session.workspace().settings, None).of(&[&*now]);
+    if provenance.moves != found.moves {
+        return Current::Other { drawing: drawing() };
     }
+    let kind = if now.probes.is_empty() { OutputKind::Milling } else { OutputKind::Clean };
+    match native_text(session.workspace(), &now, kind) {
+        Ok(expected) => match first_other_line(text, expected.as_bytes(), Parts::Code) {
+            None => Current::Same,
+            Some(other) => Current::Edited { drawing: drawing(), other },
+        },
+        Err(problem) => Current::Wrong(vec![*problem]),
+    }
+}
+
+/// The text of a native program's file as `emit` writes it with the present options; empty of a sheet.
+///
+/// # Errors
+/// PB005: where it is too large.
+pub fn native_text(
+    workspace: &Workspace,
+    program: &Program,
+    kind: OutputKind,
+) -> Result<String, Box<Diagnostic>> {
+    let provenance = Provenances::new(&workspace.settings, None).of(&[program]);
+    let text = kind.text(program, &provenance.to_string(), &writing(workspace))?;
+    Ok(text.unwrap_or_default())
 }

@@ -6,12 +6,13 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_diagnostic::{Diagnostic, Note, Point, Value};
+use pathbuild_diagnostic::{Diagnostic, Note, Point, Severity, Value};
+use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Outside, Program, Statistics, Step, Total, memory};
+use pathbuild_toolpath::{Correction, Outside, Program, Statistics, Step, Total, memory};
 
 use super::job::Job;
 use super::provenance::Provenances;
@@ -352,7 +353,11 @@ fn native(
     if let Some(problem) = too_many_pieces(steps, program, &means.writing) {
         return Err(Box::new(at(problem)));
     }
-    delivered.problems.extend(correction.outside(program).map(|outside| at(outside_probes(&outside))));
+    match correction.outside(program) {
+        Some(outside) => delivered.problems.push(at(outside_probes(&outside))),
+        // Outside the probes it is no wonder that some of them correct nothing.
+        None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
+    }
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text = kind.text(program, provenance, &means.writing).map_err(|it| Box::new(at(*it)))?;
         let Some(text) = text else { return Ok(None) };
@@ -361,6 +366,15 @@ fn native(
         Ok(Some(Output { kind: *kind, path: path.clone(), text: text.into_bytes() }))
     };
     job.files.iter().map(output).filter_map(Result::transpose).collect()
+}
+
+/// PB609: probes that would be measured for nothing.
+fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
+    let unused = native::unused_probes(program, correction).into_iter();
+    unused.map(|probe| Diagnostic {
+        severity: Severity::Warning,
+        ..Diagnostic::new(&probes::WILL_BE_UNUSED).with("probe", probe_name(&program.probes[probe]))
+    })
 }
 
 /// PB005: what is longer would not be read back, nor by anybody else.

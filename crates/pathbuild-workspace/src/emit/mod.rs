@@ -32,13 +32,13 @@ use crate::session::{Found, Scope, Session};
 use crate::workspace::Workspace;
 
 pub use configured::Configured;
-pub use current::{Current, current};
+pub use current::{Current, current, native_text};
 use deliver::OutputSettings;
 pub use deliver::{Delivered, State, Task};
 use job::{Maker, take_clashes};
 use making::{Answer, Making, RunResult, deliver};
 pub use options::missing_values;
-pub(crate) use options::writing;
+pub use options::writing;
 pub use provenance::Provenances;
 pub use sheet::{SheetMade, sheet_bytes, sheet_of};
 use stale::Dealt;

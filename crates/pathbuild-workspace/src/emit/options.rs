@@ -68,7 +68,7 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
 }
 
 /// How files are written.
-pub(crate) fn writing(context: &Workspace) -> Writing {
+pub fn writing(context: &Workspace) -> Writing {
     let limits = &context.settings.limits;
     Writing {
         options: write_options(context),

@@ -12,6 +12,7 @@ use pathbuild_db::Db;
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
+use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
@@ -35,6 +36,10 @@ enum Reason {
     Left,
     /// The program that it was adjusted from is another one now.
     Adjusted { clean: Utf8PathBuf },
+    /// It is not what comes of that program with the measured heights that it states.
+    Edited { clean: Utf8PathBuf },
+    /// It was adjusted with other heights than these.
+    OtherValues { values: Utf8PathBuf },
     /// Another post wrote it when the path had other moves than the program that is written now.
     OtherMoves { program: Utf8PathBuf },
 }
@@ -46,6 +51,10 @@ impl Stale {
             Reason::Left => Diagnostic::new(&messages::STALE),
             Reason::Adjusted { clean } => {
                 Diagnostic::new(&messages::STALE_ADJUSTED).with("clean", name(clean))
+            }
+            Reason::Edited { clean } => Diagnostic::new(&messages::STALE_EDITED).with("clean", name(clean)),
+            Reason::OtherValues { values } => {
+                Diagnostic::new(&messages::STALE_VALUES).with("values", name(values))
             }
             Reason::OtherMoves { program } => {
                 Diagnostic::new(&messages::STALE_OTHER_MOVES).with("program", name(program))
@@ -167,7 +176,7 @@ impl<'a> Finding<'a> {
         let stale = |path: Utf8PathBuf| {
             let (found, title) = self.provenance(&path)?;
             match self.own(&path) {
-                Some(own) if is_of(own.job, self.session, &title) => own.stale(path, &found),
+                Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
                 _ => self.of_other_post(&path, &found, &title).or_else(|| {
                     let is_left = self.writers.have_left(directory, &title, names.iter());
                     is_left.then_some(Stale { path, reason: Reason::Left })
@@ -193,7 +202,7 @@ impl<'a> Finding<'a> {
             }
             let (found, title) = self.provenance(&path)?;
             match self.own(&path) {
-                Some(own) if is_of(own.job, self.session, &title) => own.stale(path, &found),
+                Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
                 _ => self.of_other_post(&path, &found, &title),
             }
         };
@@ -232,13 +241,36 @@ impl<'a> Finding<'a> {
 
 impl Own<'_> {
     /// A file of the path that was made from something: stale, unless it was adjusted from the program as it is now.
-    fn stale(&self, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
+    fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
         if self.kind != OutputKind::Milling {
             return Some(Stale { path, reason: Reason::Left });
         }
-        let clean = self.job.files.iter().find(|(kind, _)| *kind == OutputKind::Clean);
-        let reason = clean.map_or(Reason::Left, |(_, clean)| Reason::Adjusted { clean: clean.clone() });
-        (!self.provenance.is_same(found)).then_some(Stale { path, reason })
+        let reason = match self.file(OutputKind::Clean) {
+            None if self.provenance.is_same(found) => return None,
+            None => Reason::Left,
+            Some(clean) if !self.provenance.is_same(found) => Reason::Adjusted { clean: clean.to_owned() },
+            Some(clean) => self.edited(session, &path, clean)?,
+        };
+        Some(Stale { path, reason })
+    }
+
+    fn file(&self, kind: OutputKind) -> Option<&Utf8Path> {
+        self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
+    }
+
+    /// Why a program that names the present moves is not what comes of them: files that cannot be read tell nothing.
+    fn edited(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
+        let limit = session.workspace().settings.limits.file_size.value;
+        let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
+        let (program_text, clean_text) = (read(path)?, read(clean)?);
+        let source = |file, bytes| Source { file, bytes };
+        let program = source(path, &program_text);
+        if !is_adjusted_from(program, source(clean, &clean_text)) {
+            return Some(Reason::Edited { clean: clean.to_owned() });
+        }
+        let values = self.file(OutputKind::Values)?;
+        let is_other = states_other_values(program, source(values, &read(values)?));
+        is_other.then(|| Reason::OtherValues { values: values.to_owned() })
     }
 }
 

@@ -8,6 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, in_prose};
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::read::quote;
 use regex::Regex;
 use serde_json::json;
 
@@ -177,7 +178,7 @@ impl<'a> Adjustment<'a> {
     fn run(&mut self, job: &Job) -> Result<(), Vec<Diagnostic>> {
         let (clean, values, log) = self.read(job)?;
         self.show(&clean);
-        self.compare(job, &clean)?;
+        let is_as_emitted = self.compare(job, &clean)?;
         let source = |file, bytes| Source { file, bytes };
         let adjusted = adjust(&Inputs {
             program: source(&job.clean, &clean),
@@ -185,6 +186,9 @@ impl<'a> Adjustment<'a> {
             log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
             max_correction: self.max_correction,
         })?;
+        if !is_as_emitted && !adjusted.unused.is_empty() {
+            return Err(adjusted.unused);
+        }
         let written = self.context.system.write(&job.milling, &adjusted.program);
         let written = written.map_err(|reason| vec![cannot_write(&job.milling, reason)])?;
         self.say_written(&job.milling, written, &adjusted);
@@ -192,20 +196,29 @@ impl<'a> Adjustment<'a> {
         Ok(())
     }
 
-    /// Refuses a program whose drawing gives other moves now.
-    fn compare(&self, job: &Job, clean: &[u8]) -> Result<(), Vec<Diagnostic>> {
+    /// Refuses a program whose drawing gives another one now. Whether it is known to be what `emit` writes.
+    fn compare(&self, job: &Job, clean: &[u8]) -> Result<bool, Vec<Diagnostic>> {
         let context = self.context;
         let not_compared =
             context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
         let mut session = Session::new(context);
         match current(&mut session, clean, beside, job.drawing.as_deref()) {
-            Current::Same | Current::Unknown => return Ok(()),
+            Current::Same => return Ok(true),
+            Current::Unknown => {}
             Current::Wrong(problems) => return Err(problems),
             Current::Other { drawing } => {
                 let problem = Diagnostic::new(&probes::OLD_PROGRAM)
                     .with("name", job.clean.file_name().unwrap_or_default())
                     .with("drawing", drawing.as_str());
+                return Err(vec![problem.in_file(&job.clean)]);
+            }
+            Current::Edited { drawing, other } => {
+                let problem = Diagnostic::new(&probes::EDITED_PROGRAM)
+                    .with("name", job.clean.file_name().unwrap_or_default())
+                    .with("drawing", drawing.as_str());
+                let mut problem = problem.at_line(other.line, None);
+                quote([&mut problem], clean);
                 return Err(vec![problem.in_file(&job.clean)]);
             }
             Current::NoDrawing { drawing } => {
@@ -219,7 +232,7 @@ impl<'a> Adjustment<'a> {
                 context.printer.status(format_args!("{}: {not_compared}: {give} --{options}", job.clean));
             }
         }
-        Ok(())
+        Ok(false)
     }
 
     /// The program, the values and the log; all that cannot be read is told.

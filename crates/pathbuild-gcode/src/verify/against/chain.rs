@@ -25,6 +25,8 @@ pub(super) struct Way<'w> {
     pub(super) expected: &'w [Numbered],
     /// It ends the program.
     pub(super) is_foot: bool,
+    /// Whether the program may go to places of the machine: the native one names none.
+    pub(super) may_go_home: bool,
     /// S0.
     pub(super) clearance: f64,
     pub(super) slack: f64,
@@ -88,7 +90,7 @@ impl Way<'_> {
         let is_raised = !it.from.known.has(Axes::Z) || self.is_clear(it.from.z());
         let stays = it.to.known.has(Axes::XY) && it.from.known.has(Axes::XY) && self.is_at(&it.from, &it.to);
         if it.named.is_some() {
-            return is_raised || stays;
+            return self.may_go_home && (is_raised || stays);
         }
         let is_height = !it.to.known.has(Axes::Z) || self.is_same_height(it.to.z(), self.clearance);
         let is_place = !it.to.known.has(Axes::XY) || stays || self.is_at(&it.to, &self.start);

@@ -38,6 +38,8 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     equal: usize,
     /// Lines may be cut into pieces: heights that probes correct are, piece by piece.
     may_split: bool,
+    /// The program may go to places of the machine before its first and after its last cut.
+    may_go_home: bool,
 }
 
 impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
@@ -53,6 +55,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             difference: None,
             equal: 0,
             may_split: dialect == Dialect::Native,
+            may_go_home: dialect != Dialect::Native,
         }
     }
 
@@ -101,6 +104,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             start,
             expected: &expected,
             is_foot,
+            may_go_home: self.may_go_home,
             clearance: self.clearance,
             slack: self.tolerance.place,
         };

@@ -144,8 +144,11 @@ impl Setup {
             self.running = 0.0;
             self.said.spindle = false;
         }
+        // A program whose drawing leaves the spindle alone does not name it at all: S0 would stop one that runs.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
-        if is_left_alone && (spindle.turning != Turning::Unstated || spindle.speed != 0.0) {
+        let is_foot =
+            self.dialect != Dialect::Native && spindle.turning == Turning::Unstated && spindle.speed == 0.0;
+        if is_left_alone && !is_foot {
             extra(line, "M3, M4, M5, S".to_owned(), problems);
         }
     }

@@ -64,11 +64,13 @@ pub(super) struct RapidHeights {
     pub(super) across: Vec<f64>,
     /// The lowest end of those that go straight down.
     pub(super) down: Option<f64>,
+    /// The lowest end of those that go straight up.
+    up: Option<f64>,
 }
 
 impl RapidHeights {
     pub(super) fn lowest(&self) -> Option<f64> {
-        self.across.iter().copied().chain(self.down).reduce(f64::min)
+        self.across.iter().copied().chain(self.down).chain(self.up).reduce(f64::min)
     }
 }
 
@@ -78,8 +80,12 @@ pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
     let mut across: Vec<f64> = sweeps.filter_map(Move::depth).collect();
     across.sort_by(f64::total_cmp);
     across.dedup();
-    let lifts = moves().filter(|it| it.kind == MoveKind::Lift && it.way.to.z() < it.way.from.z());
-    RapidHeights { across, down: lifts.map(|it| it.way.to.z()).reduce(f64::min) }
+    let lowest_end = |is_down: bool| {
+        let lifts = moves().filter(|it| it.kind == MoveKind::Lift);
+        let lifts = lifts.filter(|it| (it.way.to.z() < it.way.from.z()) == is_down);
+        lifts.map(|it| it.way.to.z()).reduce(f64::min)
+    };
+    RapidHeights { across, down: lowest_end(true), up: lowest_end(false) }
 }
 
 /// The values that paths have, each once, in order of the paths.

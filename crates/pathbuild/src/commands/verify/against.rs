@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Role, Target, check_file, path_names, placed_keep_outs, program};
-use pathbuild_diagnostic::messages::outputs;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::messages::{gcode as say, outputs};
+use pathbuild_diagnostic::{Diagnostic, Lang, Message};
+use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Move, Turning};
+use pathbuild_gcode::native::{self, OtherLine, Parts};
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{self, Clamps, PastClamps, ToolUse};
 use pathbuild_path::{KeepOut, PathName};
 use pathbuild_post::Spindle;
@@ -18,9 +21,9 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use crate::numbers::count;
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::emit::missing_values;
+use pathbuild_workspace::emit::{Provenances, missing_values, native_text, writing};
 use pathbuild_workspace::posting::tool_table;
-use pathbuild_workspace::session::Session;
+use pathbuild_workspace::session::{OutputKind, Session};
 
 /// The program of a path.
 pub(super) struct Against {
@@ -119,6 +122,53 @@ impl Against {
         context.printer.status(format_args!("{}: {line}", program.file));
     }
 
+    /// Whether the path has probes, and with them a probing run.
+    pub(super) fn has_probes(&self) -> bool {
+        !self.drawn.probes.is_empty()
+    }
+
+    /// How the text of a native program differs from what `emit` writes: its formulas and probes, and the lines of a probing run, which
+    /// are errors. Where nothing else was found and the options are the same, also a comment, which is a warning.
+    ///
+    /// # Errors
+    /// PB005: where what `emit` writes is too large.
+    pub(super) fn text_differences(
+        &self,
+        context: &Context,
+        program: &Program,
+        is_probing: bool,
+        is_sound: bool,
+    ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
+        let is_probing = is_probing && self.has_probes();
+        let kind = match (is_probing, self.has_probes()) {
+            (true, _) => OutputKind::Probing,
+            (false, true) => OutputKind::Clean,
+            (false, false) => OutputKind::Milling,
+        };
+        let text = native_text(context, &self.drawn, kind)?.into_bytes();
+        if is_probing && let Some(other) = native::first_other_line(&program.text, &text, Parts::Code) {
+            return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
+        }
+        let correction = writing(context).options.correction;
+        let mut found = match is_probing {
+            true => Vec::new(),
+            false => native::formula_differences(&program.text, &self.drawn, correction),
+        };
+        let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
+        let now = Provenances::new(&context.settings, None).of(&[&*self.drawn]);
+        let has_same_options = header.is_some_and(|header| header.options == now.options);
+        if !found.is_empty() || !is_sound || !has_same_options {
+            return Ok(found);
+        }
+        let source = |bytes| Source { file: &program.file, bytes };
+        let is_adjusted = states_heights(source(&program.text));
+        let text =
+            if is_adjusted { adjusted_again(source(&program.text), source(&text)) } else { Some(text) };
+        let other = text.and_then(|text| native::first_other_line(&program.text, &text, Parts::Comments));
+        found.extend(other.map(|other| other_line(&say::TEXT_DIFFERS, other)));
+        Ok(found)
+    }
+
     /// What holds a program of a dialect against the clamps around it, where there are some.
     pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
         self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
@@ -135,6 +185,10 @@ impl Against {
         });
         ToolUse { number: entry.index, turning, speed: entry.speed }
     }
+}
+
+fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
+    Diagnostic::new(message).with("expected", other.expected).at_line(other.line, None)
 }
 
 /// The one path that an argument means.

@@ -5,6 +5,9 @@ mod stock;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::Pace;
+use pathbuild_gcode::native;
 use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
@@ -71,8 +74,10 @@ fn check(
     let machine = machine(context);
     let mut limits = machine.as_ref().map(MachineRules::new);
     let mut tools = stock::Tools::default();
+    let mut has_probed = false;
     let program = Program::open_each(context, file, &args.reading, &mut |step| {
         tools.step(&step);
+        has_probed |= step.as_move().is_some_and(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
         if let Some(limits) = &mut limits {
             limits.step(&step);
         }
@@ -85,7 +90,10 @@ fn check(
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
-    let mut comparison = against.map(|against| against.comparison(context, program.dialect));
+    // The probing run of a drawing is a text of its own.
+    let is_probing = has_probed && program.dialect == Dialect::Native;
+    let milled = against.filter(|against| !is_probing || !against.has_probes());
+    let mut comparison = milled.map(|against| against.comparison(context, program.dialect));
     let mut past = against.and_then(|against| against.past_clamps(program.dialect));
     let mut found = verify_with(&drawn, &Checks { stock: stock.as_ref(), machine: None }, &mut |step| {
         if let Some(comparison) = &mut comparison {
@@ -99,15 +107,27 @@ fn check(
     found.extend(coarse_arcs(&program.text, program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
     found.extend(stock::unknown_tools(context, &program, &tools));
-    if let Some((against, comparison)) = against.zip(comparison) {
+    if program.dialect == Dialect::Native {
+        found.extend(native::unstated_heights(&program.text));
+    }
+    found.extend(stock::disagreements(context, &program, &tools, wishes, against));
+    if let Some((against, comparison)) = milled.zip(comparison) {
         let agreement = comparison.finish();
         against.say(context, &program, agreement.equal);
         found.extend(agreement.differences);
     }
+    if let Some(against) = against.filter(|_| program.dialect == Dialect::Native) {
+        let is_sound = !found.iter().chain(&program.read.problems).any(Diagnostic::is_error);
+        found.extend(against.text_differences(context, &program, is_probing, is_sound)?);
+    }
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if against.is_some() {
-        diagnostics.iter_mut().filter(|it| is_unsaid(it)).for_each(|it| it.severity = Severity::Error);
+        diagnostics
+            .iter_mut()
+            .chain(&mut found)
+            .filter(|it| is_unsaid(it))
+            .for_each(|it| it.severity = Severity::Error);
     }
     diagnostics.append(&mut found);
     Ok(diagnostics)
@@ -128,6 +148,7 @@ fn is_unsaid(doubt: &Diagnostic) -> bool {
             | Code::MotionNotStated
             | Code::StopBeforeMotion
             | Code::ActiveComment
+            | Code::UncheckedFormula
     )
 }
 

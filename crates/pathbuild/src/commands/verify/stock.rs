@@ -1,7 +1,7 @@
 //! What is known of cutter and material. (book: program/reading: the stock's extent is in no drawing)
 
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::messages::{gcode as say, posts};
+use pathbuild_diagnostic::{Diagnostic, Severity, Word};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Action, Step};
 use pathbuild_gcode::provenance::Provenance;
@@ -35,6 +35,24 @@ impl Tools {
         if self.inserted.is_empty() { &self.selected } else { &self.inserted }
     }
 
+    /// Tools whose diameter in the table is not the header's, each once. Layers are no tools.
+    fn other_than_header(&self, context: &Context, dialect: Dialect, header: Option<f64>) -> Vec<Diagnostic> {
+        let table = tool_table(context);
+        let mut found: Vec<(u32, u32, f64, f64)> = Vec::new();
+        for (line, number) in self.used().iter().filter(|_| dialect != Dialect::Xpertmill) {
+            let entry = table.entries.iter().find(|entry| entry.index == Some(*number));
+            let other = different(header, entry.map(|entry| entry.diameter));
+            if let Some((header, table)) = other.filter(|_| found.iter().all(|(_, met, ..)| met != number)) {
+                found.push((*line, *number, header, table));
+            }
+        }
+        let warning = |(line, number, header, table)| {
+            let problem = Diagnostic::new(&say::OTHER_CUTTER_IN_TABLE).with("index", u64::from(number));
+            problem.with("header", header).with("table", table).at_line(line, None)
+        };
+        found.into_iter().map(warning).collect()
+    }
+
     /// The diameters in mm, each from a line on, by the tool table; `None` if one is not in it, or there are no tools.
     fn cutters(&self, context: &Context) -> Option<Vec<(u32, f64)>> {
         let table = tool_table(context);
@@ -49,7 +67,8 @@ impl Tools {
 
 /// The material that a program cuts; `None` where cutter or surface are not known.
 ///
-/// The cutter is that of the command line, else the drawing's, else that of the tool's number, else the header's. The surface is that of
+/// The cutter is that of the command line, else the drawing's, else that of the tool's number, else the header's. A native program always
+/// says `T1`, so its header's decides. The surface is that of
 /// the command line, else the drawing's, if it has one only, else where a native program's plunges hand over, else the header's.
 pub(super) fn stock(
     context: &Context,
@@ -60,8 +79,10 @@ pub(super) fn stock(
 ) -> Option<Stock> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
+    let is_native = program.dialect == Dialect::Native;
     let cutters = match wishes.cutter.or(against.and_then(Against::cutter)) {
         Some(cutter) => vec![(0, cutter)],
+        None if is_native => vec![(0, of_header?)],
         None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
     };
     let uniform = |surface: f64| {
@@ -71,10 +92,55 @@ pub(super) fn stock(
     if let Some(surface) = wishes.surface.or(against.and_then(Against::surface)) {
         return Some(uniform(surface));
     }
-    let is_native = program.dialect == Dialect::Native;
     let native = is_native.then(|| Stock::of_native_text(&program.drawn(), cutters.first()?.1)).flatten();
     native.or_else(|| header.and_then(|header| header.thickness).map(uniform))
 }
+
+/// Where cutter or surface are said to be different by the header, the command line, the tool table and the drawing.
+pub(super) fn disagreements(
+    context: &Context,
+    program: &Program,
+    tools: &Tools,
+    wishes: &StockOptions,
+    against: Option<&Against>,
+) -> Vec<Diagnostic> {
+    let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
+    let of_header = header.as_ref().and_then(|header| header.cutter);
+    let drawn = against.and_then(Against::cutter);
+    let mut found = Vec::new();
+    if let Some((header, given)) = different(of_header, wishes.cutter) {
+        found.push(Diagnostic::new(&say::OTHER_CUTTER_GIVEN).with("header", header).with("given", given));
+    }
+    let compared = |message, place, values: Option<(f64, f64)>| {
+        let problem = |(found, drawn)| {
+            let problem = Diagnostic::new(message).with("place", place);
+            problem.with("found", found).with("drawn", drawn)
+        };
+        values.map(problem)
+    };
+    // The operator reads the header, and puts in what it names.
+    let of_program = compared(&say::OTHER_CUTTER_DRAWN, &HEADER, different(of_header, drawn));
+    found.extend(of_program.map(|it| Diagnostic { severity: Severity::Error, ..it }));
+    found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(wishes.cutter, drawn)));
+    let surface = against.and_then(Against::surface);
+    let of_header_surface = header.and_then(|header| header.thickness);
+    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(of_header_surface, surface)));
+    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(wishes.surface, surface)));
+    found.extend(tools.other_than_header(context, program.dialect, of_header));
+    found
+}
+
+/// Two values that are not the same.
+fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
+    one.zip(other).filter(|(one, other)| (one - other).abs() > SAME)
+}
+
+/// Diameters and heights that differ by less, in mm, are the same.
+const SAME: f64 = 1e-6;
+
+static HEADER: Word = Word { en: "the header", de: "der Kopf" };
+static CUTTER: Word = Word { en: "--cutter", de: "--cutter" };
+static SURFACE: Word = Word { en: "--surface", de: "--surface" };
 
 /// Tools that the table does not have, each once; nothing where there is no table with numbers.
 pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {

@@ -1,0 +1,186 @@
+//! Correction formulas of native programs, held against the number that the machine goes to. (book: language/probes)
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::messages::gcode as say;
+
+use super::execute::Interpreter;
+use crate::adjust::{ProgramProbe, probe_entry};
+use crate::provenance::Provenance;
+use crate::read::{Binary, Block, Formula, Function, Op, Span};
+
+/// A formula and its number may differ by this much, in mm: the number has three decimals.
+const ROUNDING: f64 = 0.001 * (1.0 + 1e-6);
+
+/// What a native program states about its probes before its first word.
+#[derive(Debug, Default)]
+pub(super) struct StatedProbes {
+    probes: BTreeMap<u32, ProgramProbe>,
+    /// pathbuild wrote the program, so that every probe is stated in its header.
+    is_ours: bool,
+    has_begun: bool,
+    /// S0, the one height that is never corrected.
+    start_height: Option<f64>,
+    stack: Vec<f64>,
+}
+
+/// The height of a probe that a formula is evaluated with.
+#[derive(Clone, Copy, PartialEq)]
+enum ProbeHeight {
+    Drawn,
+    Measured,
+}
+
+/// Why a formula has no value.
+enum NoValue {
+    /// The program states nothing about this probe.
+    NotStated(u32),
+    /// The program does not state the measured height of this probe.
+    NotMeasured(u32),
+    NotFinite,
+}
+
+impl StatedProbes {
+    fn evaluate(&mut self, code: &[Op], height: ProbeHeight) -> Result<f64, NoValue> {
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.clear();
+        let value = self.run(code, height, &mut stack);
+        self.stack = stack;
+        value.and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoValue::NotFinite) })
+    }
+
+    fn run(&self, code: &[Op], height: ProbeHeight, stack: &mut Vec<f64>) -> Result<f64, NoValue> {
+        for (index, op) in code.iter().enumerate() {
+            // The reader has compiled the formula: every operator has its operands.
+            let mut pop = || stack.pop().unwrap_or(f64::NAN);
+            let value = match *op {
+                Op::Number(number) => number,
+                Op::Parameter => {
+                    let number = pop();
+                    #[expect(
+                        clippy::cast_possible_truncation,
+                        clippy::cast_sign_loss,
+                        reason = "it saturates"
+                    )]
+                    self.probe(number as u32, height, &code[index + 1..])?
+                }
+                Op::Function(Function::Negate) => -pop(),
+                Op::Binary(operator) => {
+                    let right = pop();
+                    let left = pop();
+                    match operator {
+                        Binary::Plus => left + right,
+                        Binary::Minus => left - right,
+                        Binary::Times => left * right,
+                        Binary::Divide => left / right,
+                        _ => f64::NAN,
+                    }
+                }
+                _ => f64::NAN,
+            };
+            stack.push(value);
+        }
+        Ok(stack.pop().unwrap_or(f64::NAN))
+    }
+
+    /// The height of a probe. In programs that do not state their probes, `[#51-2.000]` says how high each was drawn.
+    fn probe(&self, number: u32, height: ProbeHeight, behind: &[Op]) -> Result<f64, NoValue> {
+        match (self.probes.get(&number), height) {
+            (Some(probe), ProbeHeight::Drawn) => Ok(probe.height),
+            (Some(probe), ProbeHeight::Measured) => probe.measured.ok_or(NoValue::NotMeasured(number)),
+            (None, ProbeHeight::Drawn) if !self.is_ours => match behind {
+                [Op::Number(drawn), Op::Binary(Binary::Minus), ..] => Ok(*drawn),
+                _ => Err(NoValue::NotStated(number)),
+            },
+            (None, _) => Err(NoValue::NotStated(number)),
+        }
+    }
+
+    fn has_measured(&self) -> bool {
+        self.probes.values().any(|probe| probe.measured.is_some())
+    }
+}
+
+impl Interpreter<'_> {
+    /// Takes the probes and the provenance that a native program states before its first word.
+    pub(super) fn take_stated(&mut self, block: &Block<'_>, text: Span) {
+        if !self.rules.spelling.formulas || self.stated.has_begun {
+            return;
+        }
+        let comment = block.text_of(text);
+        if let Some((number, probe)) = probe_entry(&comment) {
+            self.stated.is_ours = true;
+            if self.stated.probes.insert(number, probe).is_some_and(|known| known != probe) {
+                self.report(block, &say::PROBE_STATED_TWICE, text, |d| d.with("probe", u64::from(number)));
+            }
+        } else if !self.stated.is_ours {
+            self.stated.is_ours = comment.trim().parse::<Provenance>().is_ok();
+        }
+    }
+
+    /// Notes that a block has words: what is stated in comments from here on does not count.
+    pub(super) fn begin_words(&mut self, block: &Block<'_>) {
+        self.stated.has_begun |= !block.words.is_empty();
+    }
+
+    /// How much of a number is correction, by its formula. The number itself is what the machine executes, so a formula that comes to
+    /// something else is reported.
+    pub(super) fn correction(&mut self, block: &Block<'_>, formula: &Formula, number: f64) -> f64 {
+        if self.stated.is_ours && self.stated.probes.is_empty() {
+            self.report(block, &say::FORMULA_WITHOUT_PROBES, formula.span, |d| d);
+            return 0.0;
+        }
+        let code = block.code(formula.code);
+        let drawn = match self.stated.evaluate(code, ProbeHeight::Drawn) {
+            Ok(drawn) => drawn,
+            Err(fault) => return self.no_value(block, formula, &fault),
+        };
+        if !formula.applied {
+            self.compare(block, formula, number, drawn);
+            if self.stated.has_measured() {
+                self.report(block, &say::FORMULA_NOT_APPLIED, formula.span, |d| d);
+            }
+            return 0.0;
+        }
+        match self.stated.evaluate(code, ProbeHeight::Measured) {
+            Ok(value) => {
+                self.compare(block, formula, number, value);
+                value - drawn
+            }
+            Err(NoValue::NotStated(_)) if !self.stated.is_ours => {
+                // Another program wrote it, which states no measured heights: `verify` says so.
+                number - drawn
+            }
+            Err(fault) => self.no_value(block, formula, &fault),
+        }
+    }
+
+    fn no_value(&mut self, block: &Block<'_>, formula: &Formula, fault: &NoValue) -> f64 {
+        let (message, probe) = match fault {
+            NoValue::NotStated(probe) => (&say::PROBE_NOT_STATED, *probe),
+            NoValue::NotMeasured(probe) => (&say::HEIGHT_NOT_MEASURED, *probe),
+            NoValue::NotFinite => (&say::FORMULA_WITHOUT_VALUE, 0),
+        };
+        self.report(block, message, formula.span, |d| d.with("probe", u64::from(probe)));
+        0.0
+    }
+
+    fn compare(&mut self, block: &Block<'_>, formula: &Formula, number: f64, value: f64) {
+        if libm::fabs(number - value) > ROUNDING {
+            self.report(block, &say::FORMULA_DIFFERS, formula.span, |d| {
+                d.with("number", number).with("value", libm::round(value * 1000.0) / 1000.0)
+            });
+        }
+    }
+
+    /// In a program with probes every height but S0 has a formula.
+    pub(super) fn height_without_formula(&mut self, block: &Block<'_>, span: Span, number: f64) {
+        if self.stated.probes.is_empty() {
+            return;
+        }
+        let start = *self.stated.start_height.get_or_insert(number);
+        if libm::fabs(number - start) > ROUNDING {
+            self.report(block, &say::HEIGHT_WITHOUT_FORMULA, span, |d| d);
+        }
+    }
+}
