@@ -11,7 +11,7 @@ use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{Database, Db, Limits, Reading, Role, Settings, Target, closure, program, trace};
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::FoldOptions;
+use pathbuild_path::PathOptions;
 
 criterion_group!(benches, one_edit);
 criterion_main!(benches);
@@ -92,7 +92,7 @@ fn settings(db: &mut Database) {
         doubts: pathbuild_path::Doubts::default(),
     };
     let (files, search) = (FilePattern::default(), vec!["parts".into()]);
-    let fold = FoldOptions { feed: Some(150.0), sweep_height: Some(20.0), ..FoldOptions::default() };
+    let fold = PathOptions { feed: Some(150.0), sweep_height: Some(20.0), ..PathOptions::default() };
     let reading = Reading::default();
     _ = Settings::new(db, reading, Arc::new(language), files, search, Vec::new(), fold, Limits::default());
 }

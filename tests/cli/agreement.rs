@@ -13,10 +13,9 @@ use pathbuild_db::{
     locate, path_names, q_project_findings,
 };
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{FilePattern, Restriction};
+use pathbuild_path::{FilePattern, PathOptions, Restriction};
 use pathbuild_testkit::Workshop;
 use pathbuild_testkit::naive::{Finding, Model, Rules, differences, language};
-use pathbuild_toolpath::FoldOptions;
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -143,7 +142,7 @@ impl Asked {
             FilePattern::default(),
             search,
             restrict.collect(),
-            FoldOptions { feed: Some(100.0), sweep_height: None, ..FoldOptions::default() },
+            PathOptions { feed: Some(100.0), sweep_height: None, ..PathOptions::default() },
             Limits::default(),
         );
         Self { db, targets: BTreeMap::new() }
