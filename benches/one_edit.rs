@@ -9,9 +9,8 @@ use camino::Utf8Path;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{Database, Db, Limits, Reading, Role, Settings, Target, closure, program, trace};
-use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathPattern};
+use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathOptions, PathPattern};
 use pathbuild_testkit::sheet;
-use pathbuild_path::PathOptions;
 
 criterion_group!(benches, one_edit);
 criterion_main!(benches);
