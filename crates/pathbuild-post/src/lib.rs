@@ -8,6 +8,7 @@ mod built_in;
 mod cad6;
 mod cambam;
 mod definition;
+mod findings;
 mod from_program;
 mod from_steps;
 mod guard;

@@ -108,6 +108,47 @@ fn work_grows_with_what_a_post_writes() {
     }
 }
 
+/// The same with the definition: macros, elements and mistakes. At most 100 mistakes are told.
+#[test]
+fn work_grows_with_what_a_definition_holds() {
+    let cambam = |macros: String| {
+        format!("<PostProcessor><PostProcessorMacros>\n{macros}</PostProcessorMacros></PostProcessor>")
+    };
+    let texts = |line: String| format!("[text]\nline='''\n{line}'''\n");
+    type Definition<'d> = &'d dyn Fn(usize) -> String;
+    let lines = |line: &dyn Fn(usize) -> String, count| (0..count).map(line).collect::<String>();
+    for (name, file, count, definition) in [
+        (
+            "macros",
+            "a.cbpp",
+            4000,
+            &(|count| cambam(lines(&|n| format!("$m{n}=x\n"), count))) as Definition<'_>,
+        ),
+        ("macros in macros", "a.cbpp", 2500, &|count| {
+            cambam(lines(&|n| format!("$m{n}={{$m{}}}\n", n + 1), count))
+        }),
+        ("unknown macros", "a.cbpp", 2500, &|count| cambam(lines(&|n| format!("$m{n}={{$n{n}}}\n"), count))),
+        ("lines that are no macros", "a.cbpp", 4000, &|count| cambam(lines(&|n| format!("m{n}=x\n"), count))),
+        ("repeated elements", "a.cbpp", 500, &|count| {
+            format!("<PostProcessor>{}</PostProcessor>", lines(&|n| format!("<MOP>\n{n}</MOP>\n"), count))
+        }),
+        ("keys", "a.toml", 4000, &|count| format!("[text]\n{}", lines(&|n| format!("k{n}=\"x\"\n"), count))),
+        ("numbers without a format", "a.toml", 4000, &|count| texts("~X1~\n".repeat(count))),
+        ("variables that are assigned", "a.toml", 1500, &|count| {
+            texts(lines(&|n| format!("{{=a{n} {{\"1\"}}}}~b{n}~\n"), count))
+        }),
+    ] {
+        let place = |count| {
+            let place = drawn(&format!("post = \"{file}\"\n"), &polyline(2));
+            place.file(file, definition(count))
+        };
+        for run in of_one_and_four(name, count, place, "emit 1202.1P.dxf --untrusted --format concise") {
+            assert!(matches!(run.status, Some(0 | 1)), "{name}: {run}");
+            assert!(run.stdout.lines().count() <= 110, "{name}: {run}");
+        }
+    }
+}
+
 /// The lines of a chain stand no further to the right than somebody sees.
 #[test]
 fn what_is_said_grows_with_how_deep_paths_are_embedded() {

@@ -13,6 +13,7 @@ use super::lints;
 use super::marks::is_private;
 use super::settings::{SETTINGS, Settings};
 use crate::Units;
+use crate::findings::{Findings, LineStarts};
 use crate::suggest::nearest;
 
 /// A definition as its file has it.
@@ -28,7 +29,12 @@ pub(crate) struct Definition {
 impl Definition {
     /// Reads a definition. What is doubtful in it is warnings beside it.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let mut reader = ControlTextReader { source: text, file, diagnostics: Vec::new() };
+        let mut reader = ControlTextReader {
+            source: text,
+            lines: LineStarts::of(text),
+            file,
+            findings: Findings::default(),
+        };
         let table = match DeTable::parse(text) {
             Ok(table) => table,
             Err(error) => {
@@ -37,20 +43,17 @@ impl Definition {
                     Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason),
                     error.span().unwrap_or(0..0),
                 );
-                return Err(reader.diagnostics);
+                return Err(reader.findings.warnings().unwrap_or_else(|errors| errors));
             }
         };
         let definition = reader.definition(table.get_ref());
-        let mut diagnostics = reader.diagnostics;
-        if diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(diagnostics);
+        let mut findings = reader.findings;
+        if !findings.has_error() {
+            for doubt in lints::of(&definition, file) {
+                findings.add(doubt);
+            }
         }
-        diagnostics.extend(lints::of(&definition, file));
-        if diagnostics.iter().any(Diagnostic::is_error) {
-            Err(diagnostics)
-        } else {
-            Ok((definition, diagnostics))
-        }
+        findings.warnings().map(|warnings| (definition, warnings))
     }
 
     /// Extension of the files it writes.
@@ -145,19 +148,26 @@ type Value<'a> = Spanned<DeValue<'a>>;
 
 struct ControlTextReader<'a> {
     source: &'a str,
+    lines: LineStarts,
     file: &'a Utf8Path,
-    diagnostics: Vec<Diagnostic>,
+    findings: Findings,
 }
 
 impl ControlTextReader<'_> {
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
+        // To find a column takes a look at all of the line in front of it.
+        if self.findings.is_full(diagnostic.is_error()) {
+            return;
+        }
         let (line, column) = self.place(span.start);
-        self.diagnostics.push(diagnostic.in_file(self.file).at_line(line, Some(column)));
+        self.findings.add(diagnostic.in_file(self.file).at_line(line, Some(column)));
     }
 
     /// Line and column, from 1.
     fn place(&self, byte: usize) -> (u32, u32) {
-        ControlText { text: self.source.to_owned(), begins: None }.place(byte)
+        let byte = self.source.floor_char_boundary(byte);
+        let column = self.source[self.lines.start(byte)..byte].chars().count();
+        (self.lines.line(byte), u32::try_from(column + 1).unwrap_or(u32::MAX))
     }
 
     fn definition(&mut self, root: &DeTable<'_>) -> Definition {

@@ -1,5 +1,7 @@
 //! What may not be meant in control texts, found without running them.
 
+use std::collections::BTreeSet;
+
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
@@ -8,6 +10,7 @@ use super::definition::{Definition, Uncalled};
 use super::expand::next_variable;
 use super::report::locate;
 use super::variables::{KNOWN, TEXTS};
+use crate::findings::MOST_FINDINGS;
 
 /// The doubts about a definition, and the texts in it that no program calls: what they switch would never be switched.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
@@ -26,10 +29,12 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();
     // A text that is broken is reported when it is run.
-    while let Ok(Some((before, name, after))) = next_variable(rest) {
+    while let Ok(Some((before, name, after))) = next_variable(rest)
+        && diagnostics.len() < MOST_FINDINGS
+    {
         let at = text.text.len() - rest.len() + before.len();
         statements.pass(before);
-        let message = if statements.assigned.contains(&name) {
+        let message = if statements.assigned.contains(name) {
             Some(&posts::READ_AFTER_ASSIGNMENT)
         } else {
             (is_number(name) && statements.open.is_empty()).then_some(&posts::NUMBER_UNFORMATTED)
@@ -52,7 +57,7 @@ fn is_number(name: &str) -> bool {
 struct Statements<'a> {
     /// The variable that each open statement assigns, if any.
     open: Vec<Option<&'a str>>,
-    assigned: Vec<&'a str>,
+    assigned: BTreeSet<&'a str>,
 }
 
 impl<'a> Statements<'a> {
@@ -61,7 +66,7 @@ impl<'a> Statements<'a> {
             if brace == "{" {
                 self.open.push(text[at + 1..].strip_prefix('=').map(leading_name));
             } else if let Some(Some(name)) = self.open.pop() {
-                self.assigned.push(name);
+                self.assigned.insert(name);
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Reading a CamBam definition: a flat XML file of templates and options.
 
+use std::collections::{HashMap, HashSet};
+
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -10,6 +12,7 @@ use super::options::{Options, Refusal};
 use super::registers::Form;
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
+use crate::findings::{Findings, LineStarts};
 use crate::job::Units;
 
 /// A definition as its file has it.
@@ -20,7 +23,40 @@ pub(crate) struct Definition {
     defaults: Vec<Template>,
     pub(super) options: Options,
     /// The user macros of `PostProcessorMacros`.
-    pub(super) macros: Vec<(Box<str>, Template)>,
+    pub(super) macros: UserMacros,
+}
+
+/// Macros by name, in the order in which they were defined.
+#[derive(Clone, Debug, Default)]
+pub(super) struct UserMacros {
+    macros: Vec<(Box<str>, Template)>,
+    by_name: HashMap<Box<str>, usize>,
+}
+
+impl UserMacros {
+    /// Defines a macro; the last definition of a name holds.
+    pub(super) fn set(&mut self, name: &str, text: Template) {
+        let next = self.macros.len();
+        match *self.by_name.entry(name.into()).or_insert(next) {
+            index if index == next => self.macros.push((name.into(), text)),
+            index => self.macros[index].1 = text,
+        }
+    }
+
+    /// The text of a macro.
+    pub(super) fn get(&self, name: &str) -> Option<&Template> {
+        self.by_name.get(name).map(|&index| &self.macros[index].1)
+    }
+
+    /// The names, in order.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.macros.iter().map(|(name, _)| &**name)
+    }
+
+    /// The texts, in order.
+    pub(super) fn texts(&self) -> impl Iterator<Item = &Template> {
+        self.macros.iter().map(|(_, text)| text)
+    }
 }
 
 /// No definition has as many elements; a file that has is hostile.
@@ -37,7 +73,7 @@ impl Definition {
             let found = root.tag_name().name();
             return Err(vec![Diagnostic::new(&posts::POST_WRONG_ROOT).with("found", found).in_file(file)]);
         }
-        let mut reader = CbppReader::new(file);
+        let mut reader = CbppReader::new(file, LineStarts::of(text));
         root.children().filter(Node::is_element).for_each(|element| reader.element(element));
         reader.finish()
     }
@@ -94,10 +130,7 @@ impl Definition {
 
     /// Every template of the file and those that stand in for absent ones.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
-        Section::ALL
-            .iter()
-            .map(|&section| self.section(section))
-            .chain(self.macros.iter().map(|(_, text)| text))
+        Section::ALL.iter().map(|&section| self.section(section)).chain(self.macros.texts())
     }
 }
 
@@ -109,13 +142,14 @@ fn syntax(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
 
 struct CbppReader<'a> {
     file: &'a Utf8Path,
+    lines: LineStarts,
     definition: Definition,
-    seen: Vec<String>,
-    diagnostics: Vec<Diagnostic>,
+    seen: HashSet<String>,
+    findings: Findings,
 }
 
 impl<'a> CbppReader<'a> {
-    fn new(file: &'a Utf8Path) -> Self {
+    fn new(file: &'a Utf8Path, lines: LineStarts) -> Self {
         let default = |&section: &Section| {
             Template::parse(section, section.default_text(), 0).expect("the built-in sections are templates")
         };
@@ -123,14 +157,15 @@ impl<'a> CbppReader<'a> {
             sections: vec![None; Section::ALL.len()],
             defaults: Section::ALL.iter().map(default).collect(),
             options: Options::default(),
-            macros: Vec::new(),
+            macros: UserMacros::default(),
         };
-        Self { file, definition, seen: Vec::new(), diagnostics: Vec::new() }
+        Self { file, lines, definition, seen: HashSet::new(), findings: Findings::default() }
     }
 
     fn element(&mut self, element: Node<'_, '_>) {
         let name = element.tag_name().name();
-        let (text, line) = text_of(element);
+        let (text, start) = text_of(element);
+        let line = self.lines.line(start);
         self.notice_repetition(name, line);
         self.notice_nested(element);
         if let Some(&section) = Section::ALL.iter().find(|section| section.name() == name) {
@@ -144,17 +179,15 @@ impl<'a> CbppReader<'a> {
     }
 
     fn notice_repetition(&mut self, name: &str, line: u32) {
-        if self.seen.iter().any(|seen| seen == name) {
+        if !self.seen.insert(name.to_owned()) {
             self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).with("element", name), line);
-        } else {
-            self.seen.push(name.to_owned());
         }
     }
 
     /// Elements within one that holds a text mean nothing.
     fn notice_nested(&mut self, element: Node<'_, '_>) {
         for nested in element.children().filter(Node::is_element) {
-            let line = element.document().text_pos_at(nested.range().start).row;
+            let line = self.lines.line(nested.range().start);
             let name = nested.tag_name().name();
             self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);
         }
@@ -164,7 +197,9 @@ impl<'a> CbppReader<'a> {
         match Template::parse(section, text, line) {
             Ok(template) => Some(template),
             Err(errors) => {
-                self.diagnostics.extend(errors.iter().map(|error| template_error(section, error, self.file)));
+                for error in &errors {
+                    self.findings.add(template_error(section, error, self.file));
+                }
                 None
             }
         }
@@ -188,8 +223,7 @@ impl<'a> CbppReader<'a> {
                 }
                 Some((name, value)) => {
                     if let Some(value) = self.template(Section::UserMacro, value, line) {
-                        self.definition.macros.retain(|(known, _)| **known != *name);
-                        self.definition.macros.push((name.into(), value));
+                        self.definition.macros.set(name, value);
                     }
                 }
             }
@@ -210,23 +244,20 @@ impl<'a> CbppReader<'a> {
     }
 
     fn report(&mut self, diagnostic: Diagnostic, line: u32) {
-        self.diagnostics.push(diagnostic.in_file(self.file).at_line(line, None));
+        self.findings.add(diagnostic.in_file(self.file).at_line(line, None));
     }
 
     fn finish(self) -> Result<(Definition, Vec<Diagnostic>), Vec<Diagnostic>> {
-        if self.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(self.diagnostics);
-        }
-        Ok((self.definition, self.diagnostics))
+        self.findings.warnings().map(|warnings| (self.definition, warnings))
     }
 }
 
-/// The text of an element, and the line in which it begins.
-fn text_of(element: Node<'_, '_>) -> (String, u32) {
+/// The text of an element, and the byte at which it begins.
+fn text_of(element: Node<'_, '_>) -> (String, usize) {
     let first = element.children().find(Node::is_text);
     let start = first.map_or(element.range().start, |text| text.range().start);
     let text = element.children().filter_map(|child| child.is_text().then(|| child.text())?).collect();
-    (text, element.document().text_pos_at(start).row)
+    (text, start)
 }
 
 /// `$name=value`.

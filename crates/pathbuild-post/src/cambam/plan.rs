@@ -7,10 +7,14 @@ use super::definition::{Definition, is_built_in, template_error};
 use super::macros::Macro;
 use super::section::Section;
 use super::template::Template;
+use crate::findings::MOST_FINDINGS;
 use crate::job::{Job, Texts};
 use crate::suggest::nearest;
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
+
+/// Names of macros that an unknown one is compared with at most, so that many unknown ones among many others take no time.
+const MOST_COMPARED: usize = 1000;
 
 /// Everything that a writer reads.
 pub(super) struct Plan<'a> {
@@ -76,8 +80,8 @@ impl<'a> Plan<'a> {
 
     /// The text of a user macro.
     pub(super) fn user_macro(&self, name: &str) -> Option<&Template> {
-        let all = self.macros.iter().chain(&self.definition.macros);
-        all.into_iter().find(|(known, _)| **known == *name).map(|(_, text)| text)
+        let own = self.macros.iter().find(|(known, _)| **known == *name).map(|(_, text)| text);
+        own.or_else(|| self.definition.macros.get(name))
     }
 
     /// Every template that may be expanded.
@@ -88,20 +92,19 @@ impl<'a> Plan<'a> {
     }
 
     fn unknown_macros(&self) -> Vec<Diagnostic> {
-        let mut diagnostics = Vec::new();
-        for template in self.templates() {
-            for (what, line) in template.macros() {
-                let Macro::User(name) = what else { continue };
-                if self.user_macro(name).is_none() {
-                    diagnostics.push(self.unknown_macro(name, template.section, line));
-                }
-            }
-        }
-        diagnostics
+        let macros =
+            self.templates().flat_map(|text| text.macros().map(move |(what, line)| (text, what, line)));
+        let unknown = macros.filter_map(|(text, what, line)| match what {
+            Macro::User(name) if self.user_macro(name).is_none() => Some((text, name, line)),
+            _ => None,
+        });
+        let reported = unknown.take(MOST_FINDINGS);
+        reported.map(|(text, name, line)| self.unknown_macro(name, text.section, line)).collect()
     }
 
     fn unknown_macro(&self, name: &str, section: Section, line: u32) -> Diagnostic {
-        let users = self.macros.iter().chain(&self.definition.macros).map(|(name, _)| &**name);
+        let users = self.macros.iter().map(|(name, _)| &**name).chain(self.definition.macros.names());
+        let users = users.take(MOST_COMPARED);
         let bare = name.split('(').next().unwrap_or(name);
         let diagnostic = match nearest(bare, users).or_else(|| Macro::nearest(bare)) {
             Some(nearest) => Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).with("nearest", framed(nearest)),
