@@ -8,6 +8,7 @@ pub mod interpret;
 pub mod native;
 pub mod provenance;
 pub mod read;
+pub mod statistics;
 pub mod summary;
 pub mod verify;
 mod written_arc;

@@ -7,8 +7,9 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::statistics::statistics;
 use pathbuild_toolpath::{
-    Class, Correction, Count, Height, Move, ProbePoint, Program, Statistics, Step, Surface, Xy, ZModel,
+    Class, Correction, Count, Height, Move, ProbePoint, Program, Step, Surface, Xy, ZModel,
 };
 
 const TIN: Correction = Correction { model: ZModel::Tin, longest: 20.0 };
@@ -262,7 +263,7 @@ fn what_is_milled_right_after_a_sweep_begins_at_its_own_height() {
         "G00 Z20.000(=20.000+1.000*[#52-5.000])",
     ];
     assert_eq!((moves(&program, whole), whole.count(&program)), (expected.map(str::to_owned).to_vec(), 6));
-    assert_eq!(Statistics::of(&program, 1000.0).commands, 6);
+    assert_eq!(statistics(&program, 1000.0).commands, 6);
 }
 
 #[test]
@@ -382,16 +383,16 @@ fn statistics_count_a_cut_move_once() {
     let steps =
         vec![line((300.0, 0.0), 1.0, (0.0, 0.0)), arc((-50.0, 0.0), (250.0, 50.0), 1.0, (false, 90.0))];
     let program = program(&grid(), steps);
-    let statistics = |correction| {
+    let lines = |correction| {
         let text = written(&program, correction);
         text.lines()
             .filter(|line| line.contains(" mm ") || line.contains("count"))
             .map(str::to_owned)
             .collect::<Vec<_>>()
     };
-    assert_eq!(statistics(TIN), statistics(Correction::default()));
-    assert_eq!(Statistics::of(&program, 1000.0).commands, 3);
-    assert_eq!(statistics(TIN).last().unwrap(), "(Command count: 3)");
+    assert_eq!(lines(TIN), lines(Correction::default()));
+    assert_eq!(statistics(&program, 1000.0).commands, 3);
+    assert_eq!(lines(TIN).last().unwrap(), "(Command count: 3)");
 }
 
 #[test]

@@ -108,12 +108,12 @@ pub struct Height {
     pub at: Xy,
 }
 
-/// What a move adds to the statistics. (book: program/gcode)
+/// What a move adds to the reference's statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
     /// Under which label.
     pub class: Class,
-    /// Length in mm, as the specification counts it (a sweep's includes its difference in height).
+    /// Length in mm, as the reference counts it: in the plane, but a sweep's with its difference in height.
     pub length: f64,
     /// The feed in mm/min that its time is reckoned with; `None` is the rapid feed.
     pub feed: Option<f64>,

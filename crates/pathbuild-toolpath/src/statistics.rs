@@ -1,5 +1,7 @@
 //! Lengths and times of a program. (book: program/gcode)
 
+use std::ops::Add;
+
 use crate::program::{Class, Count, Move, Program, Step};
 
 /// What a program adds up to.
@@ -26,8 +28,9 @@ pub struct Total {
 const SLOWER: f64 = 1.4;
 
 impl Statistics {
-    /// Adds up a program that sweeps at a rapid feed in mm/min.
-    pub fn of(program: &Program, rapid: f64) -> Self {
+    /// The statistics that `PathDxf2GCode` gives a program, with a rapid feed in mm/min: planned lengths, which the moves may not come to.
+    /// Only compatible programs have them.
+    pub fn of_reference(program: &Program, rapid: f64) -> Self {
         let mut statistics = Self::default();
         let mut z = program.start_height();
         for step in &program.steps {
@@ -44,10 +47,7 @@ impl Statistics {
     /// All together.
     pub fn sum(&self) -> Total {
         let totals = [self.milling, self.drilling, self.sweeps];
-        totals.iter().fold(Total::default(), |sum, total| Total {
-            length: sum.length + total.length,
-            time: sum.time + total.time,
-        })
+        totals.into_iter().fold(Total::default(), Add::add)
     }
 
     fn add(&mut self, count: &Count, rapid: f64) {
@@ -59,6 +59,14 @@ impl Statistics {
         total.length += count.length;
         total.time += count.length / count.feed.unwrap_or(rapid);
         self.commands += 1;
+    }
+}
+
+impl Add for Total {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { length: self.length + other.length, time: self.time + other.time }
     }
 }
 

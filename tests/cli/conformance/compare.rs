@@ -9,7 +9,8 @@ use tempfile::TempDir;
 
 use super::files_below;
 use super::recorded::{Form, Run, What};
-use super::reduced::{is_same_line, reduced};
+use super::reduced::{is_same_line, of_default, reduced};
+use super::travelled::statistics_difference;
 use crate::support::program;
 
 /// What differs; nothing where the run is equal.
@@ -46,7 +47,9 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
         differences.push(format!("files {written:?}, expected {wanted:?}"));
     }
     let both = written.intersection(&wanted);
-    differences.extend(both.filter_map(|name| file_difference(name, &expected, place.path())));
+    for name in both {
+        differences.extend(file_difference(name, run.form, &expected, place.path()));
+    }
     differences
 }
 
@@ -128,8 +131,17 @@ fn error_code(line: &str) -> Option<String> {
 }
 
 /// The first line in which a file differs.
-fn file_difference(name: &str, expected: &Path, written: &Path) -> Option<String> {
-    let lines = |directory: &Path| reduced(name, &fs::read_to_string(directory.join(name)).unwrap());
+fn file_difference(name: &str, form: Form, expected: &Path, written: &Path) -> Option<String> {
+    let text = |directory: &Path| fs::read_to_string(directory.join(name)).unwrap();
+    let lines = |directory: &Path| {
+        let lines = reduced(name, &text(directory));
+        if form == Form::Default { of_default(lines) } else { lines }
+    };
+    if form == Form::Default
+        && let Some(difference) = statistics_difference(name, &text(written))
+    {
+        return Some(difference);
+    }
     let (expected, written) = (lines(expected), lines(written));
     (0..expected.len().max(written.len())).find_map(|index| {
         let line = |lines: &[String]| lines.get(index).cloned().unwrap_or_else(|| "<nothing>".to_owned());

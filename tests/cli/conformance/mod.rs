@@ -4,6 +4,7 @@
 mod compare;
 pub(crate) mod recorded;
 mod reduced;
+mod travelled;
 
 use std::collections::BTreeSet;
 use std::fs;

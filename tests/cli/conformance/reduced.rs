@@ -46,8 +46,18 @@ pub(crate) fn is_same_line(expected: &str, written: &str) -> bool {
     }
 }
 
+/// What of reduced lines counts without `--compatible`: no statistics, which are held against the program's own moves instead; either code
+/// of a probing move; a line of a value file without the place of the probe in the program, ` @ [x|y]`.
+pub(crate) fn of_default(lines: Vec<String>) -> Vec<String> {
+    static PROBING: LazyLock<Regex> = LazyLock::new(|| Regex::new(r"^G38\.[23]").unwrap());
+    static PLACE: LazyLock<Regex> = LazyLock::new(|| Regex::new(r" @ \[[^\]]*\]").unwrap());
+    let is_kept = |line: &String| length(line).is_none() && !line.starts_with("(Command count");
+    let plain = |line: String| PROBING.replace(&PLACE.replace_all(&line, ""), "G38").into_owned();
+    lines.into_iter().filter(is_kept).map(plain).collect()
+}
+
 /// Label, millimetres and minutes of a line of the statistics.
-fn length(line: &str) -> Option<(String, i64, i64)> {
+pub(crate) fn length(line: &str) -> Option<(String, i64, i64)> {
     static LENGTH: LazyLock<Regex> =
         LazyLock::new(|| Regex::new(r"^(\([A-Z][a-z ]+): +([0-9]+) mm   ca\. *([0-9]+) min\)$").unwrap());
     let found = LENGTH.captures(line)?;
@@ -80,6 +90,20 @@ fn numbers_may_differ_by_one_unit_of_their_last_digit() {
     assert!(!is_same_line("G00 X1.000", "G00 X1.0001"));
     assert!(!is_same_line("G00 X1.000", "G01 X1.000"));
     assert!(!is_same_line("G00 X0.000", "G00 X-0.000"));
+}
+
+#[test]
+fn without_compatible_statistics_probing_codes_and_places_may_be_others() {
+    let plain = |line: &str| of_default(vec![line.to_owned()]);
+    assert_eq!(plain("(Sweeps:         68 mm   ca.  1 min)"), [""; 0]);
+    assert_eq!(plain("(Command count: 14)"), [""; 0]);
+    assert_eq!(plain("G38.2 F50.000 Z0.000"), plain("G38.3 F50.000 Z0.000"));
+    assert_ne!(plain("G38.2 F50.000 Z0.000"), plain("G38.4 F50.000 Z0.000"));
+    assert_eq!(
+        plain("(1.1P [3.000|4.000] @ [138.000|299.000]) #51=T:5.000"),
+        plain("(1.1P [3.000|4.000]) #51=T:5.000")
+    );
+    assert_ne!(plain("(1.1P [3.000|4.000]) #51=T:5.000"), plain("(1.1P [3.000|4.001]) #51=T:5.000"));
 }
 
 #[test]

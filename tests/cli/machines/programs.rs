@@ -9,7 +9,7 @@ use clap::Parser;
 use pathbuild::args::Cli;
 use pathbuild_db::system::OsSystem;
 use pathbuild_db::{Role, program};
-use pathbuild_gcode::interpret::{Action, Step, moves_of};
+use pathbuild_gcode::interpret::{Step, moves_of};
 use pathbuild_toolpath::Program;
 use pathbuild_workspace::config::Settings;
 use pathbuild_workspace::session::Session;
@@ -98,5 +98,5 @@ fn absolute(case: &Utf8Path, input: String) -> String {
 
 /// The moves of a program as steps: what its native text does, with the numbers of steps for lines.
 pub(crate) fn steps_of(program: &Program) -> Vec<Step> {
-    moves_of(program).into_iter().map(|(line, it)| Step { line, action: Action::Move(it) }).collect()
+    moves_of(program).into_iter().map(|(line, it)| Step::of_move(line, it)).collect()
 }

@@ -46,6 +46,7 @@ impl Interpreter<'_> {
         self.remember(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
         let mut old = self.old_height();
+        self.state_axis(axis);
         if old < hole.r {
             self.lift_to(block, hole.r);
             old = hole.r;

@@ -95,7 +95,7 @@ impl<'i> Interpreter<'i> {
     }
 
     pub(super) fn step(&mut self, block: &Block<'_>, action: Action) {
-        self.out.push(Step { line: block.line, action });
+        self.out.push(Step { line: block.line, action, stated: self.state.stated_axes });
     }
 
     pub(super) fn emit_move(&mut self, block: &Block<'_>, it: Move) {

@@ -22,6 +22,18 @@ impl Move {
         }
     }
 
+    /// Whether it goes straight up or down: its length in the plane XY is below 0.0005 mm, which no program of three decimals can say.
+    pub fn is_upright(&self) -> bool {
+        let in_plane = match self.path {
+            Path::Arc(arc) if arc.plane == Plane::Xy => {
+                Course::new(arc, &self.from, &self.to).length_in_plane()
+            }
+            Path::Arc(_) => return false,
+            Path::Line => libm::hypot(self.to.x() - self.from.x(), self.to.y() - self.from.y()),
+        };
+        self.from.known.and(self.to.known).has(Axes::XY) && in_plane < 0.0005
+    }
+
     /// The smallest box that it stays in, as lowest and highest coordinates; unknown ends are left out, and an axis with none known
     /// is `None`.
     pub fn extent(&self) -> [Option<(f64, f64)>; 3] {

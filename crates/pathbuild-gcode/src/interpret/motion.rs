@@ -98,7 +98,7 @@ impl Interpreter<'_> {
     }
 
     /// Where coordinates lead from the present position.
-    pub(super) fn target(&self, coordinates: [Option<Slot>; 3]) -> Position {
+    pub(super) fn target(&mut self, coordinates: [Option<Slot>; 3]) -> Position {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
@@ -107,15 +107,22 @@ impl Interpreter<'_> {
             } else {
                 to.at[axis] = self.millimetres(slot) + self.state.offsets.shift(axis);
                 to.known = to.known.with(Axes::of(axis));
+                self.state_axis(axis);
             }
         }
         to
+    }
+
+    /// Notes that the program has stated where an axis is.
+    pub(super) fn state_axis(&mut self, axis: usize) {
+        self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
     }
 
     fn machine_target(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) -> Position {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
+            self.state_axis(axis);
             if let Some(at) = self.state.offsets.of_machine(axis, self.millimetres(slot)) {
                 to.at[axis] = at;
                 to.known = to.known.with(Axes::of(axis));

@@ -96,6 +96,7 @@ impl Interpreter<'_> {
         let from = self.state.position;
         let mut to = from;
         for axis in (0..3).filter(|axis| given.is_empty() || given.has(Axes::of(*axis))) {
+            self.state_axis(axis);
             match self.state.offsets.home(which, axis) {
                 Some(at) => {
                     to.at[axis] = at;
@@ -142,6 +143,7 @@ impl Interpreter<'_> {
 
     /// Where the tool is gets this coordinate. If that was not known, it is what the program counts from, and known now.
     fn set_origin(&mut self, axis: usize, coordinate: f64) {
+        self.state_axis(axis);
         let position = &mut self.state.position;
         if position.known.has(Axes::of(axis)) {
             self.state.offsets.set_origin(axis, coordinate, position.at[axis]);

@@ -3,7 +3,7 @@
 use super::codes::{FeedUnit, Motion, Plane};
 use super::offsets::Offsets;
 use super::options::MachineOffsets;
-use super::step::{Coolant, Position, Spindle, Turning};
+use super::step::{Axes, Coolant, Position, Spindle, Turning};
 use crate::dialect::{Rules, StartMotion};
 
 /// Millimetres in an inch.
@@ -13,6 +13,8 @@ pub(super) const INCH: f64 = 25.4;
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) position: Position,
+    /// The axes whose position the program has stated since the last tool change; all of them before the first.
+    pub(super) stated_axes: Axes,
     /// The line and code (times ten) that went to a place of the machine, which is not known here.
     pub(super) lost: Option<(u32, u16)>,
     pub(super) motion: Motion,
@@ -68,6 +70,7 @@ impl State {
     pub(super) fn new(rules: &Rules, offsets: Option<&MachineOffsets>) -> Self {
         Self {
             position: Position::default(),
+            stated_axes: Axes::ALL,
             lost: None,
             motion: match rules.start_motion {
                 StartMotion::Rapid => Motion::Rapid,

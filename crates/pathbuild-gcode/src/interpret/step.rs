@@ -11,9 +11,16 @@ pub struct Step {
     /// From 1. Of a program that was never text, the number of the step.
     pub line: u32,
     pub action: Action,
+    /// The axes whose position the program has stated since the last tool change, during which the machine may have moved the tool.
+    pub stated: Axes,
 }
 
 impl Step {
+    /// A move in a program without tool changes.
+    pub fn of_move(line: u32, it: Move) -> Self {
+        Self { line, action: Action::Move(it), stated: Axes::ALL }
+    }
+
     /// The move, if it is one, with its line.
     pub fn as_move(&self) -> Option<(u32, Move)> {
         match self.action {

@@ -6,7 +6,7 @@ use super::codes::{self, Command, Group};
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
 use super::limits;
-use super::step::{Action, Change, Coolant, Corners, ToolLength, Turning};
+use super::step::{Action, Axes, Change, Coolant, Corners, ToolLength, Turning};
 use crate::dialect::DwellUnit;
 use crate::read::Block;
 
@@ -41,6 +41,9 @@ impl Interpreter<'_> {
         if self.rules.layers {
             self.state.layer = self.state.tool.unwrap_or(0);
             self.state.layer_speed = None;
+        }
+        if !self.rules.layers {
+            self.state.stated_axes = Axes::NONE;
         }
         self.step(block, Action::ChangeTool(self.state.tool));
         let is_turning = matches!(self.state.spindle.turning, Turning::Clockwise | Turning::Counterclockwise);

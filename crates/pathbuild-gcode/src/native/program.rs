@@ -2,15 +2,16 @@
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Statistics, Step, Xy};
+use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
 use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, printed, push_f3};
-use super::statistics;
+use super::statistics as ending;
 use crate::WrittenArc;
 use crate::dialect::within_comment;
+use crate::statistics::statistics;
 
 /// How programs are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,9 +126,7 @@ pub fn program_within(
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
-    for line in
-        statistics::lines(&Statistics::of(program, options.rapid), options.lang, options.remarks(program))
-    {
+    for line in ending::lines(&statistics(program, options.rapid), options.lang, options.remarks(program)) {
         writer.line(&line);
     }
     writer.line("M30\n%");

@@ -14,7 +14,7 @@ use super::machine::{Machine, MachineRules};
 use super::material;
 use super::stock::{Stock, StockSpan};
 use super::tops::Tops;
-use crate::interpret::{Action, Move, Pace, Path, Position, Program, Step, each_move_of};
+use crate::interpret::{Move, Pace, Path, Position, Program, Step, each_move_of};
 use crate::read::Problems;
 
 /// So many cuts at most are looked at for a rapid move: the last turns of a helical circle, the end of a chain.
@@ -137,7 +137,7 @@ struct Moves<'d>(&'d Drawn);
 
 impl Program for Moves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        each_move_of(self.0).for_each(|(line, it)| take(&Step { line, action: Action::Move(it) }));
+        each_move_of(self.0).for_each(|(line, it)| take(&Step::of_move(line, it)));
     }
 }
 
@@ -165,7 +165,7 @@ impl Near<'_> {
 impl Program for Near<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         let near = each_move_of(self.drawn).filter(|(_, it)| self.is_near(it));
-        near.for_each(|(line, it)| take(&Step { line, action: Action::Move(it) }));
+        near.for_each(|(line, it)| take(&Step::of_move(line, it)));
     }
 }
 

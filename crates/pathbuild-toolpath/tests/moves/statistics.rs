@@ -1,4 +1,4 @@
-//! Lengths and times. ("Statistics")
+//! The reference's lengths and times.
 
 use pathbuild_toolpath::{Class, Count, Height, Move, Program, Statistics, Step, Total, Xy};
 
@@ -52,7 +52,7 @@ fn totals_add_up_with_the_last_lift() {
         steps: vec![drill(2.0, 8.0, Some(100.0)), drill(4.0, 6.0, None)],
         ..Program::default()
     };
-    let statistics = Statistics::of(&program, 1000.0);
+    let statistics = Statistics::of_reference(&program, 1000.0);
     let start = program.start_height();
     assert_eq!(statistics.commands, 3);
     assert_eq!((statistics.drilling.length, statistics.drilling.time), (8.0, 0.08));
@@ -65,13 +65,13 @@ fn totals_add_up_with_the_last_lift() {
 /// A program without moves still lifts the tool once.
 #[test]
 fn a_program_without_moves_is_one_command() {
-    assert_eq!(Statistics::of(&Program::default(), 1000.0).commands, 1);
+    assert_eq!(Statistics::of_reference(&Program::default(), 1000.0).commands, 1);
 }
 
 #[test]
 fn every_move_counts_once() {
     let drawing = path("T5 O3 I1 B3", "mill 0,0 40,0\nend 40,0");
-    assert_eq!(Statistics::of(&program(&drawing), 1000.0).commands, 7 + 1);
+    assert_eq!(Statistics::of_reference(&program(&drawing), 1000.0).commands, 7 + 1);
 }
 
 /// A little more than S, so that the first sweep writes its Z.

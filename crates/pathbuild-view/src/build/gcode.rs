@@ -16,6 +16,8 @@ pub struct GcodeSource<'a> {
     pub text: &'a [u8],
     /// Cutter diameter in mm, where it is known.
     pub tool: Option<f64>,
+    /// --rapid in mm/min.
+    pub rapid: Option<f64>,
 }
 
 /// A program without elements.
@@ -31,7 +33,7 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
             milling: summary.milling.total.length,
             drilling: summary.drilling.total.length,
             sweeps: summary.rapid.total.length,
-            minutes: None,
+            minutes: source.rapid.map(|rapid| summary.sum(rapid).minutes()),
         }),
         gcode: Some(String::from_utf8_lossy(source.text).into_owned()),
         ..ScenePath::default()

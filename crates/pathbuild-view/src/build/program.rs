@@ -2,8 +2,9 @@
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Axes, Heights, Options, each_move_of, interpret_each};
+use pathbuild_gcode::statistics::statistics;
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
-use pathbuild_toolpath::{Drawn, Occurrence, Program, Statistics, Step, Trace, support_bars};
+use pathbuild_toolpath::{Drawn, Occurrence, Program, Trace, support_bars};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
 use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, ProbeMark, ScenePath, Totals};
@@ -60,7 +61,7 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
 }
 
 fn totals(program: &Program, rapid: Option<f64>) -> Totals {
-    let statistics = Statistics::of(program, rapid.unwrap_or(1.0));
+    let statistics = statistics(program, rapid.unwrap_or(1.0));
     Totals {
         milling: statistics.milling.length,
         drilling: statistics.drilling.length,
@@ -131,9 +132,6 @@ impl Builder {
             let mut it = Move::new(way, lines.next());
             let step = step as usize - 1;
             it.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
-            if let Some(Step::Move { count, .. }) = program.steps.get(step) {
-                it.length = count.length;
-            }
             let kind = it.element.map(|element| self.scene.elements[element as usize].kind);
             if it.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
                 it.kind = MoveKind::Mark;

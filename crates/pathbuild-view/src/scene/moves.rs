@@ -13,7 +13,7 @@ pub struct Move {
     pub kind: MoveKind,
     /// From where, to where and how. Arcs and helices stay what they are.
     pub way: interpret::Move,
-    /// Its length in mm as the program's statistics count it.
+    /// Its length in mm.
     pub length: f64,
     /// The element that it belongs to: index into [`ScenePath::elements`](super::ScenePath::elements).
     pub element: Option<u32>,
@@ -75,9 +75,7 @@ impl Move {
 
 impl MoveKind {
     fn of(way: &interpret::Move) -> Self {
-        let is_upright = matches!(way.path, Path::Line)
-            && way.from.known.and(way.to.known).has(Axes::XY)
-            && way.from.at[..2] == way.to.at[..2];
+        let is_upright = way.is_upright();
         match way.pace {
             Pace::Probe { .. } => Self::Probe,
             Pace::Rapid if is_upright => Self::Lift,

@@ -1,5 +1,6 @@
 //! Making the files of one path, and writing, comparing or printing them. It runs on many threads and prints nothing.
 
+use std::ops::Add;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -10,9 +11,10 @@ use pathbuild_diagnostic::{Diagnostic, Note, Point, Severity, Value};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::read::LONGEST_LINE;
+use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Outside, Program, Statistics, Step, Total, memory};
+use pathbuild_toolpath::{Correction, Outside, Program, Step, Total, memory};
 
 use super::job::Job;
 use super::provenance::Provenances;
@@ -179,11 +181,7 @@ pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobF
 
 /// Length and time of programs together, where rapid moves have this feed in mm/min.
 pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
-    let sums = programs.iter().map(|program| Statistics::of(program, rapid).sum());
-    sums.fold(Total::default(), |all, sum| Total {
-        length: all.length + sum.length,
-        time: all.time + sum.time,
-    })
+    programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
 }
 
 /// PB005: programs have been held against the limit while they were written. What lies on disk is not read beyond it.

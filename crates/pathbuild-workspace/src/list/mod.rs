@@ -8,9 +8,9 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::summary::{Extent, cutting_box};
 use pathbuild_path::{PathName, PathSignature};
-use pathbuild_toolpath::Statistics;
 
 use crate::Inputs;
 use crate::check::kept_results;
@@ -341,7 +341,7 @@ impl Figures {
             ..Self::default()
         };
         let Some(program) = program(db, checked.target) else { return said };
-        let sum = Statistics::of(program, rapid.unwrap_or_default()).sum();
+        let sum = statistics(program, rapid.unwrap_or_default()).sum();
         Self {
             cutting_box: cutting_box(program),
             length: Some(sum.length),

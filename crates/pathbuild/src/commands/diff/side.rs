@@ -115,8 +115,13 @@ impl Drawings {
 fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Seen, Failure> {
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
-    let source =
-        GcodeSource { file: file.as_str(), steps: &program.read.steps, text: &program.text, tool: None };
+    let source = GcodeSource {
+        file: file.as_str(),
+        steps: &program.read.steps,
+        text: &program.text,
+        tool: None,
+        rapid: context.settings.general.rapid.value,
+    };
     Ok(Seen { path: gcode_path(&source), problems: program.read.problems })
 }
 
@@ -149,10 +154,16 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
     })
 }
 
-/// A path's program as it is read back from its text: rounded as it is printed, and with lengths as they are counted in programs.
+/// A path's program as it is read back from its text: rounded as it is printed.
 fn as_printed(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
-    let source = GcodeSource { file: &path.file, steps: &read.steps, text: text.as_bytes(), tool: path.tool };
-    ScenePath { name: path.name, ..gcode_path(&source) }
+    let source = GcodeSource {
+        file: &path.file,
+        steps: &read.steps,
+        text: text.as_bytes(),
+        tool: path.tool,
+        rapid: None,
+    };
+    ScenePath { name: path.name, totals: path.totals, ..gcode_path(&source) }
 }

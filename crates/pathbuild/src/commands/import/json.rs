@@ -1,7 +1,8 @@
 //! The summary as one JSON object a program. Lengths are mm, feeds mm/min.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_gcode::summary::{Extent, Tally, Used};
+use pathbuild_gcode::statistics::{MoveTotals, Tally};
+use pathbuild_gcode::summary::{Extent, Used};
 use serde_json::{Value, json};
 
 use super::facts::Facts;
@@ -31,14 +32,14 @@ pub(super) fn json(context: &Context, facts: &Facts<'_>) -> Value {
 }
 
 fn tally(tally: &Tally) -> Value {
-    let kind = |kind: &pathbuild_gcode::summary::MoveTotals| json!({ "count": kind.moves, "length": kind.total.length });
+    let kind = |kind: &MoveTotals| json!({ "count": kind.moves, "length": kind.total.length });
     json!({
         "count": tally.moves(),
         "arcs": tally.arcs,
         "rapid": kind(&tally.rapid),
         "milling": kind(&tally.milling),
         "drilling": kind(&tally.drilling),
-        "probing": kind(&tally.probing),
+        "probing": { "count": tally.probing },
     })
 }
 

@@ -62,8 +62,8 @@ impl Say<'_> {
         let kinds = [
             (total.rapid.moves, self.is("rapid", "Eilgang")),
             (total.milling.moves, self.is("milling", "Fräsen")),
-            (total.drilling.moves, self.is("straight down", "senkrecht hinunter")),
-            (total.probing.moves, self.is("probing", "Messen")),
+            (total.drilling.moves, self.is("drilling", "Bohren")),
+            (total.probing, self.is("probing", "Messen")),
         ];
         let kinds =
             kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}"));

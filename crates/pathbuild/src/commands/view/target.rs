@@ -41,8 +41,13 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Seen, 
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
-    let source =
-        GcodeSource { file: file.as_str(), steps: &program.read.steps, text: &program.text, tool: None };
+    let source = GcodeSource {
+        file: file.as_str(),
+        steps: &program.read.steps,
+        text: &program.text,
+        tool: None,
+        rapid: context.settings.general.rapid.value,
+    };
     scene.paths.push(gcode_path(&source));
     let what = session::Seen { scene, diagnostics: program.read.problems };
     Ok(Seen { what, file: file.to_string() })

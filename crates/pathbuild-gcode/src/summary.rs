@@ -1,7 +1,5 @@
 //! What a program is, in numbers: moves, lengths, times, the box it needs, tools, feeds. (book: program/reading, `import`)
 
-mod tally;
-
 use std::collections::{HashMap, HashSet};
 
 use pathbuild_diagnostic::{Code, Diagnostic};
@@ -9,8 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_toolpath::Program;
 
 use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning, each_move_of};
-
-pub use tally::{MoveTotals, Tally};
+use crate::statistics::{Counting, Tally};
 
 /// A program in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,6 +54,7 @@ impl Summary {
             layers,
             tool: layers.then_some(1),
             spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            counting: Counting::default(),
         };
         for step in steps {
             collector.step(step);
@@ -74,6 +72,7 @@ struct Collector {
     layers: bool,
     tool: Option<u32>,
     spindle: Spindle,
+    counting: Counting,
 }
 
 /// A tool that was used.
@@ -86,8 +85,9 @@ struct Known {
 
 impl Collector {
     fn step(&mut self, step: &Step) {
+        let has_length = self.counting.counts(step);
         match &step.action {
-            Action::Move(it) if !it.is_nothing() => self.go(it),
+            Action::Move(it) if !it.is_nothing() => self.go(it, has_length),
             Action::Dwell(seconds) => self.summary.dwell += seconds,
             Action::SelectTool(tool) if !self.has_changes => self.tool = Some(*tool),
             Action::ChangeTool(tool) => {
@@ -103,8 +103,8 @@ impl Collector {
         }
     }
 
-    fn go(&mut self, it: &Move) {
-        self.summary.total.add(it);
+    fn go(&mut self, it: &Move, has_length: bool) {
+        self.summary.total.add(it, has_length);
         if it.named.is_none() {
             widen(&mut self.summary.extent, it);
         }
@@ -113,7 +113,7 @@ impl Collector {
         }
         let speed = self.spindle.speed;
         let (used, known) = self.used();
-        used.tally.add(it);
+        used.tally.add(it, has_length);
         if let Pace::Feed(feed) = it.pace {
             note(&mut used.feeds, &mut known.feeds, feed);
             note(&mut used.speeds, &mut known.speeds, speed);

@@ -1,0 +1,111 @@
+//! Lengths and times of a program, from its own moves. (book: program/gcode)
+
+use pathbuild_toolpath::{Program, Statistics, Total};
+
+use crate::interpret::{Action, Axes, Move, Pace, Path, Step, each_move_of};
+
+/// The statistics of a program with a rapid feed in mm/min: what its moves come to. A compatible program has those of the reference.
+pub fn statistics(program: &Program, rapid: f64) -> Statistics {
+    if program.compatible {
+        return Statistics::of_reference(program, rapid);
+    }
+    let mut tally = Tally::default();
+    for (_, it) in each_move_of(program) {
+        tally.add(&it, true);
+    }
+    Statistics {
+        milling: tally.milling.total,
+        drilling: tally.drilling.total,
+        sweeps: tally.sweeps(rapid),
+        commands: tally.moves(),
+    }
+}
+
+/// Which moves of a program that was read have a length: those between positions that are wholly known, and stated by the program since
+/// the last tool change.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counting {
+    /// What the program had stated before the present step.
+    stated: Axes,
+}
+
+impl Counting {
+    /// Whether the length of the next step counts. Every step must be asked for.
+    pub(crate) fn counts(&mut self, step: &Step) -> bool {
+        let stated = std::mem::replace(&mut self.stated, step.stated);
+        match &step.action {
+            Action::Move(it) => {
+                [stated, step.stated, it.from.known, it.to.known].iter().all(|axes| axes.has(Axes::ALL))
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Moves by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Rapid moves. Their time depends on the machine's rapid feed.
+    pub rapid: MoveTotals,
+    /// Cutting moves other than drilling.
+    pub milling: MoveTotals,
+    /// Cutting moves straight down or up.
+    pub drilling: MoveTotals,
+    /// Number of probing moves. How far they go is not known beforehand, so that they have no length.
+    pub probing: u64,
+    /// Number of arcs among all moves.
+    pub arcs: u64,
+}
+
+/// Moves of a kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MoveTotals {
+    /// Number of moves, also of those without a known length.
+    pub moves: u64,
+    /// Length in mm, and minutes of length / feed.
+    pub total: Total,
+}
+
+impl Tally {
+    /// Number of moves.
+    pub fn moves(&self) -> u64 {
+        [self.rapid, self.milling, self.drilling].iter().map(|kind| kind.moves).sum::<u64>() + self.probing
+    }
+
+    /// Length and time of milling and drilling.
+    pub fn cutting(&self) -> Total {
+        self.milling.total + self.drilling.total
+    }
+
+    /// Length and time of all moves, with a rapid feed in mm/min.
+    pub fn sum(&self, rapid: f64) -> Total {
+        self.cutting() + self.sweeps(rapid)
+    }
+
+    fn sweeps(&self, rapid: f64) -> Total {
+        let length = self.rapid.total.length;
+        Total { length, time: length / rapid }
+    }
+
+    /// Adds a move. `has_length`: whether its length is known, and counts.
+    pub(crate) fn add(&mut self, it: &Move, has_length: bool) {
+        self.arcs += u64::from(matches!(it.path, Path::Arc(_)));
+        let kind = match it.pace {
+            Pace::Probe { .. } => {
+                self.probing += 1;
+                return;
+            }
+            Pace::Rapid => &mut self.rapid,
+            Pace::Feed(_) if it.is_upright() => &mut self.drilling,
+            Pace::Feed(_) => &mut self.milling,
+        };
+        kind.moves += 1;
+        if has_length {
+            let length = it.length();
+            kind.total.length += length;
+            if let Some(feed) = it.pace.feed().filter(|feed| *feed > 0.0) {
+                kind.total.time += length / feed;
+            }
+        }
+    }
+}
