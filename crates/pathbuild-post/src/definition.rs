@@ -9,6 +9,7 @@ use super::built_in::Language;
 use super::job::{Coolant, Job, Operation, Spindle};
 use super::options::{PostMacro, PostOptions};
 use super::read_back::{self, Expected};
+use super::shadow::Unfollowed;
 use super::suggest::nearest;
 use super::target::{self, Target};
 use super::{cad6, cambam};
@@ -126,14 +127,14 @@ impl Post {
             post_build: None,
         };
         let target = target.as_ref();
-        let shadow = match &self.engine {
+        let (shadow, unfollowed) = match &self.engine {
             Engine::CamBam(definition) => self.write_cambam(definition, job, target, options, &mut output)?,
             Engine::Cad6(definition) => {
                 let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.note_switches(&written.switches, job, options.spin_up);
-                written.shadow
+                (written.shadow, written.unfollowed)
             }
         };
         output.text = target::plain(&output.text, target, options.charset);
@@ -144,29 +145,30 @@ impl Post {
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {
             Some(errors) => Err(errors),
-            None => self.read_back(&output.text, &shadow, job, target, options),
+            None => self.read_back(&output.text, (&shadow, &unfollowed), job, target, options),
         };
         if options.unchecked {
             output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
         }
-        let placed = |errors: Vec<Diagnostic>| {
-            let errors = errors.into_iter().map(|error| read_back::in_output(error, &output.text));
-            errors.map(|error| error.in_file(&self.file)).collect::<Vec<_>>()
+        let placed = |problems: Vec<Diagnostic>, text: &[u8]| {
+            let problems = problems.into_iter().map(|problem| read_back::in_output(problem, text));
+            problems.map(|problem| problem.in_file(&self.file)).collect::<Vec<_>>()
         };
-        found.map_err(placed)?;
+        let doubts = found.map_err(|errors| placed(errors, &output.text))?;
+        output.warnings.extend(placed(doubts, &output.text));
         Ok(output)
     }
 
     /// Whether the text makes the machine do what the job says, and nothing that it must not. Where no dialect says what its words mean, or where axes are the
-    /// definition's own, its shadow is read.
+    /// definition's own, its shadow is read. What is only doubtful is returned.
     fn read_back(
         &self,
         text: &[u8],
-        shadow: &str,
+        (shadow, unfollowed): (&str, &[Unfollowed]),
         job: &Job,
         target: Option<&Target>,
         options: &PostOptions<'_>,
-    ) -> Result<(), Vec<Diagnostic>> {
+    ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
         let (decimals, chord) = match &self.engine {
             Engine::CamBam(definition) => (definition.decimals(), definition.chord(job.units)),
             Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
@@ -176,9 +178,12 @@ impl Post {
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let has_own_axes = matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes());
         let target = target.filter(|_| !has_own_axes);
-        let text = if target.is_some() { text } else { shadow.as_bytes() };
+        let (text, unfollowed) =
+            if target.is_some() { (text, &[][..]) } else { (shadow.as_bytes(), unfollowed) };
         let tolerance = (!options.unchecked).then_some(tolerance);
-        read_back::check(text, job, &Expected { target, tolerance, machine: options.machine.as_ref() })
+        let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
+        let machine = options.machine.as_ref();
+        read_back::check(text, job, &Expected { target, tolerance, machine, unfollowed, is_manual })
     }
 
     /// The unit that is written, in mm.
@@ -228,12 +233,14 @@ impl Post {
     /// The options within what the target knows: a control without cycles gets their moves, unless the definition has a text of its own
     /// in place of the cycle's word.
     fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
-        let writes_cycles = match &self.engine {
-            Engine::CamBam(definition) => definition.writes_cycles(),
-            Engine::Cad6(_) => false,
+        let (writes_cycles, is_wrapped) = match &self.engine {
+            Engine::CamBam(definition) => (definition.writes_cycles(), definition.is_wrapped()),
+            Engine::Cad6(_) => (false, false),
         };
         let has_cycles = target.is_none_or(Target::has_cycles);
-        PostOptions { cycles: options.cycles && (has_cycles || !writes_cycles), ..options.clone() }
+        // Round a cylinder only lines are wrapped.
+        let cycles = options.cycles && (has_cycles || !writes_cycles) && !is_wrapped;
+        PostOptions { cycles, ..options.clone() }
     }
 
     fn write_cambam(
@@ -243,7 +250,7 @@ impl Post {
         target: Option<&Target>,
         options: &PostOptions<'_>,
         output: &mut Output,
-    ) -> Result<String, Vec<Diagnostic>> {
+    ) -> Result<(String, Vec<Unfollowed>), Vec<Diagnostic>> {
         let written = cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
         output.warnings.extend(written.warnings);
@@ -259,7 +266,7 @@ impl Post {
             }
             command => output.post_build = command,
         }
-        Ok(written.shadow)
+        Ok((written.shadow, written.unfollowed))
     }
 }
 

@@ -19,6 +19,7 @@ mod options;
 mod read_back;
 mod recognise;
 mod shadow;
+mod spindle;
 mod step;
 mod suggest;
 mod target;

@@ -5,11 +5,12 @@ use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
+use super::shadow::Unfollowed;
 use super::step::{Arc, Position, Step};
 use super::target::Target;
-use super::ways;
+use super::{spindle, ways};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Axes, Move, Named, Options, Pace, Path};
+use pathbuild_gcode::interpret::{self, Action, Axes, Change, Move, Named, Options, Pace, Path, ToolLength};
 use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
 
 /// What a text is held against.
@@ -21,47 +22,102 @@ pub(super) struct Expected<'a> {
     pub(super) tolerance: Option<Tolerance>,
     /// What the machine can do.
     pub(super) machine: Option<&'a Machine>,
+    /// Words of a text without a target that cannot be followed.
+    pub(super) unfollowed: &'a [Unfollowed],
+    /// The spindle is not switched by the program.
+    pub(super) is_manual: bool,
 }
 
 /// What is wrong with a text, by line: what the target's reader says, else the first place where it moves otherwise than the job and the
-/// rules of `verify` that it breaks.
-pub(super) fn check(text: &[u8], job: &Job, expected: &Expected<'_>) -> Result<(), Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine } = expected;
+/// rules of `verify` that it breaks. What is only doubtful is returned.
+pub(super) fn check(
+    text: &[u8],
+    job: &Job,
+    expected: &Expected<'_>,
+) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    let Expected { target, tolerance, machine, unfollowed, is_manual } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let read = interpret::interpret(text, reader, &Options::default());
     let mut problems: Vec<Diagnostic> =
         read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_post_s).collect();
     if !problems.is_empty() && target.is_some() {
-        return if tolerance.is_some() { Err(problems) } else { Ok(()) };
+        return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
     }
     problems.clear();
+    let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
+    if target.is_none() && (tolerance.is_none() || !spindle::is_started(&read.steps)) {
+        // Nobody says that these words switch the spindle, or it is switched by hand and M5 at the end is for safety.
+        broken.retain(|problem| !spindle::is_rule_of_spindle(problem));
+    }
+    doubts.extend(chosen_offsets(&read.steps));
     if let Some(tolerance) = tolerance {
         let wanted = moves(job).map_err(|error| vec![*error])?;
         let clearance =
             job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
         let found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
         problems.extend(ways::check(&found, &wanted, clearance, tolerance).err().map(|it| as_post_s(*it)));
+        for word in *unfollowed {
+            let found =
+                Diagnostic::new(&gcode::NOT_FOLLOWED).with("word", &*word.word).at_line(word.line, None);
+            if word.is_dangerous {
+                problems.push(as_post_s(found));
+            } else {
+                let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).with("word", &*word.word);
+                doubts.push(doubt.at_line(word.line, None));
+            }
+        }
+        if !is_manual {
+            problems.extend(spindle::check(&read.steps, job).map(as_post_s));
+        }
     }
-    problems.extend(broken_rules(&read.steps, job, *machine));
-    if problems.is_empty() { Ok(()) } else { Err(problems) }
+    problems.extend(broken);
+    if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
+/// Words that choose where the program's zero is: the job says nothing about it.
+fn chosen_offsets(steps: &[interpret::Step]) -> Vec<Diagnostic> {
+    let mut doubts: Vec<Diagnostic> = Vec::new();
+    for step in steps {
+        let word = match &step.action {
+            Action::System(system) if *system != interpret::WorkSystem::default() => system.name(),
+            Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2",
+            _ => continue,
+        };
+        if doubts.len() < MOST_DOUBTS {
+            let doubt = Diagnostic::new(&posts::OFFSET_CHOSEN).with("word", word);
+            doubts.push(doubt.at_line(step.line, None));
+        }
+    }
+    doubts
+}
+
+/// More of them are no news.
+const MOST_DOUBTS: usize = 5;
+
 /// The rules of `verify` that need no map of the material. (book: program/reading)
-fn broken_rules(steps: &[interpret::Step], job: &Job, machine: Option<&Machine>) -> Vec<Diagnostic> {
+fn broken_rules(
+    steps: &[interpret::Step],
+    job: &Job,
+    machine: Option<&Machine>,
+) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
     let mut rules = Rules::new(&Checks { stock: stock.as_ref(), machine });
     for step in steps {
         rules.step(step);
     }
-    let mut broken = rules.finish();
-    broken.retain_mut(|problem| {
+    let (mut broken, mut doubts) = (Vec::new(), Vec::new());
+    for mut problem in rules.finish() {
         // What is only doubtful in a program of somebody else's is wrong in one that is about to be written.
         if problem.message == &gcode::SPINDLE_LEFT_ON {
             problem.severity = Severity::Error;
         }
-        problem.is_error()
-    });
-    broken
+        match problem {
+            problem if problem.is_error() => broken.push(problem),
+            problem if problem.message == &gcode::OFFSET_LEFT_ON => doubts.push(problem),
+            _ => {}
+        }
+    }
+    (broken, doubts)
 }
 
 /// Shows the line of the output that a problem is about: it is no line of the definition, and there will be no file.

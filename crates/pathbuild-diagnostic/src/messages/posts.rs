@@ -213,6 +213,20 @@ messages! {
         help_en: "give the radius with --surface, or write it from the drawing with emit, which knows T",
         help_de: "den Radius mit --surface angeben oder mit emit aus der Zeichnung schreiben, das T kennt",
     }
+    /// Wider than the cylinder is round.
+    WRAPPED_TWICE: DoubtfulPost {
+        en: "wrapped round the cylinder, the program covers {degrees} degrees: it mills some places twice",
+        de: "um den Zylinder gelegt reicht das Programm über {degrees} Grad: es fräst manche Stellen zweimal",
+        help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
+        help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
+    }
+    /// Y beside A.
+    REPLACED_AXIS_WRITTEN: PostDiffers {
+        en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
+        de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine bewegte beide",
+        help_en: "take {axis} out of the post's texts",
+        help_de: "{axis} aus den Texten des Postprozessors nehmen",
+    }
     /// The spindle would never turn.
     SPINDLE_UNKNOWN: MissingPostValue {
         en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
@@ -512,6 +526,16 @@ messages! {
         help_en: "begin the program with absolute moves in Z, X and Y",
         help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
     }
+    /// A note: no M3 before the first cut.
+    SPINDLE_NOT_STARTED: PostDiffers {
+        en: "here it cuts, but the output has not switched the spindle on, as `spindle` of the tool says; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
+        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, wie es `spindle` des Werkzeugs sagt; geschieht das von Hand: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
+    }
+    /// A note: M3 for M4.
+    SPINDLE_OTHER_WAY: PostDiffers {
+        en: "here the spindle turns the other way round than `direction` of the tool says",
+        de: "hier dreht sich die Spindel andersherum, als es `direction` des Werkzeugs sagt",
+    }
     /// A note: another end.
     GOES_ELSEWHERE: PostDiffers {
         en: "here the tool goes to {found}, in the program to {expected}",
@@ -541,6 +565,18 @@ messages! {
     WAY_NOT_FREE: PostDiffers {
         en: "this is {found} from {from} to {to}; between these two cuts the program does not go there, or only higher up",
         de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten fährt das Programm dort nicht oder nur weiter oben",
+    }
+    /// An M word, or an axis, without a dialect that says what it does.
+    WORD_NOT_FOLLOWED: DoubtfulPost {
+        en: "the output has {word}, and without a dialect nothing says what it does",
+        de: "die Ausgabe hat {word}, und ohne Dialekt sagt nichts, was das bewirkt",
+        help_en: "name the dialect of the control in the definition, or with --dialect",
+        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+    }
+    /// G55 and the like.
+    OFFSET_CHOSEN: DoubtfulPost {
+        en: "the output chooses an offset of the machine ({word}): the drawing's zero is where that offset puts it",
+        de: "die Ausgabe wählt einen Versatz der Maschine ({word}): der Nullpunkt der Zeichnung liegt, wo dieser ihn hinlegt",
     }
     /// What is wrong is in a file that there will not be.
     IN_OUTPUT: PostDiffers {

@@ -35,7 +35,7 @@ use runner::Runner;
 use super::PostOptions;
 use super::guard::Guard;
 use super::job::{Job, Units};
-use super::shadow::Shadow;
+use super::shadow::{Shadow, Unfollowed};
 use super::target::Target;
 use super::words::{CommentMarks, words};
 
@@ -44,6 +44,8 @@ pub(super) struct Written {
     pub(super) text: Vec<u8>,
     /// What the text says, in the words of RS274.
     pub(super) shadow: String,
+    /// The words of the text that its shadow does not have.
+    pub(super) unfollowed: Vec<Unfollowed>,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
     /// The variables of switches that the texts have which were called.
@@ -67,11 +69,11 @@ pub(super) fn write(
     let called = runner.called();
     let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
     let (text, warnings) = runner.finish();
-    let shadow = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(Written { text, shadow, warnings, switches })
+    let (shadow, unfollowed) = shadow(&text, definition.units().unwrap_or(job.units));
+    Ok(Written { text, shadow, unfollowed, warnings, switches })
 }
 
-fn shadow(text: &[u8], units: Units) -> String {
+fn shadow(text: &[u8], units: Units) -> (String, Vec<Unfollowed>) {
     let mut shadow = Shadow::new(units, false);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);

@@ -107,6 +107,11 @@ impl Definition {
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
+    /// Whether paths are wrapped round a cylinder.
+    pub(crate) fn is_wrapped(&self) -> bool {
+        self.options.rotary.wrap
+    }
+
     /// Decimals of the numbers that are written.
     pub(crate) fn decimals(&self) -> u8 {
         self.options.number_format.most_decimals()

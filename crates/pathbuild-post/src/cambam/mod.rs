@@ -35,6 +35,7 @@ use writer::Writer;
 
 use super::PostOptions;
 use super::job::Job;
+use super::shadow::Unfollowed;
 use super::target::Target;
 
 /// Writes a job that has operations.
@@ -48,8 +49,15 @@ pub(super) fn write(
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
-    let (text, shadow, warnings) = Writer::new(&plan).run().map_err(one)?;
-    Ok(Written { text, shadow, warnings, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+    let (text, (shadow, unfollowed), warnings) = Writer::new(&plan).run().map_err(one)?;
+    Ok(Written {
+        text,
+        shadow,
+        unfollowed,
+        warnings,
+        post_build,
+        leaves_out_coolant: leaves_out_coolant(&plan),
+    })
 }
 
 /// What the engine wrote.
@@ -57,6 +65,8 @@ pub(super) struct Written {
     pub(super) text: String,
     /// What the text says, in the words of RS274.
     pub(super) shadow: String,
+    /// The words of the text that its shadow does not have.
+    pub(super) unfollowed: Vec<Unfollowed>,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
     /// The definition's own command.

@@ -130,7 +130,13 @@ impl Writer<'_> {
 
     /// Whether the tool is at a coordinate, as it is written.
     fn is_at(&self, axis: usize, target: f64) -> bool {
-        self.machine.written(Register::AXES[axis]).is_some()
+        let rotary = self.plan.definition.options.rotary;
+        let register = if rotary.wrap && axis == 1 - rotary.along {
+            ROTARY[rotary.letter]
+        } else {
+            Register::AXES[axis]
+        };
+        self.machine.written(register).is_some()
             && self.present(axis).is_some_and(|at| self.number_format().format(at) == self.length(target))
     }
 
@@ -158,7 +164,14 @@ impl Writer<'_> {
             let diagnostic = Diagnostic::new(&posts::NO_RADIUS).with("operation", &*self.operation().name);
             return Err(Box::new(diagnostic.in_file(self.plan.file)));
         }
-        let angle = to[1 - rotary.along].map(|across| (across / radius).to_degrees());
+        let replaced = 1 - rotary.along;
+        let angle = to[replaced].map(|across| (across / radius).to_degrees());
+        if let Some(angle) = angle {
+            let [least, most] = self.angles.get_or_insert([angle; 2]);
+            (*least, *most) = (least.min(angle), most.max(angle));
+        }
+        // The angle stands in place of the coordinate.
+        self.move_values.set(Register::AXES[replaced], None);
         let register = ROTARY[rotary.letter];
         self.move_values.set(register, angle.or_else(|| self.machine.number(register)));
         Ok(())

@@ -127,7 +127,10 @@ impl Options {
             "LatheXMode" => choice(value, "Radius: lathes are not supported", &[("Radius", ())]),
             "LatheToolRadiusOffset" => choice(value, "false: lathes are not supported", &[("false", ())]),
             "RotaryWrap" => put(&mut self.rotary.wrap, boolean(value)),
-            "AxisOfRotation" => put(&mut self.rotary.along, choice(value, "X or Y", &[("X", 0), ("Y", 1)])),
+            // The first is what files have, the second what the manual calls it.
+            "AxisOfRotation" | "AxisOfSpin" => {
+                put(&mut self.rotary.along, choice(value, "X or Y", &[("X", 0), ("Y", 1)]))
+            }
             "RotaryAxis" => {
                 put(&mut self.rotary.letter, choice(value, "A, B or C", &[("A", 0), ("B", 1), ("C", 2)]))
             }

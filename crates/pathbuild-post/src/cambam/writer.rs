@@ -17,7 +17,7 @@ use super::template::{Template, TemplatePart};
 use crate::guard::Guard;
 use crate::job::{Feeds, Operation, Tool};
 use crate::number::NumberFormat;
-use crate::shadow::Shadow;
+use crate::shadow::{Shadow, Unfollowed};
 use crate::words::{CommentMarks, Word, Words, words};
 
 /// Success, or the diagnostic that ends the writing.
@@ -53,6 +53,10 @@ pub(super) struct Writer<'a> {
     turned: [Option<bool>; 3],
     /// Where the program has the tool, in the unit that is written, and the text that was written for it, by axis.
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
+    /// The least and the greatest angle of paths that are wrapped round a cylinder, in degrees.
+    pub(super) angles: Option<[f64; 2]>,
+    /// What is wrong with a line that was written.
+    fault: Option<Box<Diagnostic>>,
     /// Sections that contain each other at this moment, and user macros.
     depth: [usize; 2],
     /// `{$mops}` and `{$blocks}`, where they are being written.
@@ -80,6 +84,8 @@ impl<'a> Writer<'a> {
             shadow: Shadow::new(plan.job.units, plan.definition.options.absolute_centres),
             turned: [None; 3],
             own: [None, None, None],
+            angles: None,
+            fault: None,
             depth: [0; 2],
             open: Vec::new(),
             fuel: fuel(plan),
@@ -97,9 +103,17 @@ impl<'a> Writer<'a> {
     }
 
     /// The text of the whole file, its shadow, and what is doubtful in it.
-    pub(super) fn run(mut self) -> Result<(String, String, Vec<Diagnostic>), Box<Diagnostic>> {
+    pub(super) fn run(
+        mut self,
+    ) -> Result<(String, (String, Vec<Unfollowed>), Vec<Diagnostic>), Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
+        if let Some(fault) = self.fault {
+            return Err(fault);
+        }
+        if let Some([least, most]) = self.angles.filter(|[least, most]| most - least > FULL_TURN) {
+            self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
+        }
         Ok((self.lines.finish(), self.shadow.finish(), self.warnings))
     }
 
@@ -303,6 +317,7 @@ impl<'a> Writer<'a> {
         if found.has_more && !self.plan.definition.options.suppress_parser_errors {
             self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).with("line", text.as_str()));
         }
+        self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
         let meant = Words {
             words: found.words.iter().map(|word| self.meant(*word, &line)).collect(),
@@ -315,6 +330,17 @@ impl<'a> Writer<'a> {
             self.turned[0] != self.turned[1],
         );
         self.lines.push(&text);
+    }
+
+    /// The axis that an angle stands for must not be moved as well.
+    fn check_replaced(&mut self, found: &Words, line: &str) {
+        let rotary = self.plan.definition.options.rotary;
+        let axis = Register::AXES[1 - rotary.along].letter();
+        if rotary.wrap && self.fault.is_none() && found.words.iter().any(|word| word.letter == axis) {
+            let diagnostic = Diagnostic::new(&posts::REPLACED_AXIS_WRITTEN).with("axis", axis.to_string());
+            let diagnostic = diagnostic.with("angle", ROTARY[rotary.letter].letter().to_string());
+            self.fault = Some(Box::new(diagnostic.with("line", line).in_file(self.plan.file)));
+        }
     }
 
     /// A word with the sign and the axis that the program gave it before the template turned it round. An axis is turned in every line, or in
@@ -366,6 +392,9 @@ impl<'a> Writer<'a> {
 
 /// The letters of angles round X, Y, Z.
 pub(super) const ROTARY: [Register; 3] = [Register::A, Register::B, Register::C];
+
+/// Wider paths lie over themselves, in degrees; a ring that closes may exceed a turn by rounding.
+const FULL_TURN: f64 = 360.001;
 
 /// Nobody reads more of them.
 const MOST_WARNINGS: usize = 50;

@@ -83,6 +83,11 @@ impl Target {
         self.words.g(810) == Acceptance::Taken
     }
 
+    /// Whether it knows M3.
+    pub(super) fn switches_spindle(&self) -> bool {
+        self.words.m(30) == Acceptance::Taken
+    }
+
     /// Only ASCII may be written, whatever the configuration says.
     pub(super) fn needs_ascii(&self) -> bool {
         self.has_real_time_bytes

@@ -301,6 +301,51 @@ fn paths_are_wrapped_round_a_cylinder() {
 }
 
 #[test]
+fn an_angle_stands_in_place_of_the_axis_across() {
+    let turn = 20.0 * std::f64::consts::PI;
+    let wrapped = |elements: &str, width: f64, cycles: bool| {
+        let hole = Hole {
+            at: [3.0, width],
+            level: 15.0,
+            retract: 11.0,
+            exit: 15.0,
+            bottom: 8.0,
+            feed: Some(60.0),
+            kind: HoleKind::Plain,
+        };
+        let mut job =
+            job(vec![rapid(3.0, 0.0, 15.0), feed(3.0, 0.0, 9.0), rapid(3.0, 0.0, 15.0), Step::Hole(hole)]);
+        (job.operations[0].surface, job.operations[0].clearance) = (10.0, 15.0);
+        job.operations[0].entry = Entry::Clearance;
+        let options = PostOptions { cycles, ..PostOptions::default() };
+        read(&bare(&format!("<RotaryWrap>true</RotaryWrap>{elements}"))).unwrap().write(&job, &options)
+    };
+    let text = |output: pathbuild_post::Output| String::from_utf8(output.text).unwrap();
+    for cycles in [false, true] {
+        let output = wrapped("", turn / 2.0, cycles).unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
+        assert_eq!(texts(&output.warnings), Vec::<String>::new());
+        let text = text(output);
+        assert!(text.contains("A180.0") && !text.contains('Y') && !text.contains("G81"), "{text}");
+    }
+    // Round Y, by the name that the manual uses.
+    let round_y = wrapped("<AxisOfSpin>Y</AxisOfSpin><RotaryAxis>B</RotaryAxis>", turn, false).unwrap();
+    assert_eq!(texts(&round_y.warnings), Vec::<String>::new());
+    assert!(!text(round_y).contains('X'));
+    for (elements, expected) in [
+        ("<FeedMove>{$g1} {$_x} Y0 {$_z} {$_a}</FeedMove>", "stands in place of Y"),
+        ("<Rapid>{$g0} {$_x} {$_z} A0</Rapid>", "PB767"),
+        ("<Rapid>{$g0} {$_x} {$_z}</Rapid>", "PB767"),
+    ] {
+        let errors = texts(&wrapped(elements, turn / 2.0, false).expect_err(elements));
+        assert!(errors[0].contains("PB767") && errors[0].contains(expected), "{elements}: {errors:?}");
+    }
+    for (width, is_wide) in [(turn, false), (turn * 1.001, true)] {
+        let output = wrapped("", width, false).unwrap();
+        assert_eq!(!output.warnings.is_empty(), is_wide, "{width}: {:?}", texts(&output.warnings));
+    }
+}
+
+#[test]
 fn dwells_and_probes_have_sections_of_their_own() {
     let steps =
         vec![Step::Dwell { seconds: 1.5 }, Step::Probe { to: [0.0, 0.0, -5.0].into(), feed: Some(40.0) }];

@@ -19,7 +19,7 @@ program-start = 'G17 G21 G90'
 comment = '(~CommentText~)'
 tool-change = '''
 (tool ~ToolName~ ~PathName~ ~SourceFile~ ~PrgName~)
-T{#~MachineToolNo~} S{#~MillingSpindleRate~}
+T{#~MachineToolNo~} S{#~MillingSpindleRate~} {?~MillingSpindleDir~{$M04}{$M03}}
 G00 Z{+~ZClearance~}'''
 contour-start = '''
 G00 X{+~X1~} Y{+~Y1~}

@@ -4,9 +4,9 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::{Machine, Travel};
-use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
+use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Spindle, Step};
 
-use crate::support::{definition, feed, job, rapid, texts};
+use crate::support::{definition, feed, job, rapid, read, texts};
 
 /// A text written as it is, for a target.
 fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
@@ -312,4 +312,53 @@ fn somebody_who_answers_for_the_moves_does_not_answer_for_rules() {
 fn what_the_reader_refuses_is_not_written() {
     let errors = read_back("<MOP>G1 X1\n{$blocks}</MOP>", vec![feed(0.0, 0.0, -1.0)]).unwrap_err();
     assert!(errors[0].contains("a cutting move without a feed"), "{errors:?}");
+}
+
+/// Real definitions name no dialect: what they write is followed as far as all controls agree.
+#[test]
+fn without_a_dialect_words_and_spindle_are_followed_too() {
+    let mut job =
+        job(vec![rapid(1.0, 0.0, 1.0), feed(1.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)]);
+    job.operations[0].spindle = Some(Spindle::Clockwise);
+    job.operations[0].speed = Some(1000.0);
+    let written = |words: &str, options: &PostOptions<'_>| {
+        let mop =
+            format!("<MOP>{{$toolchange}}\n{{$velocitymode}} {{$workplane}}\n{words}\n{{$blocks}}</MOP>");
+        read(&definition(&mop)).unwrap().write(&job, options)
+    };
+    let default = PostOptions::default();
+    let refused = |words: &str| texts(&written(words, &default).expect_err(words)).join("\n");
+    for word in
+        ["G41 D1", "G68 R45", "G51 X2", "G93", "G95", "G16", "G7", "G96", "M98 P1", "M97 P1", "G43.1 Z1"]
+    {
+        let message = refused(&format!("M3 S1000\n{word}"));
+        assert!(message.starts_with("PB767"), "{word}: {message}");
+    }
+    for (words, code) in
+        [("", "PB767"), ("S1000", "PB767"), ("M4 S1000", "PB767"), ("M3", "PB745"), ("M3 S1000\nM5", "PB745")]
+    {
+        let message = refused(words);
+        assert!(message.contains(code), "{words}: {message}");
+    }
+    let doubts = |words: &str| match written(words, &default) {
+        Ok(output) => texts(&output.warnings),
+        Err(errors) => panic!("{words}: {:?}", texts(&errors)),
+    };
+    for words in ["M3 S1000", "G64 G40 G49 G54 G94 G80\nM8\nM3 S1000", "G61 M3 S1000"] {
+        assert_eq!(doubts(words), Vec::<String>::new(), "{words}");
+    }
+    for (words, word) in [("M3 S1000\nM110", "M110"), ("M3 S1000\nG55", "G55")] {
+        assert!(
+            doubts(words)[0].starts_with("PB752") && doubts(words)[0].contains(word),
+            "{:?}",
+            doubts(words)
+        );
+    }
+    // Switched by hand, no word is asked for; and whoever answers for the output is believed.
+    for options in [
+        PostOptions { manual_spindle: true, ..PostOptions::default() },
+        PostOptions { unchecked: true, ..PostOptions::default() },
+    ] {
+        assert!(written("", &options).is_ok());
+    }
 }

@@ -1,0 +1,68 @@
+//! Whether a text that was read turns the spindle wherever a job cuts, and the way round that the job says.
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_gcode::interpret::{self, Action, Move, Pace, Turning};
+
+use super::job::{Job, Operation, Spindle};
+
+/// The first cut of the text before which the spindle was not switched on, or is switched the other way round than the job says. A job in
+/// which some operation leaves the spindle to others is not asked.
+pub(super) fn check(steps: &[interpret::Step], job: &Job) -> Option<Diagnostic> {
+    let cutting = || job.operations.iter().filter(|operation| operation.cuts());
+    let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
+    expected.dedup();
+    // A feed above the material, on the way to it, is no cut.
+    let surface = cutting().map(|operation| operation.surface).reduce(f64::max);
+    let surface = surface.filter(|_| !job.has_no_surface).unwrap_or(f64::INFINITY);
+    let (mut now, mut index) = (Turning::Unstated, 0);
+    for step in steps {
+        match &step.action {
+            Action::Spindle(spindle) => now = spindle.turning,
+            Action::Move(it) if is_cut(it, surface) => {
+                let wanted = *expected.get(index)?;
+                if now == wanted {
+                    continue;
+                }
+                if expected.get(index + 1) == Some(&now) {
+                    index += 1;
+                    continue;
+                }
+                let message = match now {
+                    Turning::Unstated => &posts::SPINDLE_NOT_STARTED,
+                    // The rules of `verify` say so.
+                    Turning::Off => return None,
+                    Turning::Clockwise | Turning::Counterclockwise => &posts::SPINDLE_OTHER_WAY,
+                };
+                return Some(Diagnostic::new(message).at_line(step.line, None));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Whether the spindle is ever switched on.
+pub(super) fn is_started(steps: &[interpret::Step]) -> bool {
+    steps.iter().any(|step| match step.action {
+        Action::Spindle(spindle) => matches!(spindle.turning, Turning::Clockwise | Turning::Counterclockwise),
+        _ => false,
+    })
+}
+
+/// Whether a rule of `verify` is about the spindle.
+pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
+    [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
+}
+
+fn turning(operation: &Operation) -> Option<Turning> {
+    match operation.spindle? {
+        Spindle::Clockwise => Some(Turning::Clockwise),
+        Spindle::CounterClockwise => Some(Turning::Counterclockwise),
+        Spindle::Off => None,
+    }
+}
+
+fn is_cut(it: &Move, surface: f64) -> bool {
+    matches!(it.pace, Pace::Feed(_)) && !it.is_nothing() && it.from.z().min(it.to.z()) < surface
+}
