@@ -205,7 +205,7 @@ fn holes_become_cycles_when_asked() {
 
 #[test]
 fn macros_of_the_configuration_win_over_the_posts() {
-    let post = "<PostProcessor><PostProcessorMacros>$who=bert</PostProcessorMacros><PostFile>({$who})\n{$mops}</PostFile></PostProcessor>";
+    let post = "<PostProcessor><PostProcessorMacros>$who=bert</PostProcessorMacros><PostFile>({$who})\n{$mops}\n{$footer}</PostFile></PostProcessor>";
     let place = library("").file("my.cbpp", post);
     assert!(place.run("emit 1234.1P --post my.cbpp -o -").stdout.starts_with("(bert)"));
     let place = Place::of(&LIBRARY.replace("[tool.2mm]", "[macros]\nwho = \"anna\"\n[tool.2mm]"))
@@ -265,7 +265,7 @@ fn the_provenance_tells_posts_tools_and_macros_apart() {
     distinct.dedup();
     assert_eq!(distinct.len(), all.len(), "{all:#?}");
     let inserting = |name: &str, head: &str| {
-        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*{name}*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n"
+        let texts = "comment = '(~CommentText~)'\nprogram-start = '\\\\\\~*{name}*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\ntool-change = 'S{#~MillingSpindleRate~} M03'\nprogram-end = 'M30'\n"
             .replace("{name}", name);
         let post = format!("[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\n{texts}");
         let place = Place::of(&LIBRARY.replace("[tool.2mm]", "[macros]\nHead = 'head'\n[tool.2mm]"));
@@ -377,7 +377,7 @@ fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {
 
 #[test]
 fn deps_name_the_post_and_what_it_puts_in() {
-    let post = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\nprogram-start = '\\\\\\~*head.txt*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\n";
+    let post = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\nprogram-start = '\\\\\\~*head.txt*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\nrapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\ntool-change = 'S{#~MillingSpindleRate~} M03'\nprogram-end = 'M30'\n";
     let place = library("").file("posts/mine.toml", post).file("posts/head.txt", "(head)\n");
     let run = place.run("emit 1234.1P --post posts/mine.toml --deps out.d");
     assert_eq!(run.status, Some(0), "{run}");

@@ -563,8 +563,8 @@ messages! {
     }
     /// A note: a way between two cuts.
     WAY_NOT_FREE: PostDiffers {
-        en: "this is {found} from {from} to {to}; between these two cuts the program does not go there, or only higher up",
-        de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten fährt das Programm dort nicht oder nur weiter oben",
+        en: "this is {found} from {from} to {to}; at this point the program does not go there, or only higher up",
+        de: "das ist {found} von {from} nach {to}; an dieser Stelle fährt das Programm dort nicht oder nur weiter oben",
     }
     /// An M word, or an axis, without a dialect that says what it does.
     WORD_NOT_FOLLOWED: DoubtfulPost {
