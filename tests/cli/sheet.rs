@@ -292,3 +292,17 @@ fn clamps_are_listed_from_the_start() {
     let row = texts.windows(4).any(|row| row == ["clamps", "20 to 30", "10 to 25", "20"]);
     assert!(row, "{texts:?} {run}");
 }
+
+/// Onto a bar the tool rises: that is a rapid move like any other.
+#[test]
+fn the_lowest_rapid_may_be_one_that_rises() {
+    let drawing = "layer 1234.1P\nstart 0,20 \"T5 O3 I2 B0.5 D2 P6 U30\"\nmill 0,20 300,20\n\
+                   bars 300,20 300,120\nend 300,120\n";
+    let place = Place::new().file("pathbuild.toml", OPTIONS).file("1234.1P.dxf", dxf(drawing));
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let program = place.read("1234.1P_Milling.gcode");
+    let heights = program.lines().filter_map(|line| line.strip_prefix("G00 Z")?.parse::<f64>().ok());
+    assert_eq!(heights.reduce(f64::min), Some(2.0));
+    assert_eq!(place.run("sheet 1234.1P -o sheet.svg").status, Some(0));
+    assert_eq!(fact(&texts(&place.read("sheet.svg")), "lowest rapid"), "Z 2");
+}

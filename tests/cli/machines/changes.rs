@@ -208,7 +208,7 @@ fn nothing() -> Move {
 }
 
 /// Words that are dangerous wherever they stand before the last cut.
-const ANYWHERE: &[&str] = &[
+pub(super) const ANYWHERE: &[&str] = &[
     "G10 L2 P1 Z-5",
     "G92 Z3",
     "G52 X3",
@@ -226,7 +226,7 @@ const ANYWHERE: &[&str] = &[
 ];
 
 /// Words that are dangerous between cuts.
-const BETWEEN: &[&str] = &[
+pub(super) const BETWEEN: &[&str] = &[
     "G91",
     "G20",
     "G93",
@@ -300,7 +300,7 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
 }
 
 /// Where words begin and end, outside of comments.
-fn words(line: &str) -> Vec<(usize, usize)> {
+pub(super) fn words(line: &str) -> Vec<(usize, usize)> {
     let bytes = line.as_bytes();
     let (mut found, mut at) = (Vec::new(), 0);
     while at < bytes.len() {

@@ -1,7 +1,7 @@
 //! Readers that are not ours: LinuxCNC's interpreter and gcode-toolpath. No reader of XpertMILL's words is known.
 
 #[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
-mod oracle;
+pub(super) mod oracle;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -67,7 +67,7 @@ fn text_of(post: &str, it: &Named) -> String {
     String::from_utf8(text).unwrap()
 }
 
-fn common_words(text: &str) -> String {
+pub(super) fn common_words(text: &str) -> String {
     let is_own = |line: &&str| {
         line.starts_with('O') || line.starts_with("G53 G0 Z0") || line.starts_with("G91 G28 Z0")
     };

@@ -3,6 +3,7 @@
 
 mod chains;
 mod changes;
+mod dangerous;
 mod independent;
 mod programs;
 

@@ -50,6 +50,15 @@ pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
     Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
 }
 
+/// The canonical calls that rs274 prints for a program, which may be any bytes, with a table of tools; `None` where it refuses the program.
+#[allow(dead_code, reason = "not every test that has this oracle asks for its own words")]
+pub(crate) fn output(program: &Path, tools: &Path, text: &[u8]) -> Option<String> {
+    let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
+    std::io::Write::write_all(&mut file.as_file(), text).expect("it can be written");
+    let output = Command::new(program).arg("-t").arg(tools).arg(file.path()).output().expect("rs274 runs");
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
 /// Reads rs274's canonical calls; lengths become millimetres in the coordinates of the first move.
 fn calls_of(output: &str) -> Vec<Call> {
     let mut unit = 1.0;

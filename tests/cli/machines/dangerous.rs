@@ -1,0 +1,572 @@
+//! Random dangerous changes to programs of the example library: `verify --against`, run as users run it, reports each. (book:
+//! program/reading)
+//!
+//! Programs come out of `emit` natively and through every built-in post. Bytes, words, lines and comments of them are changed at random.
+//! Whether a change is dangerous is judged by readers that are not ours where there are some: LinuxCNC's interpreter for linuxcnc, mach3,
+//! fanuc and haas, the same behind GRBL's way to read lines for grbl and the native program. The other dialects are read by our
+//! interpreter. A change is dangerous if a cut goes elsewhere or deeper, under another offset, tool, length or spindle state, or if a
+//! rapid move below S0 goes elsewhere. Where the reader refuses the program, nothing is cut, so that it is not counted.
+//!
+//! `PATHBUILD_DANGEROUS=10000` tries so many changes, and `PATHBUILD_DANGEROUS_SEED` begins elsewhere; what passes is listed by dialect.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{self, Action, Options, Pace, Step, interpret};
+use pathbuild_post::BUILT_IN;
+use rayon::prelude::*;
+use tempfile::NamedTempFile;
+
+use super::changes::{ANYWHERE, BETWEEN, Dice, words};
+use super::independent::oracle;
+use super::say;
+use crate::support::{self, Place};
+
+/// So many changes are tried where nobody says another number.
+const CHANGES: usize = 400;
+
+/// So many programs are verified by one process.
+const AT_ONCE: usize = 100;
+
+/// mm: more than the tolerance of any dialect that is written with arcs.
+const ELSEWHERE: f64 = 0.01;
+
+/// Where chords stand for helices they may leave them by so many mm.
+const CHORDS: f64 = 0.1;
+
+/// Paths of the library that show lines, arcs, bars, helices, holes, sweeps and subpaths between them, and are short.
+const PATHS: [&str; 6] = ["2050.1P", "2052.1P", "2056.1P", "2058.1P", "2062.1P", "2066.1P"];
+
+/// The one with probes, whose native program is adjusted.
+const PROBED: &str = "8003.1P";
+
+const TOOLS: &str = "\n[tool.2mm]\ndiameter = 2\nnumber = 1\nspindle = 12000\n\
+                     [tool.3mm]\ndiameter = 3\nnumber = 2\nspindle = 9400\n";
+
+/// A program as it was written.
+struct Good {
+    post: &'static str,
+    /// What it is verified against.
+    path: String,
+    file: String,
+    text: Vec<u8>,
+}
+
+/// A change that a reader found dangerous.
+struct Dangerous {
+    good: usize,
+    what: String,
+    text: Vec<u8>,
+}
+
+/// LinuxCNC's interpreter with tools that have lengths, so that it tells G43 from G49.
+struct Rs274 {
+    program: PathBuf,
+    tools: NamedTempFile,
+}
+
+impl Rs274 {
+    fn new() -> Option<Self> {
+        let (program, mut tools) = (oracle::rs274()?, NamedTempFile::new().unwrap());
+        writeln!(tools, "T1 P1 Z7.5 D2.0 ;a\nT2 P2 Z9.5 D3.0 ;b\nT9 P9 Z3.25 D1.0 ;c").unwrap();
+        Some(Self { program, tools })
+    }
+}
+
+fn number(variable: &str, otherwise: usize) -> usize {
+    std::env::var(variable).ok().and_then(|count| count.parse().ok()).unwrap_or(otherwise)
+}
+
+#[test]
+fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
+    let Some(reader) = Rs274::new() else { return };
+    let place = library();
+    let goods = goods(&place);
+    let unchanged: Vec<(usize, Vec<u8>)> =
+        goods.iter().enumerate().map(|(index, good)| (index, good.text.clone())).collect();
+    let reported = verify(&place, &goods, &unchanged, true);
+    let clean: Vec<&str> =
+        reported.iter().map(|index| goods[unchanged[*index].0].file.as_str()).collect();
+    assert!(clean.is_empty(), "findings in {clean:?}");
+
+    let (count, seed) = (number("PATHBUILD_DANGEROUS", CHANGES), number("PATHBUILD_DANGEROUS_SEED", 1));
+    let per_program = count.div_ceil(goods.len());
+    let dangerous: Vec<Dangerous> = goods
+        .par_iter()
+        .enumerate()
+        .flat_map(|(index, good)| dangerous(&reader, good, index, seed, per_program))
+        .collect();
+    let changed: Vec<(usize, Vec<u8>)> = dangerous.iter().map(|it| (it.good, it.text.clone())).collect();
+    let reported = verify(&place, &goods, &changed, false);
+
+    let mut tried: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut passed: Vec<String> = Vec::new();
+    for (index, it) in dangerous.iter().enumerate() {
+        let good = &goods[it.good];
+        *tried.entry(good.post).or_default() += 1;
+        if !reported.contains(&index) {
+            passed.push(format!("{}: {}: {}", good.post, good.file, it.what));
+        }
+    }
+    say(&format!("{} dangerous changes: {tried:?}, seed {seed}", dangerous.len()));
+    assert!(passed.is_empty(), "{} passed\n{}", passed.len(), passed.join("\n"));
+    assert!(dangerous.len() >= count / 2, "{tried:?}");
+}
+
+/// The example library with tools that have numbers and speeds.
+fn library() -> Place {
+    let place = Place::new();
+    copy(&support::project().join("fixtures/library"), place.path());
+    let configuration = place.path().join("pathbuild.toml");
+    let text = fs::read_to_string(&configuration).unwrap();
+    fs::write(configuration, format!("{text}{TOOLS}")).unwrap();
+    place
+}
+
+fn copy(from: &Path, to: &Path) {
+    for entry in from.read_dir().unwrap().map(Result::unwrap) {
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            fs::create_dir_all(&target).unwrap();
+            copy(&entry.path(), &target);
+        } else {
+            fs::copy(entry.path(), target).unwrap();
+        }
+    }
+}
+
+fn goods(place: &Place) -> Vec<Good> {
+    let mut goods = Vec::new();
+    for post in BUILT_IN.iter().map(|post| post.name) {
+        let directory = format!("{post}-good");
+        let native = if post == "native" { "" } else { "--post " };
+        let post_option = if post == "native" { "" } else { post };
+        let run = place.run(&format!(
+            "emit {} {native}{post_option} --out-dir {directory} --no-cache",
+            PATHS.join(" ")
+        ));
+        assert_eq!(run.status, Some(0), "{run}");
+        for path in PATHS {
+            let stem = format!("{path}_Milling.");
+            let all = place.path().join(&directory).read_dir().unwrap();
+            let names = all.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+            let name = names.into_iter().find(|name| name.starts_with(&stem)).unwrap();
+            goods.push(good(place, post, path, &format!("{directory}/{name}")));
+        }
+    }
+    goods.extend(probed(place));
+    goods
+}
+
+/// The native programs of a path with probes, measured and adjusted.
+fn probed(place: &Place) -> Vec<Good> {
+    let directory = "native-probed";
+    let run = place.run(&format!("emit {PROBED} --out-dir {directory} --no-cache"));
+    assert_eq!(run.status, Some(0), "{run}");
+    let values = format!("{directory}/{PROBED}_Z.txt");
+    let mut off = [-0.04, 0.02, 0.05, -0.01].into_iter().cycle();
+    let measured = |line: &str| {
+        let drawn = line.split("/T=").nth(1).unwrap().split(')').next().unwrap();
+        format!("{line}{:.3}\n", drawn.parse::<f64>().unwrap() + off.next().unwrap())
+    };
+    let text: String = place.read(&values).lines().map(measured).collect();
+    fs::write(place.path().join(&values), text).unwrap();
+    let run = place.run(&format!("adjust {directory}/{PROBED}_Clean.gcode --max-correction 0.5 --out-dir {directory}"));
+    assert_eq!(run.status, Some(0), "{run}");
+    let names = ["Milling", "Clean"].map(|kind| format!("{directory}/{PROBED}_{kind}.gcode"));
+    names.iter().map(|name| good(place, "native", PROBED, name)).collect()
+}
+
+fn good(place: &Place, post: &'static str, path: &str, file: &str) -> Good {
+    let text = fs::read(place.path().join(file)).unwrap();
+    Good { post, path: path.to_owned(), file: file.to_owned(), text }
+}
+
+/// The programs, by their index, in which `verify --against` finds an error, or anything at all.
+fn verify(place: &Place, goods: &[Good], programs: &[(usize, Vec<u8>)], is_strict: bool) -> BTreeSet<usize> {
+    let mut jobs: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
+    for (index, (good, text)) in programs.iter().enumerate() {
+        let good = &goods[*good];
+        fs::write(place.path().join(format!("{index}.gc")), text).unwrap();
+        jobs.entry((good.post, &good.path)).or_default().push(index);
+    }
+    let chunks: Vec<(&str, &str, &[usize])> = jobs
+        .iter()
+        .flat_map(|((post, path), all)| all.chunks(AT_ONCE).map(|chunk| (*post, *path, chunk)))
+        .collect();
+    let reported = chunks.par_iter().flat_map_iter(|(post, path, chunk)| {
+        let files: Vec<String> = chunk.iter().map(|index| format!("{index}.gc")).collect();
+        let run = place.run(&format!(
+            "verify {} --against {path} --dialect {post} --format concise --no-cache",
+            files.join(" ")
+        ));
+        let of_line = |line: &str| {
+            let (file, said) = line.split_once(".gc:")?;
+            let is_finding = said.contains(": error[") || said.trim_start().starts_with("error[");
+            let is_doubt = said.contains("warning[");
+            (is_finding || is_strict && is_doubt).then(|| file.parse().ok()).flatten()
+        };
+        let both = format!("{}\n{}", run.stdout, run.stderr);
+        assert!(run.status.is_some_and(|status| status < 2), "{run}");
+        both.lines().filter_map(of_line).collect::<Vec<usize>>()
+    });
+    reported.collect()
+}
+
+/// Changes of a program that are dangerous, each once.
+fn dangerous(reader: &Rs274, good: &Good, index: usize, seed: usize, count: usize) -> Vec<Dangerous> {
+    let dialect: Dialect = good.post.parse().unwrap();
+    let before = read(reader, dialect, &good.text).unwrap_or_else(|| panic!("{} is refused", good.file));
+    assert!(!before.is_empty(), "{}", good.file);
+    let mut dice = Dice::new((seed * 1_000_003 + index) as u64);
+    let (mut found, mut tries, mut known) = (Vec::new(), 0, BTreeSet::new());
+    while found.len() < count && tries < 8 * count {
+        tries += 1;
+        let Some((what, text)) = change(&good.text, &mut dice) else { continue };
+        let is_dangerous = read(reader, dialect, &text).is_some_and(|after| !is_alike(&before, &after, dialect));
+        if is_dangerous && known.insert(text.clone()) {
+            found.push(Dangerous { good: index, what, text });
+        }
+    }
+    found
+}
+
+/// A cut with what is set while it is made, or a rapid move below S0.
+#[derive(Clone, Debug)]
+struct Effect {
+    kind: u8,
+    numbers: Vec<f64>,
+    state: String,
+}
+
+fn is_alike(before: &[Effect], after: &[Effect], dialect: Dialect) -> bool {
+    let has_arcs = dialect.rules().arcs.helix;
+    let slack = if has_arcs { ELSEWHERE } else { CHORDS };
+    let of = |effects: &[Effect]| if has_arcs { effects.to_vec() } else { without_chord_ends(effects) };
+    let (before, after) = (of(before), of(after));
+    before.len() == after.len()
+        && before.iter().zip(&after).all(|(a, b)| {
+            let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= slack;
+            (a.kind, &a.state) == (b.kind, &b.state) && a.numbers.iter().zip(&b.numbers).all(is_near)
+        })
+}
+
+/// Without the ends of chords that lie on the way between their neighbours, as near as chords stay to their arc: one chord less makes no
+/// difference there.
+fn without_chord_ends(effects: &[Effect]) -> Vec<Effect> {
+    let mut kept: Vec<Effect> = Vec::new();
+    for (index, effect) in effects.iter().enumerate() {
+        let is_chord = |other: Option<&Effect>| {
+            other.is_some_and(|other| (other.kind, &other.state) == (1, &effect.state) && effect.kind == 1)
+        };
+        let (before, after) = (kept.last(), effects.get(index + 1));
+        if is_chord(before)
+            && is_chord(after)
+            && before.zip(after).is_some_and(|(before, after)| distance(effect, before, after) < CHORDS / 2.0)
+        {
+            continue;
+        }
+        kept.push(effect.clone());
+    }
+    kept
+}
+
+/// How far the end of an effect is from the line between the ends of two others.
+fn distance(effect: &Effect, from: &Effect, to: &Effect) -> f64 {
+    let part = |a: &Effect, axis: usize| a.numbers[axis] - from.numbers[axis];
+    let dot = |a: &Effect, b: &Effect| (0..3).map(|axis| part(a, axis) * part(b, axis)).sum::<f64>();
+    let length = dot(to, to);
+    let share = if length > 0.0 { (dot(effect, to) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (0..3).map(|axis| (part(effect, axis) - share * part(to, axis)).powi(2)).sum::<f64>().sqrt()
+}
+
+/// What a program does to the material, read by whom its dialect has; `None` where that reader refuses it.
+fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
+    let text = match dialect {
+        Dialect::Native | Dialect::Grbl => lines_of_grbl(text),
+        Dialect::LinuxCnc => text.to_vec(),
+        Dialect::Mach3 | Dialect::Fanuc | Dialect::Haas => {
+            super::independent::common_words(str::from_utf8(text).ok()?).into_bytes()
+        }
+        _ => return Some(our_effects(text, dialect)),
+    };
+    effects_of(&oracle::output(&reader.program, reader.tools.path(), &text)?)
+}
+
+/// What GRBL makes of the bytes it receives before it looks at words: a line ends at CR as at LF, a comment in brackets at the first `)`, one
+/// behind `;` at the line's end; blanks, `/` and real-time characters are dropped, and small letters are capitals.
+fn lines_of_grbl(text: &[u8]) -> Vec<u8> {
+    let (mut lines, mut comment) = (Vec::with_capacity(text.len()), 0_u8);
+    for &byte in text {
+        match byte {
+            b'\n' | b'\r' => {
+                lines.push(b'\n');
+                comment = 0;
+            }
+            b')' if comment == b'(' => comment = 0,
+            _ if comment != 0 => {}
+            b'(' | b';' => comment = byte,
+            b'/' | b'%' | b'?' | b'!' | b'~' | 0..=b' ' | 128.. => {}
+            _ => lines.push(byte.to_ascii_uppercase()),
+        }
+    }
+    lines
+}
+
+/// Calls that set something which holds for cuts. Overrides and coolant do not count.
+const SETTINGS: [&str; 12] = [
+    "SET_G5X_OFFSET",
+    "SET_G92_OFFSET",
+    "SET_XY_ROTATION",
+    "USE_TOOL_LENGTH_OFFSET",
+    "CHANGE_TOOL",
+    "SET_SPINDLE_SPEED",
+    "START_SPINDLE_CLOCKWISE",
+    "START_SPINDLE_COUNTERCLOCKWISE",
+    "STOP_SPINDLE_TURNING",
+    "SET_MOTION_CONTROL_MODE",
+    "SET_FEED_MODE",
+    "SET_SPINDLE_MODE",
+];
+
+/// The effects in rs274's canonical calls.
+fn effects_of(output: &str) -> Option<Vec<Effect>> {
+    let (mut unit, mut at) = (1.0, [0.0; 3]);
+    let mut settings: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut effects = Vec::new();
+    for line in output.lines() {
+        let Some((front, arguments)) = line.split_once('(') else { continue };
+        let name = front.rsplit(' ').next().unwrap_or_default();
+        let words: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
+        let numbers = || words.iter().map(|word| word.parse().unwrap_or(f64::NAN) * unit).collect::<Vec<f64>>();
+        let turning = ["START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE", "STOP_SPINDLE_TURNING"];
+        match name {
+            "USE_LENGTH_UNITS" => unit = if words[0].ends_with("INCHES") { 25.4 } else { 1.0 },
+            _ if turning.contains(&name) => {
+                settings.insert("SPINDLE", if name == turning[2] { "" } else { &name[..16] });
+            }
+            "SET_G5X_OFFSET" | "SET_G92_OFFSET" if words.iter().all(|word| !word.contains(['1', '2', '3', '4', '5', '6', '7', '8', '9']) || *word == "1") => {
+                settings.remove(name);
+            }
+            _ if SETTINGS.contains(&name) => {
+                settings.insert(SETTINGS.iter().find(|known| **known == name)?, arguments);
+            }
+            "STRAIGHT_TRAVERSE" => {
+                let to = numbers();
+                let to = [to[0], to[1], to[2]];
+                let low = to[2].min(at[2]) < LOW;
+                if low && !is_still(&at, &to) {
+                    effects.push(Effect { kind: 0, numbers: to.to_vec(), state: String::new() });
+                }
+                at = to;
+            }
+            "STRAIGHT_FEED" | "STRAIGHT_PROBE" => {
+                let to = numbers();
+                let to = [to[0], to[1], to[2]];
+                if !is_still(&at, &to) {
+                    effects.push(Effect { kind: 1, numbers: to.to_vec(), state: format!("{settings:?}") });
+                }
+                at = to;
+            }
+            "ARC_FEED" => {
+                let all = numbers();
+                effects.push(Effect {
+                    kind: 2,
+                    numbers: [&all[..4], &all[5..6]].concat(),
+                    state: format!("{} {settings:?}", words[4]),
+                });
+                at = [all[0], all[1], all[5]];
+            }
+            _ => {}
+        }
+    }
+    Some(effects)
+}
+
+/// mm: below every S0 of the library, where rapid moves meet material or come near it.
+const LOW: f64 = 10.0;
+
+fn is_still(from: &[f64; 3], to: &[f64; 3]) -> bool {
+    from.iter().zip(to).all(|(a, b)| (a - b).abs() < ELSEWHERE / 2.0)
+}
+
+/// The effects by our own interpreter.
+fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
+    let mut settings: BTreeMap<&str, String> = BTreeMap::new();
+    let mut effects = Vec::new();
+    for Step { action, .. } in interpret(text, dialect, &Options::default()).steps {
+        match action {
+            Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.path == interpret::Path::Line => {}
+            Action::Move(it) if it.pace == Pace::Rapid => {
+                if it.to.z().min(it.from.z()) < LOW {
+                    effects.push(Effect { kind: 0, numbers: it.to.at.to_vec(), state: String::new() });
+                }
+            }
+            Action::Move(it) => {
+                let (kind, mut numbers, mut way) = (1, it.to.at.to_vec(), String::new());
+                if let interpret::Path::Arc(arc) = it.path {
+                    numbers.extend(arc.centre);
+                    way = format!("{} {} {:?}", arc.clockwise, arc.extra_turns, arc.plane);
+                }
+                effects.push(Effect { kind, numbers, state: format!("{way} {settings:?}") });
+            }
+            Action::Spindle(spindle) => {
+                settings.insert("spindle", format!("{spindle:?}"));
+            }
+            Action::ChangeTool(tool) => {
+                settings.insert("tool", format!("{tool:?}"));
+            }
+            Action::System(system) => {
+                settings.insert("system", format!("{system:?}"));
+            }
+            Action::Change(change) => {
+                settings.insert("change", format!("{change:?}"));
+            }
+            _ => {}
+        }
+    }
+    effects
+}
+
+/// What a byte may become.
+const BYTES: &[u8] = b"0123456789.-+GMXYZIJKFSTRHPLNO()[];/%#=*!:,\"' \t\r\n<>\x00\xff";
+
+/// Code that a comment may hide, or let out.
+const HIDDEN: [&str; 4] = ["G0 Z-5", "G1 X-7 F100", "M5", "G91"];
+
+/// Numbers are changed by these.
+const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
+
+/// One random change, and what it is.
+fn change(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
+    match dice.below(8) {
+        0 | 1 => Some(changed_byte(text, dice)),
+        2 | 3 => changed_word(text, dice),
+        4 | 5 => Some(changed_line(text, dice)),
+        6 => Some(changed_comment(text, dice)),
+        _ => {
+            // Two at a time, which may hide each other.
+            let (first, text) = changed_word(text, dice)?;
+            let (second, text) = changed_line(&text, dice);
+            Some((format!("{first}; {second}"), text))
+        }
+    }
+}
+
+fn changed_byte(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
+    let (at, byte) = (dice.below(text.len()), BYTES[dice.below(BYTES.len())]);
+    let mut changed = text.to_vec();
+    let what = match dice.below(4) {
+        0 => {
+            changed.insert(at, byte);
+            "put in"
+        }
+        1 => {
+            changed.remove(at);
+            "removed"
+        }
+        2 => {
+            changed.insert(at, text[at]);
+            "doubled"
+        }
+        _ => {
+            changed[at] = byte;
+            "replaced"
+        }
+    };
+    (format!("byte {at} {what}: {}", around(&changed, at)), changed)
+}
+
+/// The line round a byte.
+fn around(text: &[u8], at: usize) -> String {
+    let at = at.min(text.len().saturating_sub(1));
+    let begin = text[..at].iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+    let end = text[at..].iter().position(|byte| *byte == b'\n').map_or(text.len(), |end| at + end);
+    text[begin..end.max(begin)].escape_ascii().to_string()
+}
+
+fn lines(text: &[u8]) -> Vec<String> {
+    String::from_utf8_lossy(text).split('\n').map(str::to_owned).collect()
+}
+
+fn joined(what: String, lines: &[String]) -> (String, Vec<u8>) {
+    (what, lines.join("\n").into_bytes())
+}
+
+fn changed_word(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
+    let mut lines = lines(text);
+    let at = dice.below(lines.len());
+    let was = lines[at].clone();
+    let found = words(&was);
+    let &(begin, end) = found.get(dice.below(found.len().max(1)))?;
+    let number: f64 = was[begin + 1..end].parse().ok()?;
+    let letter = &was[begin..=begin];
+    let by = STEPS[dice.below(STEPS.len())];
+    let other = ["X", "Y", "Z", "I", "J", "K", "R", "F", "S", "G", "M", "P", "H", "A", "x", "z"][dice.below(16)];
+    let now = match dice.below(9) {
+        0..=2 => format!("{letter}{:.3}", number + by),
+        3 => String::new(),
+        4 => format!("{other}{}", &was[begin + 1..end]),
+        5 => format!("{}{:.3}", letter.to_lowercase(), number + by),
+        6 => format!("{letter} {:+.1}", number + by),
+        7 => format!("{letter}{}e1", &was[begin + 1..end]),
+        _ => format!("{} {other}{:.3}", &was[begin..end], by),
+    };
+    lines[at].replace_range(begin..end, &now);
+    let what = format!("`{was}` became `{}`", lines[at]);
+    Some(joined(what, &lines))
+}
+
+fn changed_line(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
+    let mut lines = lines(text);
+    let at = dice.below(lines.len() - 1);
+    let was = lines[at].clone();
+    let what = match dice.below(6) {
+        0 => format!("line {} removed: `{}`", at + 1, lines.remove(at)),
+        1 => {
+            lines.insert(at, was.clone());
+            format!("line {} doubled: `{was}`", at + 1)
+        }
+        2 => {
+            lines.swap(at, at + 1);
+            format!("lines {0} and {1} swapped: `{2}`, `{was}`", at + 1, at + 2, lines[at])
+        }
+        3 => {
+            let to = dice.below(lines.len() - 1);
+            let line = lines.remove(at);
+            lines.insert(to, line);
+            format!("line {} moved to {}: `{was}`", at + 1, to + 1)
+        }
+        _ => {
+            let all = if dice.below(2) == 0 { ANYWHERE } else { BETWEEN };
+            let word = all[dice.below(all.len())];
+            lines.insert(at, word.to_owned());
+            format!("`{word}` put in as line {}", at + 1)
+        }
+    };
+    joined(what, &lines)
+}
+
+fn changed_comment(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
+    let mut lines = lines(text);
+    let at = dice.below(lines.len() - 1);
+    let was = lines[at].clone();
+    let code = HIDDEN[dice.below(HIDDEN.len())];
+    lines[at] = match dice.below(10) {
+        0 => format!("{was} ; x\r{code}"),
+        1 => format!("{was} (x\r{code}\r)"),
+        2 => format!("{was} // x\r{code}"),
+        3 => format!("({was})"),
+        4 => format!(";{was}"),
+        5 => format!("/{was}"),
+        6 => format!("(x) {code} (y) {was}"),
+        7 => was.replacen(')', "", 1) + code,
+        8 => was.replacen('(', &format!("() {code} ("), 1),
+        _ => format!("{was}\r{code}"),
+    };
+    let what = format!("line {}: {:?}", at + 1, lines[at]);
+    joined(what, &lines)
+}
