@@ -88,8 +88,7 @@ fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
     let unchanged: Vec<(usize, Vec<u8>)> =
         goods.iter().enumerate().map(|(index, good)| (index, good.text.clone())).collect();
     let reported = verify(&place, &goods, &unchanged, true);
-    let clean: Vec<&str> =
-        reported.iter().map(|index| goods[unchanged[*index].0].file.as_str()).collect();
+    let clean: Vec<&str> = reported.iter().map(|index| goods[unchanged[*index].0].file.as_str()).collect();
     assert!(clean.is_empty(), "findings in {clean:?}");
 
     let (count, seed) = (number("PATHBUILD_DANGEROUS", CHANGES), number("PATHBUILD_DANGEROUS_SEED", 1));
@@ -144,10 +143,8 @@ fn goods(place: &Place) -> Vec<Good> {
         let directory = format!("{post}-good");
         let native = if post == "native" { "" } else { "--post " };
         let post_option = if post == "native" { "" } else { post };
-        let run = place.run(&format!(
-            "emit {} {native}{post_option} --out-dir {directory} --no-cache",
-            PATHS.join(" ")
-        ));
+        let run = place
+            .run(&format!("emit {} {native}{post_option} --out-dir {directory} --no-cache", PATHS.join(" ")));
         assert_eq!(run.status, Some(0), "{run}");
         for path in PATHS {
             let stem = format!("{path}_Milling.");
@@ -174,7 +171,8 @@ fn probed(place: &Place) -> Vec<Good> {
     };
     let text: String = place.read(&values).lines().map(measured).collect();
     fs::write(place.path().join(&values), text).unwrap();
-    let run = place.run(&format!("adjust {directory}/{PROBED}_Clean.gcode --max-correction 0.5 --out-dir {directory}"));
+    let run = place
+        .run(&format!("adjust {directory}/{PROBED}_Clean.gcode --max-correction 0.5 --out-dir {directory}"));
     assert_eq!(run.status, Some(0), "{run}");
     let names = ["Milling", "Clean"].map(|kind| format!("{directory}/{PROBED}_{kind}.gcode"));
     names.iter().map(|name| good(place, "native", PROBED, name)).collect()
@@ -226,7 +224,8 @@ fn dangerous(reader: &Rs274, good: &Good, index: usize, seed: usize, count: usiz
     while found.len() < count && tries < 8 * count {
         tries += 1;
         let Some((what, text)) = change(&good.text, &mut dice) else { continue };
-        let is_dangerous = read(reader, dialect, &text).is_some_and(|after| !is_alike(&before, &after, dialect));
+        let is_dangerous =
+            read(reader, dialect, &text).is_some_and(|after| !is_alike(&before, &after, dialect));
         if is_dangerous && known.insert(text.clone()) {
             found.push(Dangerous { good: index, what, text });
         }
@@ -341,14 +340,19 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
         let Some((front, arguments)) = line.split_once('(') else { continue };
         let name = front.rsplit(' ').next().unwrap_or_default();
         let words: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
-        let numbers = || words.iter().map(|word| word.parse().unwrap_or(f64::NAN) * unit).collect::<Vec<f64>>();
+        let numbers =
+            || words.iter().map(|word| word.parse().unwrap_or(f64::NAN) * unit).collect::<Vec<f64>>();
         let turning = ["START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE", "STOP_SPINDLE_TURNING"];
         match name {
             "USE_LENGTH_UNITS" => unit = if words[0].ends_with("INCHES") { 25.4 } else { 1.0 },
             _ if turning.contains(&name) => {
                 settings.insert("SPINDLE", if name == turning[2] { "" } else { &name[..16] });
             }
-            "SET_G5X_OFFSET" | "SET_G92_OFFSET" if words.iter().all(|word| !word.contains(['1', '2', '3', '4', '5', '6', '7', '8', '9']) || *word == "1") => {
+            "SET_G5X_OFFSET" | "SET_G92_OFFSET"
+                if words.iter().all(|word| {
+                    !word.contains(['1', '2', '3', '4', '5', '6', '7', '8', '9']) || *word == "1"
+                }) =>
+            {
                 settings.remove(name);
             }
             _ if SETTINGS.contains(&name) => {
@@ -505,7 +509,8 @@ fn changed_word(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
     let number: f64 = was[begin + 1..end].parse().ok()?;
     let letter = &was[begin..=begin];
     let by = STEPS[dice.below(STEPS.len())];
-    let other = ["X", "Y", "Z", "I", "J", "K", "R", "F", "S", "G", "M", "P", "H", "A", "x", "z"][dice.below(16)];
+    let other =
+        ["X", "Y", "Z", "I", "J", "K", "R", "F", "S", "G", "M", "P", "H", "A", "x", "z"][dice.below(16)];
     let now = match dice.below(9) {
         0..=2 => format!("{letter}{:.3}", number + by),
         3 => String::new(),

@@ -279,6 +279,26 @@ fn the_headers_cutter_decides() {
 }
 
 #[test]
+fn statistics_are_held_against_the_moves() {
+    for lang in ["en", "de"] {
+        let configuration = format!("{VALUES}comment-lang = \"{lang}\"\n");
+        let place = Place::new().file("a.dxf", drawing(PLATE)).file("pathbuild.toml", configuration);
+        succeed(&place.run("emit a.dxf"));
+        let good = place.read("a_Milling.gcode");
+        let run = place.run("verify a_Milling.gcode");
+        assert!(run.stderr.contains("errors: 0, warnings: 0"), "{run}");
+        let (line, text) = good.lines().enumerate().find(|(_, line)| line.contains(" mm   ca.")).unwrap();
+        let length: f64 = text.split(':').nth(1).unwrap().trim().split(' ').next().unwrap().parse().unwrap();
+        for (by, is_told) in [(10.0, false), (20.0, true)] {
+            let stated = |line: &str| line.replace(&format!("{length}"), &format!("{}", length + by));
+            write(&place, "a_Milling.gcode", &with_line(&good, line, stated));
+            let run = place.run("verify a_Milling.gcode");
+            assert_eq!((run.status, run.stderr.contains("warning[PB777]")), (Some(0), is_told), "{run}");
+        }
+    }
+}
+
+#[test]
 fn a_native_program_names_neither_a_speed_nor_places_of_the_machine() {
     let place = Place::new().file("a.dxf", drawing(PLATE)).file("pathbuild.toml", VALUES);
     succeed(&place.run("emit a.dxf"));

@@ -615,6 +615,13 @@ messages! {
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
+    /// The statistics at a program's end.
+    LENGTH_DIFFERS: Disagreement {
+        en: "`{label}` says {stated} mm, the program's moves come to {length} mm",
+        de: "`{label}` sagt {stated} mm, die Bewegungen des Programms ergeben {length} mm",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+    }
     /// A comment that emit writes otherwise.
     TEXT_DIFFERS: Disagreement {
         en: "emit writes `{expected}` here",

@@ -91,6 +91,12 @@ pub(super) fn setup(program: &Program) -> &'static str {
     }
 }
 
+/// Whether a text of ours is that of a compatible program, which states F before everything else.
+pub fn is_compatible(text: &[u8]) -> bool {
+    let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())
+}
+
 /// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
 /// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {

@@ -3,7 +3,8 @@
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Statistics, Total};
 
-use super::comment::Remarks;
+use super::comment::{Charset, Remarks};
+use crate::dialect::{Dialect, within_comment};
 
 pub(super) fn lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Vec<String> {
     let [milling, drilling, sweeps, sum, commands] = labels(lang);
@@ -28,4 +29,20 @@ fn labels(lang: Lang) -> [&'static str; 5] {
         Lang::En => ["Milling length:", "Drill length:", "Sweeps:", "Sum:", "Command count:"],
         Lang::De => ["Fräslänge:", "Bohrungen:", "Leerfahrten:", "Summe:", "Befehlszahl:"],
     }
+}
+
+/// The label and the length in mm of a comment that states one.
+pub(crate) fn stated_length(comment: &str) -> Option<(&str, f64)> {
+    let (label, rest) = comment.split_once(':')?;
+    let (length, _) = rest.split_once(" mm ")?;
+    Some((label, length.trim().parse().ok()?))
+}
+
+/// Which length a label means, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
+pub(crate) fn kind_of_label(label: &str) -> Option<usize> {
+    let is_meant = |known: &str| {
+        let known = known.trim_end_matches(':');
+        known == label || within_comment(known, Some(Dialect::Native), Charset::Ascii) == label
+    };
+    [Lang::En, Lang::De].iter().find_map(|lang| labels(*lang)[..4].iter().position(|known| is_meant(known)))
 }

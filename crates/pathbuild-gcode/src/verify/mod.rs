@@ -14,6 +14,7 @@ mod material;
 mod pieces;
 mod rapids;
 mod rules;
+mod stated;
 mod stock;
 mod tops;
 mod walk;
@@ -28,6 +29,7 @@ pub use lines::same_move_lines;
 pub use machine::{Machine, MachineRules, Travel};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
+pub use stated::StatedStatistics;
 pub use stock::{Stock, StockSpan};
 
 use crate::interpret::{Program, Step};

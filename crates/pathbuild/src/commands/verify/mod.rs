@@ -8,7 +8,8 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Pace;
 use pathbuild_gcode::native;
-use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, coarse_arcs, verify_with};
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, StatedStatistics, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
@@ -74,9 +75,11 @@ fn check(
     let machine = machine(context);
     let mut limits = machine.as_ref().map(MachineRules::new);
     let mut tools = stock::Tools::default();
+    let mut stated = StatedStatistics::default();
     let mut has_probed = false;
     let program = Program::open_each(context, file, &args.reading, &mut |step| {
         tools.step(&step);
+        stated.step(&step);
         has_probed |= step.as_move().is_some_and(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
         if let Some(limits) = &mut limits {
             limits.step(&step);
@@ -109,6 +112,10 @@ fn check(
     found.extend(stock::unknown_tools(context, &program, &tools));
     if program.dialect == Dialect::Native {
         found.extend(native::unstated_heights(&program.text));
+        // The reference's statistics are planned lengths, and of programs of others nobody knows what they count.
+        if Provenance::of_head(&program.text).is_some() && !native::is_compatible(&program.text) {
+            found.extend(stated.finish());
+        }
     }
     found.extend(stock::disagreements(context, &program, &tools, wishes, against));
     if let Some((against, comparison)) = milled.zip(comparison) {
