@@ -124,7 +124,7 @@ impl<'a> Grouped<'a> {
 
     /// Ends the chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
-        let Self { path, walked: Walked { items, members, diagnostics }, chained } = self;
+        let Self { path, walked: Walked { items, members, diagnostics, .. }, chained } = self;
         let [first, ..] = &members[*chained..] else { return };
         let has_letters = |member: &ChainSegment| member.cut(path).chain_letters.is_some();
         for (before, member) in members[*chained..].iter().zip(&members[*chained + 1..]) {

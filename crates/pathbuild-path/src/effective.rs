@@ -123,7 +123,7 @@ impl<'v, 't> Texts<'v, 't> {
                 self.class == ElementClass::PathStart || !letter.is_text() || letter == Letter::M;
             can_inherit.then_some((self.path, Provider::Path))
         };
-        let has = |(values, _): &(&Values<'_>, Provider)| values.has(letter);
+        let has = |(values, _): &(&Values<'_>, Provider)| values.may_give(letter);
         own.filter(has).or_else(|| path().filter(has))
     }
 

@@ -104,6 +104,14 @@ pub(crate) enum CircleMeaning {
     UnknownLineType,
 }
 
+/// What a circle that means nothing as it is may have been meant as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum MeantMarker {
+    Start,
+    End,
+    Other,
+}
+
 impl Origin {
     /// Where an entity is that begins, or has its centre, at a point.
     pub(crate) fn new(source: Source, layer: &SmolStr, point: Xy) -> Self {
@@ -235,6 +243,17 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
         LineType::Phantom if near(radius, 0.75) => CircleMeaning::Turn,
         LineType::Phantom if near(radius, 1.0) => CircleMeaning::End,
         LineType::Dashdot | LineType::Dot | LineType::Phantom => CircleMeaning::UnknownDiameter,
+    }
+}
+
+impl MeantMarker {
+    /// What a circle whose line type is not known would be with a likely one.
+    pub(crate) fn of(line_type: LineType, radius: f64) -> Self {
+        match circle_meaning(line_type, radius) {
+            CircleMeaning::Start => Self::Start,
+            CircleMeaning::End => Self::End,
+            _ => Self::Other,
+        }
     }
 }
 

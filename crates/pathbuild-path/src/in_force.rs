@@ -46,8 +46,9 @@ pub fn parameters_in_force(
     role: PathRole,
     language: &Language,
 ) -> Vec<InForce> {
-    let interpolation = Interpolation { bindings, limit: language.text_limit };
-    let values = Values::of_path(raw.parameters(), &interpolation);
+    let interpolation =
+        Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
+    let values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
     let chains = chains(raw, bindings, language);
     let table = Table { raw, interpolation, options, role, values, chains };
     let start =
@@ -84,8 +85,8 @@ impl Table<'_> {
         text: Option<TextId>,
         first: Option<&Element>,
     ) -> InForce {
-        let own = self.values_of(text);
-        let chain = first.map(|first| self.values_of(first.text));
+        let own = self.values_of(text, class);
+        let chain = first.map(|first| self.values_of(first.text, first.class(self.raw.tool())));
         let texts = Texts { class, own: &own, chain: chain.as_ref(), path: &self.values };
         let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
         let parameter = |letter| {
@@ -97,9 +98,9 @@ impl Table<'_> {
         InForce { origin, what, parameters: letters.filter_map(parameter).collect() }
     }
 
-    fn values_of(&self, text: Option<TextId>) -> Values<'_> {
+    fn values_of(&self, text: Option<TextId>, class: ElementClass) -> Values<'_> {
         let text = self.raw.drawn.text(text);
-        text.map(|text| Values::of(text, &self.interpolation)).unwrap_or_default()
+        text.map(|text| Values::of(text, class, &self.interpolation)).unwrap_or_default()
     }
 
     fn parameter(&self, texts: &Texts<'_, '_>, letter: Letter) -> Option<(SmolStr, Provider)> {

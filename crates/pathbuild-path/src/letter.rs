@@ -101,6 +101,9 @@ impl Letter {
 }
 
 impl Letters {
+    /// All letters.
+    pub(crate) const ALL: Self = Self(u32::MAX);
+
     pub(crate) const fn of(letters: &[Letter]) -> Self {
         let mut set = 0;
         let mut index = 0;
@@ -113,6 +116,11 @@ impl Letters {
 
     pub(crate) const fn contains(self, letter: Letter) -> bool {
         self.0 & 1 << letter as u32 != 0
+    }
+
+    /// These and others.
+    pub(crate) const fn and(self, others: Self) -> Self {
+        Self(self.0 | others.0)
     }
 
     /// Whether any of these is in it.

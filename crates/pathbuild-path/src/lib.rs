@@ -15,6 +15,7 @@ mod doubts;
 mod effective;
 mod element;
 mod embedding;
+mod faults;
 mod file_name;
 mod files;
 mod geometry;
@@ -41,7 +42,7 @@ mod values;
 mod variables;
 mod walk;
 
-pub use bind::bind;
+pub use bind::{Examined, bind, examine};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{Allowed, Definition};

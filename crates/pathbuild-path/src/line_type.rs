@@ -45,6 +45,17 @@ impl LineType {
         ALIASES.iter().filter(move |(_, known)| *known == self).map(|(name, _)| *name)
     }
 
+    /// The line type that an unknown name (upper case) most likely means: that with the longest known word in the name, or with a name that
+    /// begins like it or differs by a slip of the pen.
+    pub fn like(name: &str) -> Option<Self> {
+        let names = || Self::NAMES.iter().chain(ALIASES).chain(WORDS);
+        let in_name = names().filter(|(word, _)| word.len() >= SHORTEST && name.contains(word));
+        let longest = in_name.max_by_key(|(word, _)| word.len());
+        let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
+        let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));
+        longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| *line_type)
+    }
+
     /// The line type that a name in a drawing (upper case) stands for: exactly, with a suffix dropped, or through an alias. It is never
     /// guessed from the dash pattern: DASHED2 and HIDDEN have the same.
     pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {
@@ -97,6 +108,53 @@ const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];
 fn named(name: &str) -> Option<LineType> {
     LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
 }
+
+/// Length of the shortest word that a name is recognized by, in bytes.
+const SHORTEST: usize = 3;
+
+/// Whether two names differ by one character that is missing, added or another, or by two that have changed places.
+fn differs_little(name: &str, other: &str) -> bool {
+    let (name, other): (Vec<char>, Vec<char>) = (name.chars().collect(), other.chars().collect());
+    let same_start = name.iter().zip(&other).take_while(|(a, b)| a == b).count();
+    let (name, other) = (&name[same_start..], &other[same_start..]);
+    let same_end = name.iter().rev().zip(other.iter().rev()).take_while(|(a, b)| a == b).count();
+    match (&name[..name.len() - same_end], &other[..other.len() - same_end]) {
+        ([], []) | ([_], [] | [_]) | ([], [_]) => true,
+        ([a, b], [c, d]) => a == d && b == c,
+        _ => false,
+    }
+}
+
+/// Parts of names in several languages. They suggest a line type, but never stand for one.
+const WORDS: &[(&str, LineType)] = &[
+    ("CONTINU", LineType::Continuous),
+    ("KONTINU", LineType::Continuous),
+    ("VOLL", LineType::Continuous),
+    ("DIVI", LineType::Divide),
+    ("TEIL", LineType::Divide),
+    ("BORD", LineType::Border),
+    ("GRENZ", LineType::Border),
+    ("RAHMEN", LineType::Border),
+    ("KANTE", LineType::Border),
+    ("CENT", LineType::Center),
+    ("MITTE", LineType::Center),
+    ("ACHS", LineType::Center),
+    ("AXE", LineType::Center),
+    ("STRICHPUNKT", LineType::Dashdot),
+    ("STRICH", LineType::Dashed),
+    ("TRATT", LineType::Dashed),
+    ("INTERROMP", LineType::Dashed),
+    ("TIRET", LineType::Dashed),
+    ("CACHE", LineType::Hidden),
+    ("OCULT", LineType::Hidden),
+    ("VERSTECK", LineType::Hidden),
+    ("UNSICHTBAR", LineType::Hidden),
+    ("PUNKT", LineType::Dot),
+    ("POINT", LineType::Dot),
+    ("PUNT", LineType::Dot),
+    ("FANT", LineType::Phantom),
+    ("PHANT", LineType::Phantom),
+];
 
 /// Names of other programs and languages for the same line types (book: reference/dxf). ISO types are mapped as LibreCAD's
 /// import does; AutoCAD Mechanical's are ISO types by number.

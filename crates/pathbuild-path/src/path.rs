@@ -7,8 +7,9 @@ use smol_str::SmolStr;
 
 use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::{Cut, Element, Origin, Shape};
+use crate::faults::Faults;
 use crate::geometry::{Curve, Xy};
-use crate::letter::Letter;
+use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
 use crate::name::{PathName, SpeltName};
 use crate::raw::Drawn;
@@ -61,6 +62,8 @@ pub struct Path {
     pub end_origin: Origin,
     /// Curves that are no part of it.
     pub left_out: Vec<(EntityKind, Point)>,
+    /// What is not known of it because it has errors.
+    pub(crate) faults: Option<Box<Faults>>,
 }
 
 /// An upper face of the material.
@@ -210,6 +213,8 @@ pub struct Subpath {
     pub thickness: f64,
     /// O.
     pub tool: f64,
+    /// Of these letters errors hide the values.
+    pub(crate) unknown: Letters,
     /// M.
     pub material: Option<SmolStr>,
     /// H: how much it is raised.
@@ -247,6 +252,26 @@ pub struct SubpathValue {
 }
 
 impl Path {
+    /// Whether it has errors: it is judged further, but no program is made of it.
+    pub fn has_faults(&self) -> bool {
+        self.faults.is_some()
+    }
+
+    /// Whether the path or any of its segments says I.
+    pub(crate) fn gives_infeed(&self) -> bool {
+        self.cuts.iter().any(|cut| cut.chain.infeed.is_some())
+    }
+
+    /// Whether errors hide what the path says of a letter.
+    pub fn hides(&self, letter: Letter) -> bool {
+        self.unknown_letters().contains(letter)
+    }
+
+    /// The letters of which errors hide what the path says.
+    pub(crate) fn unknown_letters(&self) -> Letters {
+        self.faults.as_ref().map_or_else(Letters::default, |faults| faults.letters)
+    }
+
     /// S of the path where it is embedded or checked: its own, else the default.
     pub fn embedded_sweep_height(&self) -> f64 {
         self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
@@ -305,6 +330,13 @@ impl Path {
 
     fn element(&self, segment: &Segment) -> &Element {
         &self.drawn.elements[segment.element as usize]
+    }
+}
+
+impl Subpath {
+    /// Whether errors hide T, O or M of the segment.
+    pub fn hides(&self, letter: Letter) -> bool {
+        self.unknown.contains(letter)
     }
 }
 

@@ -8,6 +8,7 @@ use smol_str::SmolStr;
 use crate::definition::Definition;
 use crate::doubts::Doubts;
 use crate::element::{Element, Marker, Origin};
+use crate::faults::DrawingFaults;
 use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
@@ -33,6 +34,8 @@ pub struct RawPath {
     pub(crate) parameters: Option<TextId>,
     /// The path that @ names, and its start marker, where the parameters stand.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
+    /// What its faults leave unknown.
+    pub(crate) faults: DrawingFaults,
     /// The variables that it defines, in the order written.
     pub definitions: Vec<Definition>,
     /// Curves on its layers that are no part of it, with where they begin.
@@ -113,6 +116,11 @@ impl RawPath {
         self.drawn.text(self.parameters).unwrap_or_default()
     }
 
+    /// Whether a text of an element is probably the path's own, which its start lacks: nothing is wrong with its letters.
+    pub(crate) fn may_be_of_path(&self, text: ParameterText<'_>) -> bool {
+        self.parameters.is_none() && text.letters.contains(Letter::O) && text.letters.contains(Letter::T)
+    }
+
     /// A diagnostic about the path's own parameters. Those that @ borrows are reported with the path they belong to, so that what is wrong
     /// with them is said once.
     pub(crate) fn at_parameters(&self, diagnostic: Diagnostic) -> Diagnostic {
@@ -123,10 +131,11 @@ impl RawPath {
         }
     }
 
-    /// The cutter's diameter: the literal O, when it is a number.
+    /// The cutter's diameter: the literal O, when it is a number that can be one.
     pub fn tool(&self) -> Option<f64> {
-        match self.parameters().piece(Letter::O)?.written {
-            Written::Number(number) => Some(number),
+        let parameters = self.parameters();
+        match parameters.piece(Letter::O)?.written {
+            Written::Number(number) if number > 0.0 && !parameters.repeats(Letter::O) => Some(number),
             _ => None,
         }
     }

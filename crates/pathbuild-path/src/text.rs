@@ -179,6 +179,29 @@ impl<'t> ParameterText<'t> {
         characters.as_str()
     }
 
+    /// Letters that pieces without a letter may stand for: `b2` for B, a lone `2` for any.
+    pub(crate) fn unread_letters(self) -> Letters {
+        let meant = |piece: &LetterValue| {
+            let first = self.letter(piece).unwrap_or_default();
+            Letter::new(first.to_ascii_uppercase()).map_or(Letters::ALL, |letter| Letters::of(&[letter]))
+        };
+        let unread = self.pieces.iter().filter(|piece| piece.letter.is_none());
+        unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))
+    }
+
+    /// All letters that it may have been meant to give, to whatever element.
+    pub(crate) fn meant_letters(self) -> Letters {
+        match mistakes::in_text(self, ElementClass::Unread) {
+            Some(misreading) => misreading.unread,
+            None => self.letters.and(self.unread_letters()),
+        }
+    }
+
+    /// Whether a letter stands in the text more than once.
+    pub(crate) fn repeats(self, letter: Letter) -> bool {
+        !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
+    }
+
     /// The whole text with a piece underlined.
     pub fn fault(self, piece: &LetterValue) -> TextFault {
         TextFault::new(self.string, piece.span())
@@ -200,8 +223,8 @@ impl<'t> ParameterText<'t> {
         if class == ElementClass::Unread {
             return Vec::new();
         }
-        if let Some(problem) = mistakes::in_text(self, class) {
-            return vec![problem];
+        if let Some(misreading) = mistakes::in_text(self, class) {
+            return vec![misreading.problem];
         }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
         let of_piece = |piece: &LetterValue| {

@@ -6,6 +6,8 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use crate::letter::{Letter, Letters};
+use crate::matrix::{ElementClass, Use};
+use crate::mistakes;
 use crate::text::{LetterValue, ParameterText, Written};
 use crate::variables::Interpolation;
 
@@ -27,6 +29,8 @@ pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
     /// What its pieces say with variables put in; nothing where they say that as they are written.
     filled: Vec<Filled<'t>>,
+    /// Letters that the text lacks, but that something in it that is at fault may stand for.
+    pub(crate) unread: Letters,
     /// PB205, PB303, PB305 and PB005, without places.
     pub(crate) problems: Vec<Diagnostic>,
 }
@@ -55,31 +59,38 @@ impl Given {
 }
 
 impl<'t> Values<'t> {
-    /// The values of a text; what is not known to the element is not looked at.
-    pub(crate) fn of(text: ParameterText<'t>, interpolation: &Interpolation<'_>) -> Self {
-        Self::of_pieces(text, interpolation, |_| true)
-    }
-
-    /// The values of a path's own parameters. A definition is no value: its "=" would be taken for a reference.
-    pub(crate) fn of_path(text: ParameterText<'t>, interpolation: &Interpolation<'_>) -> Self {
-        Self::of_pieces(text, interpolation, |letter| letter != Letter::Variable)
-    }
-
-    fn of_pieces(
+    /// The values of the text of an element of this class. A piece that [`ParameterText::problems`] finds at fault has no value.
+    pub(crate) fn of(
         text: ParameterText<'t>,
+        class: ElementClass,
         interpolation: &Interpolation<'_>,
-        is_value: impl Fn(Letter) -> bool,
     ) -> Self {
         let mut values = Self { text, ..Self::default() };
-        if !text.is_plain {
-            let pieces = text.pieces().iter();
-            values.filled = pieces
-                .map(|piece| match piece.letter.filter(|letter| is_value(*letter)) {
-                    Some(letter) => values.fill(letter, piece, interpolation),
-                    None => Filled::Nothing,
-                })
-                .collect();
+        if text.is_plain {
+            return values;
         }
+        if let Some(misreading) = mistakes::in_text(text, class) {
+            values.filled.resize_with(text.pieces().len(), || Filled::Nothing);
+            values.unread = misreading.unread;
+            return values;
+        }
+        values.unread = text.unread_letters();
+        // A definition is no value: its "=" would be taken for a reference.
+        let is_definition = |letter| class == ElementClass::PathStart && letter == Letter::Variable;
+        let is_value = |letter: &Letter| {
+            !matches!(class.use_of(*letter), Use::Unknown | Use::PathOnly)
+                && !is_definition(*letter)
+                && (*letter == Letter::Variable || !text.repeats(*letter))
+        };
+        let mut filled = Vec::with_capacity(text.pieces().len());
+        for piece in text.pieces() {
+            filled.push(match piece.letter.filter(is_value) {
+                Some(letter) if letter.is_literal() && text.value(piece).contains('=') => Filled::Nothing,
+                Some(letter) => values.fill(letter, piece, interpolation),
+                None => Filled::Nothing,
+            });
+        }
+        values.filled = filled;
         values
     }
 
@@ -89,7 +100,11 @@ impl<'t> Values<'t> {
                 Written::NoNumber => self.report(piece, no_number(letter, &value)),
                 written => return Filled::Value(written, value),
             },
-            Err(problem) => self.report(piece, *problem),
+            Err(Some(problem)) => {
+                let problem = mistakes::equals_sign(letter, self.text.value(piece), &problem).unwrap_or(*problem);
+                self.report(piece, problem);
+            }
+            Err(None) => {}
         }
         Filled::Nothing
     }
@@ -98,9 +113,11 @@ impl<'t> Values<'t> {
         self.problems.push(problem.with_text(self.text.fault(piece)));
     }
 
-    /// A letter's number. Of several of a letter, which are reported, the first counts.
+    /// A letter's number. Of several of a letter, which are reported, none counts.
     pub(crate) fn number(&self, letter: Letter) -> Given {
-        let Some(index) = self.text.index(letter) else { return Given::Absent };
+        let Some(index) = self.text.index(letter) else {
+            return if self.unread.contains(letter) { Given::Faulty } else { Given::Absent };
+        };
         let written = match self.filled.get(index) {
             None => self.text.pieces()[index].written,
             Some(Filled::Value(written, _)) => *written,
@@ -116,6 +133,14 @@ impl<'t> Values<'t> {
     /// A letter's text; `None` where it says nothing or something that was reported.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
         self.value(self.text.index(letter)?)
+    }
+
+    /// Whether the text may give the letter, but it is not known with which value.
+    pub(crate) fn is_unknown(&self, letter: Letter) -> bool {
+        match self.text.index(letter) {
+            Some(index) => self.value(index).is_none(),
+            None => self.unread.contains(letter),
+        }
     }
 
     /// Values of variables in the order written, with the piece they stand in.
@@ -136,6 +161,11 @@ impl<'t> Values<'t> {
     /// Whether the text has the letter at all.
     pub(crate) fn has(&self, letter: Letter) -> bool {
         self.text.letters.contains(letter)
+    }
+
+    /// Whether the text has the letter, or something in it that is at fault may stand for it.
+    pub(crate) fn may_give(&self, letter: Letter) -> bool {
+        self.has(letter) || self.unread.contains(letter)
     }
 
     /// All letters that the text has.
@@ -163,6 +193,9 @@ impl<'t> Values<'t> {
 }
 
 fn no_number(letter: Letter, value: &str) -> Diagnostic {
+    if let Some(problem) = mistakes::unit(letter, value) {
+        return problem;
+    }
     let is_integer = letter == Letter::N;
     let message = match is_integer {
         _ if value.contains('\u{a0}') => &messages::NON_BREAKING_SPACE,

@@ -18,7 +18,12 @@ pub struct Bindings(Vec<(char, SmolStr)>);
 pub(crate) struct Interpolation<'a> {
     pub(crate) bindings: &'a Bindings,
     pub(crate) limit: usize,
+    /// Variables whose definitions are at fault: it is not known which values they have.
+    pub(crate) unknown: &'a [char],
 }
+
+/// Why a value cannot be had; `None` where that was reported with a definition.
+type Problem = Option<Box<Diagnostic>>;
 
 /// Values refer to others so deep. More than people give names to with letters and digits; without an end, thousands of variables would
 /// make a round each over the whole text.
@@ -88,7 +93,7 @@ impl Interpolation<'_> {
     ///
     /// # Errors
     /// PB303, PB305 or PB005, without a place.
-    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Box<Diagnostic>> {
+    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Problem> {
         let mut filled = Cow::Borrowed(value);
         // Without a circle each round resolves at least one level, and there are no more levels than variables.
         for _ in 0..=self.bindings.0.len().min(MOST_LEVELS) {
@@ -101,7 +106,7 @@ impl Interpolation<'_> {
             None => Ok(filled),
             Some((_, rest)) => {
                 let name = rest.chars().next().map(String::from).unwrap_or_default();
-                Err(self.endless(name))
+                Err(Some(self.endless(name)))
             }
         }
     }
@@ -116,7 +121,7 @@ impl Interpolation<'_> {
         Box::new(problem.with("variable", name))
     }
 
-    fn fill_once(&self, value: &str) -> Result<String, Box<Diagnostic>> {
+    fn fill_once(&self, value: &str) -> Result<String, Problem> {
         let mut filled = String::with_capacity(2 * value.len());
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
@@ -126,7 +131,7 @@ impl Interpolation<'_> {
             filled.push_str(before);
             filled.push_str(replacement);
             if filled.len() > self.limit {
-                return Err(self.too_long());
+                return Err(Some(self.too_long()));
             }
             rest = &after[name.map_or(0, char::len_utf8)..];
         }
@@ -134,12 +139,15 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn unknown(&self, name: Option<char>) -> Box<Diagnostic> {
+    fn unknown(&self, name: Option<char>) -> Problem {
+        if name.is_some_and(|name| self.unknown.contains(&name)) {
+            return None;
+        }
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
             .with("variable", name.map(String::from).unwrap_or_default())
             .with("known", known);
-        Box::new(problem)
+        Some(Box::new(problem))
     }
 
     fn too_long(&self) -> Box<Diagnostic> {

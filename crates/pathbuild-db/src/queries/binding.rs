@@ -3,7 +3,7 @@
 use std::panic::resume_unwind;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, Language, Path, RawPath, Walked};
+use pathbuild_path::{Bindings, Examined, Language, Path, RawPath, Walked};
 
 use crate::bugs::{TooLong, catch_bugs};
 use crate::db::Db;
@@ -14,19 +14,23 @@ use crate::settings::Settings;
 pub struct BoundPath {
     /// The path, unless a diagnostic is an error.
     pub path: Option<Path>,
-    /// Diagnostics of the drawing or, if it has none, of the values.
+    /// Diagnostics of the drawing and of the values.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Binds and checks the parameters of a path.
+/// Binds and checks the parameters of a path for its program.
 pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
+    let BoundPath { path, diagnostics } = examine(raw, bindings, language);
+    BoundPath { path: path.filter(|path| !path.has_faults()), diagnostics }
+}
+
+/// Binds a path as far as it is known, even if it has errors, so that its other errors are found as well.
+pub(super) fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
     let mut diagnostics = raw.diagnostics.clone();
-    if !raw.is_sound() {
-        return BoundPath { path: None, diagnostics };
-    }
-    let bound = catch_bugs(|| pathbuild_path::bind(raw, bindings, language));
-    let (path, found) = bound.unwrap_or_else(|bug| (None, vec![bug.in_path(raw.name.as_str())]));
-    diagnostics.extend(found);
+    let examined = catch_bugs(|| pathbuild_path::examine(raw, bindings, language));
+    let Examined { path, problems } = examined
+        .unwrap_or_else(|bug| Examined { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
+    diagnostics.extend(problems);
     BoundPath { path, diagnostics }
 }
 

@@ -200,23 +200,25 @@ impl<'db> Walk<'db> {
         has_errors
     }
 
-    /// The stages of one path: a stage runs only when earlier stages found no error.
+    /// The stages of one path. Each reports what does not follow from what earlier stages found.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
         has_errors |= self.report_all(instance, &summary.problems);
-        let Some(signature) = &summary.signature else { return true };
-        self.check_feed(instance, signature);
-        let sweep_problems = self.sweep_problems(summary, signature, depth);
-        has_errors |= self.report_all(instance, &sweep_problems);
-        if has_errors {
-            return true;
+        if let Some(signature) = &summary.signature {
+            self.check_feed(instance, signature);
+            let sweep_problems = self.sweep_problems(summary, signature, depth);
+            has_errors |= self.report_all(instance, &sweep_problems);
         }
         has_errors |= self.report_all(instance, &summary.walk_problems);
+        let Some(signature) = summary.known_signature() else { return true };
         for embedding in embeds(self.db, instance) {
             has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);
         }
-        has_errors |= self.visit_raised(instance, signature, depth);
+        has_errors |= summary.signature.is_none();
+        if !has_errors {
+            has_errors |= self.visit_raised(instance, signature, depth);
+        }
         has_errors
     }
 
@@ -306,18 +308,18 @@ impl<'db> Walk<'db> {
                 self.report_all(instance, &[origin.at(problem)])
             }
             Outcome::Found { child, problems } => {
-                let misfits = self.report_all(instance, problems);
                 self.stack.push(frame);
                 let has_errors = self.visit(*child, depth + 1);
                 self.stack.pop();
                 if has_errors {
+                    // Whether the two fit may depend on what is wrong there.
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
                         .with("name", self.name_of(*child))
                         .with("file", child.file(self.db).path(self.db).as_str())
                         .in_path(outer.as_str());
-                    self.report_all(instance, &[origin.at(problem)]);
+                    return self.report_all(instance, &[origin.at(problem)]);
                 }
-                misfits || has_errors
+                self.report_all(instance, problems)
             }
         }
     }

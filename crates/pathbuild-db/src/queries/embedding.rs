@@ -54,7 +54,7 @@ pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<
 
 #[salsa::tracked]
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
-    let Some(outer) = &summary(db, instance).signature else { return Vec::new() };
+    let Some(outer) = summary(db, instance).known_signature() else { return Vec::new() };
     let settings = Settings::get(db);
     let judge = Judge::new(outer, settings.restrictions(db), &settings.language(db).path_pattern);
     let embedder = Embedder { db, file: instance.file(db), judge };

@@ -1,10 +1,11 @@
 //! The summary of a bound path: everything that a check and the embedding paths need.
 
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, PathSignature, RawPath};
+use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::{Code, Diagnostic, Note, Point};
+use pathbuild_path::{Bindings, PathSignature, RawPath, Xy};
 use pathbuild_toolpath::own_moves;
 
-use super::binding::{BoundPath, bind, walk};
+use super::binding::{BoundPath, examine, walk};
 use super::nearby_ends::LayerEnds;
 use crate::db::Db;
 use crate::settings::Settings;
@@ -14,9 +15,11 @@ use crate::settings::Settings;
 pub struct PathSummary {
     /// Findings about its drawing or values.
     pub problems: Vec<Diagnostic>,
-    /// The path as seen by others, unless a finding is an error. The following fields are empty in that case.
+    /// The path as seen by others, unless a finding is an error.
     pub signature: Option<PathSignature>,
-    /// Findings about the sweep height it gets when embedded or checked.
+    /// The known part of the signature of a path with errors, used to judge what it embeds. `None` if nothing is drawn.
+    pub faulty_signature: Option<Box<PathSignature>>,
+    /// Findings about the sweep height it gets when embedded or checked. Empty if the path has errors.
     pub sweep_problems: Vec<Diagnostic>,
     /// Findings about the walk.
     pub walk_problems: Vec<Diagnostic>,
@@ -28,19 +31,33 @@ impl PathSummary {
     /// Binds and walks a path.
     pub(super) fn new(db: &dyn Db, raw: &RawPath, bindings: &Bindings, ends: &LayerEnds<'_>) -> Self {
         let language = Settings::get(db).language(db);
-        let BoundPath { path, diagnostics: problems } = bind(raw, bindings, language);
+        let BoundPath { path, diagnostics: mut problems } = examine(raw, bindings, language);
         let Some(path) = path else { return Self { problems, ..Self::default() } };
         let walked = walk(db, &path, language);
+        if let Some(end) = walked.open_end {
+            say_where_it_ends(&mut problems, end);
+        }
         let with_hint =
             |found: &Diagnostic| ends.with_hint(&path.name, &language.path_pattern, found.clone());
         let signature = PathSignature::of(&path);
+        let walk_problems = walked.diagnostics.iter().map(with_hint).collect();
+        if path.has_faults() {
+            let faulty_signature = Some(Box::new(signature));
+            return Self { problems, walk_problems, faulty_signature, ..Self::default() };
+        }
         Self {
             problems,
             sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
-            walk_problems: walked.diagnostics.iter().map(with_hint).collect(),
+            walk_problems,
             moves: own_moves(&path, &walked),
             signature: Some(signature),
+            faulty_signature: None,
         }
+    }
+
+    /// The signature as far as it is known, with or without errors.
+    pub(super) fn known_signature(&self) -> Option<&PathSignature> {
+        self.signature.as_ref().or(self.faulty_signature.as_deref())
     }
 
     /// Whether the path itself has no findings.
@@ -54,6 +71,14 @@ impl PathSummary {
 
     /// Whether the path embeds others.
     pub(super) fn has_subpaths(&self) -> bool {
-        self.signature.as_ref().is_some_and(|signature| !signature.subpaths.is_empty())
+        self.known_signature().is_some_and(|signature| !signature.subpaths.is_empty())
+    }
+}
+
+/// Adds to PB102 where the path ends.
+fn say_where_it_ends(problems: &mut [Diagnostic], end: Xy) {
+    for problem in problems.iter_mut().filter(|problem| problem.code() == Code::MissingEnd) {
+        let note = Note { message: &messages::ENDS_HERE, arguments: vec![("point", Point::new(end.x, end.y).into())] };
+        problem.notes.push(note);
     }
 }

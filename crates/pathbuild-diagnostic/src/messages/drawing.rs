@@ -8,12 +8,22 @@ messages! {
         help_en: "draw a PHANTOM circle of 1 mm diameter on layer {layer}, with the path's parameters as text (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 1 mm Durchmesser zeichnen, mit den Parametern des Pfads als Text (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
+    /// Note: a circle with the path's text.
+    MEANT_AS_START: MissingStart {
+        en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Startmarke gemeint? Mit 1 mm zeichnen",
+    }
     /// No end marker.
     MISSING_END: MissingEnd {
         en: "path {name} has no end marker",
         de: "Pfad {name} hat keine Endmarke",
         help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet",
+    }
+    /// Note: where the walk along the path ends.
+    ENDS_HERE: MissingEnd {
+        en: "the segments of the path end at {point}: the end marker belongs there",
+        de: "die Segmente des Pfads enden bei {point}: dort gehört die Endmarke hin",
     }
     /// Two start markers.
     TWO_STARTS: TwoStarts {
@@ -38,15 +48,22 @@ messages! {
     }
     /// A line type without meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
-        en: "line type {line_type} has no meaning on a path layer",
-        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung",
+        en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
         help_en: "known are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
         help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
     }
+    /// The same, and a line type that is probably meant.
+    LINE_TYPE_LIKE_ANOTHER: UnknownLineType {
+        en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
+        help_en: "if it means {like}, add this line under [line-types] in pathbuild.toml: \"{line_type}\" = \"{like}\"",
+        help_de: "wenn {like} gemeint ist, unter [line-types] in pathbuild.toml diese Zeile einfügen: \"{line_type}\" = \"{like}\"",
+    }
     /// A known line type on the wrong kind of entity.
     LINE_TYPE_ON_ENTITY: UnknownLineType {
-        en: "line type {line_type} has no meaning on {element}",
-        de: "{element} mit Linientyp {line_type} hat keine Bedeutung",
+        en: "line type {line_type} has no meaning on {element}; elements like this: {count}",
+        de: "{element} mit Linientyp {line_type} hat keine Bedeutung; Elemente dieser Art: {count}",
         help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
         help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
     }
@@ -97,8 +114,8 @@ messages! {
     }
     /// Not in the plane.
     OFF_PLANE: OffPlane {
-        en: "the element is not in the plane: Z is {z} mm",
-        de: "das Element liegt nicht in der Ebene: Z ist {z} mm",
+        en: "the element is not in the plane: Z is {z} mm; elements of this path that are not: {count}",
+        de: "das Element liegt nicht in der Ebene: Z ist {z} mm; Elemente dieses Pfads außerhalb der Ebene: {count}",
         help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
         help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
     }

@@ -52,10 +52,10 @@ messages! {
     }
     /// Words that cannot be parameters.
     REMARK: UnknownParameter {
-        en: "\"{text}\" holds no parameters",
-        de: "\"{text}\" enthält keine Parameter",
-        help_en: "a remark? put it on a layer that is no path layer; Q puts a comment into the program",
-        help_de: "eine Bemerkung? auf einen Layer legen, der kein Pfad ist; mit Q kommt ein Kommentar ins Programm",
+        en: "\"{text}\" looks like a remark and holds no parameters",
+        de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
+        help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
+        help_de: "eine Bemerkung auf einen Layer legen, der kein Pfad-Layer ist; mit Q kommt ein Kommentar ins Programm",
     }
     /// 02 for O2.
     ZERO_FOR_O: UnknownParameter {
@@ -68,6 +68,13 @@ messages! {
     NAME_WITHOUT_SIGN: UnknownParameter {
         en: "a path's name without \">\" before it",
         de: "ein Pfadname ohne \">\" davor",
+        help_en: "write \"{meant}\"",
+        help_de: "\"{meant}\" schreiben",
+    }
+    /// A blank between > and the name.
+    NAME_APART_FROM_SIGN: UnknownParameter {
+        en: "a blank separates \">\" from the path's name",
+        de: "ein Leerzeichen trennt \">\" vom Namen des Pfads",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
@@ -168,6 +175,13 @@ messages! {
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
         help_en: "an optional sign, digits, at most one decimal point or comma: {letter}-0,3",
         help_de: "ein Vorzeichen, wenn nötig, Ziffern, höchstens ein Dezimalpunkt oder -komma: {letter}-0,3",
+    }
+    /// A number with its unit.
+    NUMBER_WITH_UNIT: NotANumber {
+        en: "\"{letter}{value}\" is not a number",
+        de: "\"{letter}{value}\" ist keine Zahl",
+        help_en: "write \"{meant}\": lengths are always in mm, feeds in mm/min, and units are never written",
+        help_de: "\"{meant}\" schreiben: Längen sind immer in mm, Vorschübe in mm/min, Einheiten werden nicht geschrieben",
     }
     /// A blank that does not separate.
     NON_BREAKING_SPACE: NotANumber {

@@ -43,6 +43,13 @@ messages! {
         help_en: "the path's start marker defines {known}; a reference is = and one character",
         help_de: "die Startmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
     }
+    /// B=2 for B2.
+    EQUALS_SIGN: UnknownVariable {
+        en: "there is no variable \"{variable}\" in this path",
+        de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
+        help_en: "write \"{meant}\" for the number: values follow their letter directly, and = puts in a variable",
+        help_de: "für die Zahl \"{meant}\" schreiben: Werte folgen direkt auf ihren Buchstaben, und = setzt eine Variable ein",
+    }
     /// A value outside its definition.
     VALUE_NOT_ALLOWED: VariableValueNotAllowed {
         en: "variable \"{variable}\" cannot be \"{value}\"",

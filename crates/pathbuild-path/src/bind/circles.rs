@@ -25,62 +25,61 @@ impl Binder<'_> {
         centre: Xy,
         radius: f64,
         tool: Option<f64>,
-    ) -> Option<(f64, SegmentKind)> {
+    ) -> (f64, SegmentKind) {
         let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
         let values = self.element_values(At::Element(element), text, class);
         let scope = Scope { at: At::Element(element), class, values: &values };
-        let tool = tool?;
-        match class {
-            ElementClass::DrilledHole | ElementClass::DrilledMark => {
-                let hole = self.hole(&scope, cut)?;
-                Some((BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole))))
+        match (class, tool) {
+            (ElementClass::DrilledHole | ElementClass::DrilledMark, _) => {
+                let hole = self.hole(&scope, cut);
+                (BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole)))
             }
-            ElementClass::UnknownCircle => {
-                let problem = Diagnostic::new(&drawing::CIRCLE_TOO_SMALL)
-                    .with("diameter", 2.0 * radius)
-                    .with("tool", tool);
-                self.report(scope.at, problem);
-                None
+            (ElementClass::UnknownCircle, _) | (_, None) => {
+                if let Some(tool) = tool {
+                    let problem = Diagnostic::new(&drawing::CIRCLE_TOO_SMALL)
+                        .with("diameter", 2.0 * radius)
+                        .with("tool", tool);
+                    self.report(scope.at, problem);
+                }
+                // Whatever is made of it, it needs its depth, and is a point of the walk.
+                let class = if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
+                let hole = self.hole(&Scope { class, ..scope }, cut);
+                (BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole)))
             }
-            _ => {
-                let helix = self.helix(&scope, cut, centre, radius, tool)?;
-                Some((BEFORE_ALL + radius, SegmentKind::Helix(pushed(&mut self.helices, helix))))
+            (_, Some(tool)) => {
+                let helix = self.helix(&scope, cut, centre, radius, tool);
+                (BEFORE_ALL + radius, SegmentKind::Helix(pushed(&mut self.helices, helix)))
             }
         }
     }
 
-    fn hole(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<Hole> {
-        Some(Hole {
-            bottom: self.bottom(scope, cut)?,
+    fn hole(&mut self, scope: &Scope<'_>, cut: Cut) -> Hole {
+        Hole {
+            bottom: self.bottom(scope, cut).unwrap_or_default(),
             feed: self.value(scope, Letter::F),
             peck: self.value(scope, Letter::C),
             comment: scope.values.text(Letter::Q).map(Into::into),
-        })
+        }
     }
 
-    fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Option<Helix> {
+    fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Helix {
         self.check_size(scope, radius);
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
-        let bars = if cut == Cut::Support {
-            let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
-            let bars = self.bars(scope, length, Some(tool))?;
-            if let Some(problem) = no_gap(&bars, length) {
-                self.report(scope.at, problem);
-            }
-            Some(bars)
-        } else {
-            None
-        };
-        let bottom = bottom?;
-        Some(Helix {
+        let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
+        let bars = (cut == Cut::Support).then(|| self.bars(scope, length, Some(tool))).flatten();
+        if let Some(problem) = bars.as_ref().and_then(|bars| no_gap(bars, length)) {
+            self.report(scope.at, problem);
+        }
+        let bottom = bottom.unwrap_or_default();
+        Helix {
             centre,
             radius,
             bottom: bars.map_or(bottom, |bars| bars.top),
             bars: bars.map(|bars| (bottom, bars)),
             feed: self.value(scope, Letter::F),
-            infeed: infeed?,
+            infeed: infeed.unwrap_or_default(),
             comment: scope.values.text(Letter::Q).map(Into::into),
-        })
+        }
     }
 
     fn check_size(&mut self, scope: &Scope<'_>, radius: f64) {

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk;
 
-use super::segments::{Scope, UNNUMBERED, pushed};
+use super::segments::{Scope, pushed};
 use super::{At, Binder};
 use crate::approx::at_least;
 use crate::element::{Cut, Element};
@@ -20,13 +20,13 @@ impl Binder<'_> {
         cut: Cut,
         curve: &Curve,
         tool: Option<f64>,
-    ) -> Option<(f64, u32)> {
+    ) -> (f64, u32) {
         let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
         let values = self.element_values(At::Element(element), text, class);
         let scope = Scope { at: At::Element(element), class, values: &values };
-        let parameters = self.cut_parameters(&scope, element.text, cut, curve, tool)?;
-        let order = self.value(&scope, Letter::N).unwrap_or(UNNUMBERED);
-        Some((order, pushed(&mut self.cuts, parameters)))
+        let parameters = self.cut_parameters(&scope, element.text, cut, curve, tool);
+        let order = self.order(&scope);
+        (order, pushed(&mut self.cuts, parameters))
     }
 
     fn cut_parameters(
@@ -36,16 +36,16 @@ impl Binder<'_> {
         cut: Cut,
         curve: &Curve,
         tool: Option<f64>,
-    ) -> Option<CutParameters> {
+    ) -> CutParameters {
         let bottom = self.bottom(scope, cut);
-        let bars = if cut == Cut::Support { Some(self.bars(scope, curve.length(), tool)?) } else { None };
+        let bars = (cut == Cut::Support).then(|| self.bars(scope, curve.length(), tool)).flatten();
         if let Some(bars) = &bars {
             self.note_gap(scope, bars, curve.length());
         }
-        Some(CutParameters {
+        CutParameters {
             cut,
             feed: self.value(scope, Letter::F),
-            bottom: bottom?,
+            bottom: bottom.unwrap_or_default(),
             bars,
             chain: ChainParameters {
                 infeed: self.value(scope, Letter::I),
@@ -54,7 +54,7 @@ impl Binder<'_> {
             },
             chain_letters: text.filter(|_| scope.values.letters().has_any(CHAIN_LETTERS)),
             comment: scope.values.text(Letter::Q).map(Into::into),
-        })
+        }
     }
 
     /// The bars of a segment of this length, with room for the cutter between each two.

@@ -13,27 +13,42 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use regex::Regex;
 use smol_str::SmolStr;
 
+use crate::approx::above;
 use crate::element::{Cut, Element, Marker, Origin};
-use crate::letter::Letter;
+use crate::faults::{DrawingFaults, Faults};
+use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
-use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, Surface, Turn};
+use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::{ParameterText, TextId};
 use crate::values::{Given, Values};
 use crate::variables::{Bindings, Interpolation};
 use crate::{doubts, limits};
 
-use segments::Scope;
+use segments::{Scope, UNNUMBERED};
+
+/// A path as far as it is known, and what is wrong with its values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Examined {
+    /// The path; one with [faults](Path::has_faults) is good for more findings only. `None` where nothing is drawn.
+    pub path: Option<Path>,
+    /// What is wrong with its values, as far as that does not follow from what is wrong with the drawing.
+    pub problems: Vec<Diagnostic>,
+}
 
 /// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
 ///
-/// The raw path must be sound, and the bindings those of its definitions.
+/// The bindings must be those of its definitions.
 pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
-    let (Some(start), Some(end)) = (&raw.start, &raw.end) else { return (None, Vec::new()) };
+    let Examined { path, problems } = examine(raw, bindings, language);
+    (path.filter(|path| !path.has_faults()), problems)
+}
+
+/// Gives a raw path these values, whether it is sound or not, and reports what is wrong with them.
+pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> Examined {
     let mut binder = Binder::new(raw, bindings, language);
-    let path = binder.path(start, end);
-    let problems = binder.problems;
-    (path.filter(|_| !problems.iter().any(Diagnostic::is_error)), problems)
+    let path = binder.path();
+    Examined { path, problems: binder.problems }
 }
 
 /// Collects the values of a path and what is wrong with them.
@@ -56,6 +71,19 @@ struct Binder<'a> {
     has_gap: bool,
     /// The doubt about the first that has none.
     gapless: Option<Diagnostic>,
+    /// Where values are unknown because of errors.
+    unknown: Unknown,
+}
+
+/// What errors hide.
+#[derive(Default)]
+struct Unknown {
+    /// I of a segment.
+    infeed: bool,
+    /// N of a segment: the order at a star.
+    order: bool,
+    /// A value without which there is no path.
+    needed: bool,
 }
 
 /// What something is reported at.
@@ -77,8 +105,13 @@ impl At<'_> {
 
 impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
-        let interpolation = Interpolation { bindings, limit: language.text_limit };
-        let values = Values::of_path(raw.parameters(), &interpolation);
+        let interpolation =
+            Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
+        let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
+        let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
+        // What only the path's own text lacks is missing there; what elements may lack because a text is at fault is not.
+        let hidden = if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
+        values.unread = values.unread.and(hidden);
         Self {
             raw,
             language,
@@ -93,18 +126,23 @@ impl<'a> Binder<'a> {
             has_doubtful_marks: false,
             has_gap: false,
             gapless: None,
+            unknown: Unknown::default(),
         }
     }
 
-    fn path(&mut self, start: &Marker, end: &Marker) -> Option<Path> {
+    fn path(&mut self) -> Option<Path> {
         self.check_path_values();
-        let (tool, thickness) = (self.path_number(Letter::O), self.path_number(Letter::T));
+        let positive = |number: &f64| above(*number, 0.0);
+        let tool = self.path_number(Letter::O).filter(positive);
+        let thickness = self.path_number(Letter::T).filter(positive);
         let sweep_height = self.path_number(Letter::S);
         self.bind_segments(tool);
         // Rounded corners stand between sides that have gaps. Where nothing has one, U is doubtful.
         let gapless = self.gapless.take().filter(|_| !self.has_gap);
         self.problems.extend(gapless);
         let turns = self.raw.turns.iter();
+        let start = self.marker(self.raw.start.as_ref())?;
+        let end = self.marker(self.raw.end.as_ref())?;
         let mut path = Path {
             name: self.raw.name.clone(),
             tool: tool.unwrap_or_default(),
@@ -113,7 +151,7 @@ impl<'a> Binder<'a> {
             material: self.path_text(Letter::M),
             feed: self.path_number(Letter::F),
             output_suffix: self.path_text(Letter::R).unwrap_or_default(),
-            embeds_only: self.path_text(Letter::E),
+            embeds_only: self.path_text(Letter::E).filter(|own| Regex::new(own).is_ok()),
             start: start.at,
             end: end.at,
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
@@ -123,14 +161,68 @@ impl<'a> Binder<'a> {
             holes: std::mem::take(&mut self.holes),
             helices: std::mem::take(&mut self.helices),
             probes: Vec::new(),
-            surface: sweep_height.is_none().then(|| self.surface(start, thickness.unwrap_or_default())),
+            surface: sweep_height.is_none().then(|| self.surface(&start, thickness.unwrap_or_default())),
             probe_surfaces: Vec::new(),
             start_origin: start.origin.clone(),
             end_origin: end.origin.clone(),
             left_out: self.raw.left_out.clone(),
+            faults: None,
         };
         self.add_probes(&mut path);
-        (tool.is_some() && thickness.is_some()).then_some(path)
+        self.unknown.needed |= tool.is_none() || thickness.is_none();
+        let has_errors = !self.raw.is_sound() || self.problems.iter().any(Diagnostic::is_error);
+        if has_errors || self.unknown.needed {
+            self.add_faults(&mut path);
+        }
+        Some(path)
+    }
+
+    /// A marker, or in its place another marker or element, so that the rest of the path can be judged.
+    fn marker(&self, marker: Option<&Marker>) -> Option<Marker> {
+        let raw = self.raw;
+        let any = marker.or(raw.start.as_ref()).or(raw.end.as_ref()).cloned();
+        any.or_else(|| {
+            let element = raw.drawn.elements.first()?;
+            Some(Marker { origin: raw.drawn.origin(element), at: element.shape.point(), text: None })
+        })
+    }
+
+    /// Notes what is not known of a path with errors.
+    fn add_faults(&self, path: &mut Path) {
+        let DrawingFaults { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
+            &self.raw.faults;
+        let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
+        let is_unknown = |letter: &Letter| match letter {
+            Letter::O | Letter::T => self.path_number(*letter).is_none(),
+            _ => self.values.is_unknown(*letter),
+        };
+        let ends = self.raw.end.iter().map(|end| end.at).chain(other_ends.iter().copied());
+        path.faults = Some(Box::new(Faults {
+            letters: letters.filter(is_unknown).fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
+            is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
+            is_walk_unknown: self.raw.start.is_none()
+                || *has_broken_entity
+                || *has_second_start
+                || self.unknown.order,
+            ends: ends.collect(),
+            unclear_circles: unclear_circles.clone(),
+        }));
+        self.add_unclear_curves(path);
+    }
+
+    /// The path runs along lines and arcs of unknown line types too.
+    fn add_unclear_curves(&self, path: &mut Path) {
+        let unclear = &self.raw.faults.unclear_curves;
+        if unclear.is_empty() {
+            return;
+        }
+        let drawn = Arc::make_mut(&mut path.drawn);
+        for element in unclear {
+            let number = u32::try_from(drawn.elements.len()).unwrap_or(u32::MAX);
+            drawn.elements.push(element.clone());
+            let kind = SegmentKind::Sweep { height: None };
+            path.segments.push(Segment { element: number, order: UNNUMBERED, kind });
+        }
     }
 
     /// The upper face that a path without an S of its own must sweep above.
@@ -141,7 +233,8 @@ impl<'a> Binder<'a> {
 
     fn check_path_values(&mut self) {
         let mut problems = std::mem::take(&mut self.values.problems);
-        for letter in ElementClass::PathStart.needed_letters().filter(|letter| !self.values.has(*letter)) {
+        let is_missing = |letter: &Letter| !self.values.may_give(*letter);
+        for letter in ElementClass::PathStart.needed_letters().filter(is_missing) {
             let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
             problems.push(missing.with_text(self.raw.parameters().whole()));
         }
@@ -200,7 +293,10 @@ impl<'a> Binder<'a> {
         class: ElementClass,
     ) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
-        let mut values = Values::of(text, &self.interpolation);
+        if self.raw.may_be_of_path(text) {
+            return Values::default();
+        }
+        let mut values = Values::of(text, class, &self.interpolation);
         let mut problems = std::mem::take(&mut values.problems);
         problems.append(&mut limits::check(&values, &self.values, class));
         problems.append(&mut doubts::check(&values, &self.values, class, &self.language.doubts));

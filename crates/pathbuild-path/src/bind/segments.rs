@@ -8,7 +8,7 @@ use super::{At, Binder};
 use crate::effective::Texts;
 use crate::element::{Element, Role, Shape};
 use crate::geometry::Curve;
-use crate::letter::Letter;
+use crate::letter::{Letter, Letters};
 use crate::matrix::{ElementClass, Use};
 use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{LetterValue, ParameterText};
@@ -27,14 +27,12 @@ impl Binder<'_> {
             let segment = |order, kind| Segment { element: number, order, kind };
             match (element.role, &element.shape) {
                 (Role::Cut(cut), Shape::Curve(curve)) => {
-                    if let Some((order, parameters)) = self.cut(element, cut, curve, tool) {
-                        segments.push(segment(order, SegmentKind::Cut(parameters)));
-                    }
+                    let (order, parameters) = self.cut(element, cut, curve, tool);
+                    segments.push(segment(order, SegmentKind::Cut(parameters)));
                 }
                 (Role::Cut(cut), Shape::Circle { centre, radius }) => {
-                    if let Some((order, kind)) = self.circle(element, cut, *centre, *radius, tool) {
-                        segments.push(segment(order, kind));
-                    }
+                    let (order, kind) = self.circle(element, cut, *centre, *radius, tool);
+                    segments.push(segment(order, kind));
                 }
                 // A text that one has is not read.
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
@@ -52,16 +50,35 @@ impl Binder<'_> {
         let class = element.class(None);
         let values = self.element_values(At::Element(element), self.raw.drawn.text(element.text), class);
         let scope = Scope { at: At::Element(element), class, values: &values };
-        let order = self.value(&scope, Letter::N).unwrap_or(UNNUMBERED);
+        let order = self.order(&scope);
         if element.role != Role::Subpath {
             return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
         }
-        let subpath = self.subpath(element, &scope, curve)?;
+        // A text that is at fault may hide what is embedded: that is not asked for.
+        if values.is_unknown(Letter::Embed) || values.text(Letter::Embed) == Some("") && has_unread(&values) {
+            return Some((order, SegmentKind::Sweep { height: None }));
+        }
+        let subpath = self.subpath(element, &scope, curve);
         Some((order, SegmentKind::Subpath(Box::new(subpath))))
     }
 
-    fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Option<Subpath> {
+    /// N of an element, else what holds without it.
+    pub(super) fn order(&mut self, scope: &Scope<'_>) -> f64 {
+        self.unknown.order |= scope.values.number(Letter::N) == Given::Faulty && scope.values.has(Letter::N);
+        self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
+    }
+
+    fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Subpath {
         let values = scope.values;
+        let [thickness, tool] = [Letter::T, Letter::O].map(|letter| self.value(scope, letter));
+        let is_material_unknown = values.is_unknown(Letter::M)
+            || values.text(Letter::M).is_none() && self.values.is_unknown(Letter::M);
+        let unknown = [
+            (Letter::T, thickness.is_none()),
+            (Letter::O, tool.is_none()),
+            (Letter::M, is_material_unknown),
+        ];
+        let unknown = unknown.into_iter().filter(|(_, is_unknown)| *is_unknown);
         let own_text = |letter| values.text(letter).map(SmolStr::from);
         let value = |(value, piece): (&str, &LetterValue)| {
             let mut characters = value.chars();
@@ -69,17 +86,18 @@ impl Binder<'_> {
             let text = values.underlined(piece);
             SubpathValue { variable, value: characters.as_str().into(), text }
         };
-        Some(Subpath {
+        Subpath {
             start: curve.start(),
             end: curve.end(),
             name: self.subpath_name(values, self.raw.drawn.text(element.text)),
-            thickness: self.value(scope, Letter::T)?,
-            tool: self.value(scope, Letter::O)?,
+            thickness: thickness.unwrap_or_default(),
+            tool: tool.unwrap_or_default(),
+            unknown: unknown.fold(Letters::default(), |all, (letter, _)| all.and(Letters::of(&[letter]))),
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
             height: scope.texts(&self.values).number_or_default(Letter::H).unwrap_or_default(),
             values: values.variables().map(value).collect(),
             text: element.text,
-        })
+        }
     }
 
     fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
@@ -106,8 +124,15 @@ impl Binder<'_> {
                 .with("element", scope.class.word());
             self.report(scope.at, problem);
         }
+        self.unknown.needed |= scope.class.use_of(letter) == Use::Needed && given.number().is_none();
+        self.unknown.infeed |= letter == Letter::I && given == Given::Faulty;
         given.number()
     }
+}
+
+/// Whether a text has pieces that no letter begins.
+fn has_unread(values: &Values<'_>) -> bool {
+    values.unread != Letters::default()
 }
 
 /// The element whose values are asked for.

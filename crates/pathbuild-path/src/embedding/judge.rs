@@ -41,6 +41,7 @@ impl<'a> Judge<'a> {
         let restriction = || restrictions.iter().find(|rule| rule.concerns(&outer.name));
         let rule = match &outer.embeds_only {
             Some(own) => Rule::Own(own, Regex::new(own).ok()),
+            None if outer.unknown.contains(Letter::E) => Rule::Any,
             None => restriction().map_or(Rule::Any, |rule| Rule::Restriction(rule.child())),
         };
         Self { outer, pattern, rule }
@@ -172,11 +173,12 @@ impl<'a> Judge<'a> {
         for (letter, here, there) in
             [(Letter::T, subpath.thickness, inner.thickness), (Letter::O, subpath.tool, inner.tool)]
         {
-            if !near(here, there) {
+            if !subpath.hides(letter) && !near(here, there) {
                 problems.push(self.differs(call, letter, &here.into(), &there.into(), inner));
             }
         }
-        if !at_least(self.outer.thickness, subpath.thickness) {
+        let is_known = !self.outer.unknown.and(subpath.unknown).contains(Letter::T);
+        if is_known && !at_least(self.outer.thickness, subpath.thickness) {
             let problem = Diagnostic::new(&messages::T_BELOW)
                 .with("path", self.outer.thickness)
                 .with("segment", subpath.thickness);
@@ -194,6 +196,9 @@ impl<'a> Judge<'a> {
     }
 
     fn material(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
+        if call.subpath.hides(Letter::M) {
+            return None;
+        }
         let place = match (&call.subpath.material, &inner.material) {
             (Some(here), Some(there)) => {
                 let differs = || self.differs(call, Letter::M, &(&**here).into(), &(&**there).into(), inner);

@@ -8,7 +8,7 @@ use super::sweep::SweepLimits;
 use crate::definition::Definition;
 use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::Origin;
-use crate::letter::Letter;
+use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
 use crate::name::SpeltName;
 use crate::path::{Path, Segment, SegmentKind, Subpath};
@@ -54,6 +54,8 @@ pub struct PathSignature {
     pub has_probes: bool,
     /// Those that H raises.
     pub raised_probes: Vec<ProbeTop>,
+    /// Letters of which errors hide what the path says.
+    pub(crate) unknown: Letters,
     /// Its subpath segments, in their order.
     pub subpaths: Box<[SubpathCall]>,
 }
@@ -101,6 +103,7 @@ impl PathSignature {
             needs_feed: path.needs_feed(),
             has_probes: !path.probes.is_empty(),
             raised_probes: ProbeTop::raised(path),
+            unknown: path.unknown_letters(),
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
     }

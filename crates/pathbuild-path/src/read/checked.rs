@@ -8,9 +8,6 @@ use crate::raw::RawPath;
 /// A raw path while it is checked.
 pub(super) struct Checked<'r> {
     pub(super) raw: &'r mut RawPath,
-    /// A broken entity may be the marker, or the element of a text, that is missing: what may only follow from it is not reported.
-    pub(super) has_broken_circle: bool,
-    pub(super) has_broken_entity: bool,
 }
 
 impl Checked<'_> {
@@ -20,9 +17,9 @@ impl Checked<'_> {
         self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
-    /// A marker that is missing because its circle is broken is not reported twice.
+    /// Reports markers that are missing.
     pub(super) fn check_markers(&mut self) {
-        if self.has_broken_circle || self.raw.start.is_some() && self.raw.end.is_some() {
+        if self.raw.start.is_some() && self.raw.end.is_some() {
             return;
         }
         let missing = |message| {

@@ -4,15 +4,17 @@ use std::mem::take;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, words};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, words};
 use pathbuild_dxf::Drawing;
+use smol_str::SmolStr;
 
 use super::Starts;
 use super::checked::Checked;
 use super::layers::{FoundLayer, Membership, PathLayers};
 use super::texts::Texts;
 use crate::assign::Candidate;
-use crate::element::{Element, Marker, Shape};
+use crate::element::{Element, Marker, MeantMarker, Shape};
+use crate::faults::DrawingFaults;
 use crate::geometry::Curve;
 use crate::line_type::LineTypes;
 use crate::name::PathName;
@@ -23,7 +25,7 @@ use crate::text::ParameterTexts;
 pub(crate) struct Collected<'d> {
     pub(crate) name: PathName,
     pub(crate) start: Option<Marker>,
-    pub(super) end: Option<Marker>,
+    pub(super) ends: Vec<Marker>,
     pub(super) turns: Vec<Marker>,
     pub(crate) probes: Vec<Marker>,
     /// In file order.
@@ -35,8 +37,28 @@ pub(crate) struct Collected<'d> {
     left_out: Vec<(EntityKind, Point)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     has_broken_circle: bool,
-    has_broken_entity: bool,
+    pub(super) faults: DrawingFaults,
+    /// Circles that mean nothing as they are.
+    pub(super) unclear: Vec<UnclearCircle>,
+    /// Problems that many elements share: their place among the diagnostics, and how many elements have them.
+    pub(super) shared: Vec<SharedProblem>,
     pub(super) has_elements: bool,
+}
+
+/// A circle whose line type or diameter means nothing.
+pub(crate) struct UnclearCircle {
+    pub(super) marker: Marker,
+    pub(super) shape: Shape,
+    /// What it may have been meant as.
+    pub(super) meant: MeantMarker,
+}
+
+/// A problem that is reported once for all elements of a path that have it.
+pub(super) struct SharedProblem {
+    pub(super) line_type: SmolStr,
+    pub(super) message: &'static Message,
+    index: usize,
+    count: usize,
 }
 
 /// Where a text that finds a candidate is put.
@@ -85,7 +107,7 @@ impl Collected<'_> {
         let mut path = Self {
             name: layers[0].path.clone(),
             start: None,
-            end: None,
+            ends: Vec::new(),
             turns: Vec::new(),
             probes: Vec::new(),
             elements: Vec::new(),
@@ -95,7 +117,9 @@ impl Collected<'_> {
             left_out: Vec::new(),
             diagnostics: Vec::new(),
             has_broken_circle: false,
-            has_broken_entity: false,
+            faults: DrawingFaults::default(),
+            unclear: Vec::new(),
+            shared: Vec::new(),
             has_elements: false,
         };
         for found in layers {
@@ -126,12 +150,14 @@ impl Collected<'_> {
 
     /// Gives each text to its element.
     pub(crate) fn assign_texts(&mut self, language: &Language) {
+        self.settle_shared();
         let mut texts = take(&mut self.texts);
+        self.settle_markers(&mut texts);
         let before = self.diagnostics.len();
         texts.assign(self, language.doubts.text_margin);
         self.texts = texts;
         // A broken entity may be what the text belongs to.
-        if self.has_broken_entity {
+        if self.faults.has_broken_entity {
             self.diagnostics.truncate(before);
         }
         let name = self.name.as_str();
@@ -147,11 +173,12 @@ impl Collected<'_> {
             Shape::Curve(Curve::Line(_)) => 1,
             Shape::Curve(Curve::Arc(_)) => 2,
         });
+        let mut ends = self.ends.into_iter();
         let drawn = Drawn { elements: self.elements, texts: self.given, layers: self.texts.layer_names() };
         let mut raw = RawPath {
             name: self.name.into(),
             start: self.start,
-            end: self.end,
+            end: ends.next(),
             turns: self.turns,
             probes: self.probes,
             drawn: Arc::new(drawn),
@@ -159,13 +186,36 @@ impl Collected<'_> {
             borrowed_from: None,
             definitions: Vec::new(),
             left_out: self.left_out,
+            faults: self.faults,
             diagnostics: self.diagnostics,
         };
-        let (has_broken_circle, has_broken_entity) = (self.has_broken_circle, self.has_broken_entity);
-        let mut checked = Checked { raw: &mut raw, has_broken_circle, has_broken_entity };
-        checked.check_markers();
+        raw.faults.other_ends.extend(ends.map(|end| end.at));
+        let mut checked = Checked { raw: &mut raw };
+        if !self.has_broken_circle {
+            checked.check_markers();
+        }
         checked.check_parameters(starts);
         (raw, self.map)
+    }
+
+    /// Reports a problem at the first element that has it, and counts the others.
+    pub(super) fn report_shared(&mut self, line_type: &str, diagnostic: Diagnostic) {
+        let message = diagnostic.message;
+        let is_same = |known: &&mut SharedProblem| known.message == message && known.line_type == line_type;
+        if let Some(known) = self.shared.iter_mut().find(is_same) {
+            known.count += 1;
+            return;
+        }
+        let index = self.diagnostics.len();
+        self.shared.push(SharedProblem { line_type: line_type.into(), message, index, count: 1 });
+        self.report(diagnostic);
+    }
+
+    /// Puts in how many elements share each problem.
+    fn settle_shared(&mut self) {
+        for shared in take(&mut self.shared) {
+            self.diagnostics[shared.index].arguments.push(("count", shared.count.into()));
+        }
     }
 
     fn report_hidden(&mut self, layer: &str) {
@@ -199,7 +249,7 @@ impl Collected<'_> {
 
     fn add_fault(&mut self, diagnostic: &Diagnostic) {
         self.has_elements = true;
-        self.has_broken_entity = true;
+        self.faults.has_broken_entity = true;
         self.has_broken_circle |=
             matches!(diagnostic.place.entity, Some(EntityKind::Circle | EntityKind::Other) | None);
         self.add_located(diagnostic);

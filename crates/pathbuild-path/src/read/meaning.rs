@@ -4,11 +4,11 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Arc as DxfArc, Entity, Geometry, Point3};
 
-use super::collect::{Collected, Owner};
+use super::collect::{Collected, Owner, UnclearCircle};
 use crate::approx::near;
 use crate::assign::Candidate;
 use crate::element::{
-    CircleMeaning, Element, Marker, Origin, Role, Shape, Source, circle_meaning, curve_role,
+    CircleMeaning, Element, Marker, MeantMarker, Origin, Role, Shape, Source, circle_meaning, curve_role,
 };
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::line_type::{LineType, LineTypes};
@@ -66,7 +66,7 @@ impl<'d> Collected<'d> {
         }
         if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
             let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
-            self.report(self.origin(source, begin).at(problem));
+            self.report_shared("", self.origin(source, begin).at(problem));
         }
     }
 
@@ -74,17 +74,25 @@ impl<'d> Collected<'d> {
         let shape = Shape::Curve(curve);
         match found.line_type.and_then(curve_role) {
             Some(role) => self.add_element(found, shape, role),
-            None => self.add_unknown(found, shape),
+            None => {
+                self.add_unknown(found, shape);
+                let element = Element { source: found.source, shape, role: Role::SilentSweep, text: None };
+                self.faults.unclear_curves.push(element);
+            }
         }
     }
 
     fn add_circle(&mut self, found: &Found<'_>, centre: Xy, radius: f64) {
         let shape = Shape::Circle { centre, radius };
-        let Some(line_type) = found.line_type else { return self.add_unknown(found, shape) };
+        let Some(line_type) = found.line_type else {
+            let like = LineType::like(&found.entity.line_type).unwrap_or(LineType::Phantom);
+            self.add_unclear(found, shape, MeantMarker::of(like, radius));
+            return self.add_unknown(found, shape);
+        };
         match circle_meaning(line_type, radius) {
             CircleMeaning::Cut(cut) => self.add_element(found, shape, Role::Cut(cut)),
             CircleMeaning::Start => self.add_start(found, shape),
-            CircleMeaning::End => self.add_end(found, centre),
+            CircleMeaning::End => self.ends.push(self.marker(found, centre)),
             CircleMeaning::Turn => self.turns.push(self.marker(found, centre)),
             CircleMeaning::IgnoredProbe => self.candidate(found, shape, Owner::Faulty),
             CircleMeaning::Probe => {
@@ -97,9 +105,16 @@ impl<'d> Collected<'d> {
                     .with("line_type", &*found.entity.line_type)
                     .with("diameter", exact(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
+                self.add_unclear(found, shape, MeantMarker::Other);
                 self.candidate(found, shape, Owner::Faulty);
             }
         }
+    }
+
+    fn add_unclear(&mut self, found: &Found<'_>, shape: Shape, meant: MeantMarker) {
+        let marker = self.marker(found, shape.point());
+        self.faults.unclear_circles.push(marker.at);
+        self.unclear.push(UnclearCircle { marker, shape, meant });
     }
 
     fn marker(&self, found: &Found<'_>, at: Xy) -> Marker {
@@ -113,35 +128,31 @@ impl<'d> Collected<'d> {
                 .with("name", self.name.as_str())
                 .with("first", first.origin.point);
             self.candidate(found, shape, Owner::Faulty);
+            self.faults.has_second_start = true;
             return self.report(marker.origin.at(diagnostic));
         }
         self.candidate(found, shape, Owner::Start);
         self.start = Some(marker);
     }
 
-    fn add_end(&mut self, found: &Found<'_>, at: Xy) {
-        let marker = self.marker(found, at);
-        if let Some(first) = &self.end {
-            let diagnostic = Diagnostic::new(&messages::TWO_ENDS)
-                .with("name", self.name.as_str())
-                .with("first", first.origin.point);
-            return self.report(marker.origin.at(diagnostic));
-        }
-        self.end = Some(marker);
-    }
-
     /// A line type that means nothing here. The element still takes its text, which would else be reported as belonging to nothing.
     fn add_unknown(&mut self, found: &Found<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
-        let message = match found.line_type {
-            Some(_) => &messages::LINE_TYPE_ON_ENTITY,
-            None => &messages::UNKNOWN_LINE_TYPE,
+        let name = &*found.entity.line_type;
+        let like = LineType::like(name);
+        let (message, shown) = match (found.line_type, like) {
+            (Some(_), _) => (&messages::LINE_TYPE_ON_ENTITY, None),
+            (None, Some(like)) => (&messages::LINE_TYPE_LIKE_ANOTHER, Some(like.name())),
+            (None, None) => (&messages::UNKNOWN_LINE_TYPE, None),
         };
-        let diagnostic = Diagnostic::new(message)
-            .with("line_type", &*found.entity.line_type)
+        let mut diagnostic = Diagnostic::new(message)
+            .with("line_type", name)
             .with("element", shape.word())
             .with("known", known);
-        self.report(self.origin(found.source, shape.point()).at(diagnostic));
+        if let Some(like) = shown {
+            diagnostic = diagnostic.with("like", like);
+        }
+        self.report_shared(name, self.origin(found.source, shape.point()).at(diagnostic));
         self.candidate(found, shape, Owner::Faulty);
     }
 

@@ -6,6 +6,7 @@ mod found_text;
 mod keep_outs;
 mod layers;
 mod listing;
+mod markers;
 mod meaning;
 mod parameters;
 mod proxies;

@@ -18,14 +18,13 @@ use crate::text::{LetterValue, ParameterText};
 
 impl Checked<'_> {
     pub(super) fn check_parameters(&mut self, starts: &Starts) {
-        // Without the path's parameters it is not known what most elements are, so their letters are not judged.
-        let Some(start) = &self.raw.start else { return };
+        let Some(start) = &self.raw.start else { return self.check_elements(None) };
         let Some(text) = self.raw.drawn.text(start.text) else {
             let problem = start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS));
-            if !self.has_broken_entity {
+            if !self.raw.faults.has_broken_entity {
                 self.report(problem);
             }
-            return;
+            return self.check_elements(None);
         };
         self.raw.parameters = start.text;
         if let Some(piece) = text.piece(Letter::At) {
@@ -34,7 +33,8 @@ impl Checked<'_> {
                 Err(problem) => {
                     let problem = start.origin.at(problem.with_text(text.fault(piece)));
                     self.raw.parameters = None;
-                    return self.report(problem);
+                    self.report(problem);
+                    return self.check_elements(None);
                 }
             }
         }
@@ -65,7 +65,8 @@ impl Checked<'_> {
             if !seen.insert(text) {
                 continue;
             }
-            let problems = drawn.texts.get(text).map(|text| text.problems(element.class(tool)));
+            let text = drawn.texts.get(text).filter(|text| !self.raw.may_be_of_path(*text));
+            let problems = text.map(|text| text.problems(element.class(tool)));
             for problem in problems.into_iter().flatten() {
                 self.report(drawn.origin(element).at(problem));
             }
@@ -85,16 +86,18 @@ impl Checked<'_> {
             return;
         }
         let pieces = parameters.pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
-        let (mut definitions, mut problems) = (Vec::new(), Vec::new());
+        let (mut definitions, mut problems, mut faulty) = (Vec::new(), Vec::new(), Vec::new());
         for piece in pieces {
             match Definition::parse(parameters.value(piece)) {
                 Ok(definition) => definitions.push(definition),
                 Err(problem) => {
+                    faulty.extend(parameters.value(piece).chars().next());
                     problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
                 }
             }
         }
         self.raw.definitions = definitions;
+        self.raw.faults.variables = faulty;
         for problem in problems {
             self.report(problem);
         }

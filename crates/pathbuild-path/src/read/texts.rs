@@ -13,8 +13,9 @@ use super::collect::{Collected, Owner, candidate_word};
 use super::found_text::{AnyText, FoundText};
 use crate::approx::near;
 use crate::assign::{Boxes, Candidate, Found, Looks, find, nearest_miss};
-use crate::element::{Element, Origin, Shape, Source, shown};
+use crate::element::{Element, Marker, Origin, Shape, Source, shown};
 use crate::geometry::Xy;
+use crate::letter::{Letter, Letters};
 use crate::matrix::Use;
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 use crate::text_circle::TextCircle;
@@ -83,6 +84,32 @@ impl<'d> Texts<'d> {
         self.layer(layer).candidates.push(candidate);
     }
 
+    /// Lets a marker take the path's text, on its own layer.
+    pub(super) fn give_to_start(&mut self, start: &Marker) {
+        let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == start.origin.layer) else { return };
+        if let Some(candidate) = layer.candidates.iter_mut().find(|known| known.id == start.origin.id) {
+            candidate.owner = Owner::Start;
+            return;
+        }
+        let shape = Shape::Circle { centre: start.at, radius: 0.5 };
+        let candidate =
+            Candidate { id: start.origin.id, shape, group: None, owner: Owner::Start, is_taken: false };
+        layer.candidates.push(candidate);
+    }
+
+    /// Whether a text with O and T lies on a circle.
+    pub(super) fn has_path_text(&self, marker: &Marker, radius: f64) -> bool {
+        let on_layer = self.layers.iter().filter(|layer| layer.name == marker.origin.layer);
+        on_layer.flat_map(|layer| &layer.texts).any(|text| {
+            let circle = text.circle();
+            let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+            circle.distance_to_centre(marker.at) < circle.radius + radius
+                && texts.first().is_some_and(|text| {
+                    text.letters.contains(Letter::O) && text.letters.contains(Letter::T)
+                })
+        })
+    }
+
     fn layer(&mut self, layer: u32) -> &mut LayerTexts<'d> {
         &mut self.layers[layer as usize]
     }
@@ -111,6 +138,7 @@ impl<'d> Texts<'d> {
             if let Some(problem) = layer.assign(path, margin, &looks) {
                 // Which of the other texts have no element is not known.
                 path.diagnostics.push(problem);
+                path.faults.stray_letters = Letters::ALL;
                 return;
             }
         }
@@ -126,6 +154,9 @@ impl<'d> Texts<'d> {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
                 let problem = layer.without_element(text, others.map(|(_, other)| other), &looks);
                 path.diagnostics.push(problem);
+                let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+                let letters = texts.first().map(ParameterText::meant_letters);
+                path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
             }
         }
     }

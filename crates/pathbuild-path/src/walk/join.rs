@@ -87,7 +87,8 @@ impl Walk<'_> {
     /// Whether the end marker is within the tolerance; the last end is then taken for it, with a warning.
     pub(super) fn joins_end(&mut self) -> bool {
         let distance = (self.path.end - self.at).norm();
-        let is_near = self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
+        let is_known = self.path.faults.as_ref().is_none_or(|faults| !faults.ends.is_empty());
+        let is_near = is_known && self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
         if is_near {
             self.report_join(&self.path.end_origin, distance);
         }

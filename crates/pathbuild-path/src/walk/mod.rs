@@ -10,7 +10,7 @@ mod turns;
 mod twice;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::messages::{drawing as messages, parameters};
 
 use crate::approx::coincide;
 use crate::chain::{Chain, ChainSegment, Grouped, Item};
@@ -32,8 +32,10 @@ pub struct Walked {
     pub items: Vec<Item>,
     /// Those of all chains, in walking order.
     pub(crate) members: Vec<ChainSegment>,
-    /// One of PB401 to PB404, or PB201 for each chain without I; PB114 and PB210.
+    /// One of PB401 to PB404, PB201 for each chain without I; PB114 and PB210.
     pub diagnostics: Vec<Diagnostic>,
+    /// Where a path without an end marker ends.
+    pub open_end: Option<Xy>,
 }
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
@@ -64,6 +66,9 @@ impl Walked {
     }
 }
 
+/// Why a walk does not arrive; `None` where that may follow from other errors.
+type Failure = Option<Box<Diagnostic>>;
+
 /// With so many segments at a point they are put in order at once.
 const CROWDED: usize = 16;
 
@@ -93,6 +98,8 @@ struct Walk<'a> {
     checkpoint: &'a dyn Fn(),
     /// PB115 for each join.
     joined: Vec<Diagnostic>,
+    /// See [`Walked::open_end`].
+    open_end: Option<Xy>,
 }
 
 impl<'a> Walk<'a> {
@@ -103,6 +110,7 @@ impl<'a> Walk<'a> {
             join_tolerance,
             checkpoint,
             joined: Vec::new(),
+            open_end: None,
             ends: Ends::new(path),
             stars: Stars::default(),
             open_ends: None,
@@ -118,23 +126,33 @@ impl<'a> Walk<'a> {
     }
 
     /// What came of it.
-    fn finish(self, result: Result<(), Box<Diagnostic>>) -> Walked {
+    fn finish(self, result: Result<(), Failure>) -> Walked {
         let idle = self.idle_markers();
-        let Self { grouped, mut joined, .. } = self;
-        let mut walked = match result {
-            Ok(()) => grouped.finish(),
-            Err(problem) => Walked::failed(*problem),
-        };
+        let Self { path, grouped, mut joined, open_end, .. } = self;
+        let mut walked = grouped.finish();
+        walked.open_end = open_end;
+        let is_complete = result.is_ok();
+        if let Err(problem) = result {
+            let missing = walked.diagnostics.into_iter().filter(|found| found.is_error() && !path.gives_infeed());
+            let problems = problem.map(|problem| *problem).into_iter().chain(missing);
+            walked = Walked { diagnostics: problems.collect(), ..Walked::default() };
+        }
+        if path.faults.as_ref().is_some_and(|faults| faults.is_infeed_unknown) {
+            walked.diagnostics.retain(|found| found.message != &parameters::MISSING);
+        }
         walked.diagnostics.append(&mut joined);
-        if !walked.items.is_empty() {
+        if is_complete && !walked.items.is_empty() {
             walked.diagnostics.extend(idle);
         }
         walked
     }
 
-    fn run(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn run(&mut self) -> Result<(), Failure> {
+        if self.path.faults.as_ref().is_some_and(|faults| faults.is_walk_unknown) {
+            return Err(None);
+        }
         if self.path.segments.is_empty() {
-            return Err(self.empty().into());
+            return Err(self.unless_unclear(Self::empty));
         }
         while self.left > 0 {
             if self.left.is_multiple_of(STRETCH) {
@@ -143,21 +161,38 @@ impl<'a> Walk<'a> {
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
-                self.go_back(Self::has_next).map_err(|()| self.turn_found_nothing(marker))?;
+                self.go_back(Self::has_next).map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
             } else if self.is_at_end() {
-                return Err(self.unreached().into());
+                return Err(self.unless_unclear(Self::unreached).filter(|_| !self.has_several_ends()));
             } else {
-                return Err(self.nothing_continues().into());
+                return Err(self.unless_unclear(Self::nothing_continues));
             }
         }
         if self.is_at_end() || self.joins_end() {
             return Ok(());
         }
         let stopped_at = self.at;
+        if self.path.faults.as_ref().is_some_and(|faults| faults.ends.is_empty()) {
+            self.open_end = Some(stopped_at);
+            return Ok(());
+        }
         if self.turn_marker().is_none() || self.go_back(|walk| walk.is_at_end()).is_err() {
-            return Err(self.end_not_reached(stopped_at).into());
+            let problem = self.unless_unclear(|walk| walk.end_not_reached(stopped_at));
+            return Err(problem.filter(|_| !self.has_several_ends()));
         }
         Ok(())
+    }
+
+    /// A failure, unless a circle here means nothing as it is: the walk may turn or end at it.
+    fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
+        let circles = self.path.faults.as_ref().map_or(&[][..], |faults| &faults.unclear_circles);
+        let is_unclear = circles.iter().any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty());
+        (!is_unclear).then(|| problem(self).into())
+    }
+
+    /// Where it is not known which of several end markers is right, it is not known either what lies behind the end.
+    fn has_several_ends(&self) -> bool {
+        self.path.faults.as_ref().is_some_and(|faults| faults.ends.len() > 1)
     }
 
     /// The segment that is next at the current point: the least by order, preference and length.
@@ -263,7 +298,10 @@ impl<'a> Walk<'a> {
     }
 
     fn is_at_end(&self) -> bool {
-        coincide(self.at, self.path.end)
+        match &self.path.faults {
+            None => coincide(self.at, self.path.end),
+            Some(faults) => faults.ends.iter().any(|end| coincide(self.at, *end)),
+        }
     }
 
     fn idle_markers(&self) -> Vec<Diagnostic> {

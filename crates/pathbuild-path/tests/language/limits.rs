@@ -64,7 +64,12 @@ fn what_a_text_says_wrong_is_said_once_of_each_text() {
         let polyline =
             |x: u32| format!("mill polyline {x},0 {},0 bulge 0.5 {},0 \"{text}\"\n", x + 20, x + 40);
         let (first, second) = (polyline(0), polyline(40));
-        let with = |drawn: &str| wrong(&path("T5 O3 I1 B0", &format!("{drawn}end 99,0")));
+        // Where the path ends is no matter here.
+        let is_of_text = |found: &String| !found.starts_with("PB4");
+        let with = |drawn: &str| -> Vec<String> {
+            let found = wrong(&path("T5 O3 I1 B0", &format!("{drawn}end 99,0")));
+            found.into_iter().filter(is_of_text).collect()
+        };
         assert_eq!(with(&first), [fault; 1]);
         assert_eq!(with(&format!("{first}{second}")), [fault; 2]);
         assert_eq!(with(&format!("mill 0,90 40,90 \"{text}\"\n{first}{second}")), [fault; 3]);

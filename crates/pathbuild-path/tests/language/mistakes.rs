@@ -71,7 +71,12 @@ fn a_path_is_embedded_with_its_sign() {
 fn a_remark_is_no_parameter() {
     assert_one(
         &of_text("Deckel links", ElementClass::Mill),
-        "PB202 \"Deckel links\" holds no parameters",
+        "PB202 \"Deckel links\" looks like a remark",
+        "into the program",
+    );
+    assert_one(
+        &of_text("Halter rechts, 2 St\u{fc}ck", ElementClass::Support),
+        "PB202 \"Halter rechts, 2 St\u{fc}ck\" looks like a remark",
         "into the program",
     );
     assert_eq!(of_text("Deckel B1", ElementClass::Mill).len(), 1);

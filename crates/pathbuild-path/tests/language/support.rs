@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, Doubts, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked,
-    Xy, bind, raw_file, walk,
+    Bindings, Curve, Doubts, Examined, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked,
+    Xy, examine, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 
@@ -78,18 +78,16 @@ pub(crate) fn compile(drawing: &str) -> Compiled {
     compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language())
 }
 
-/// A path stage by stage, each gone into only when the ones before found no error.
+/// A path stage by stage. Each finds what does not follow from what the ones before found.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
     let mut compiled = Compiled { path: None, walked: Walked::default(), found: raw.diagnostics.clone() };
-    if raw.is_sound() {
-        let (path, found) = bind(raw, bindings, language);
-        compiled.path = path;
-        compiled.found.extend(found);
-    }
-    if let Some(path) = &compiled.path {
+    let Examined { path, problems } = examine(raw, bindings, language);
+    compiled.found.extend(problems);
+    if let Some(path) = &path {
         compiled.walked = walk(path, language.join_tolerance);
         compiled.found.extend(compiled.walked.diagnostics.iter().cloned());
     }
+    compiled.path = path.filter(|path| !path.has_faults());
     compiled
 }
 

@@ -185,6 +185,7 @@ fn a_curve_that_was_left_out_is_pointed_at() {
 }
 
 #[test]
-fn nothing_is_walked_where_the_values_are_wrong() {
-    assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 90,0")), ["PB201 B"]);
+fn a_path_is_walked_where_its_values_are_wrong() {
+    assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 90,0")), ["PB201 B", "PB403"]);
+    assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 20,0")), ["PB201 B"]);
 }

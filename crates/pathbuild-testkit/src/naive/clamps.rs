@@ -64,7 +64,7 @@ impl Unfolded<'_> {
         parent: Option<(usize, Option<String>)>,
         place: impl Fn(&Path) -> Place,
     ) {
-        let Some(path) = self.model.bound(&instance).0 else { return };
+        let Some(path) = self.model.sound(&instance) else { return };
         let (number, place) = (self.occurrences.len(), place(&path));
         self.occurrences.push(Occurrence { instance, path: path.clone(), parent, place });
         for segment in &path.segments {

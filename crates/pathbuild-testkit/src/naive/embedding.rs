@@ -1,7 +1,7 @@
 //! How an embedding is judged. (book: language/embedding; the order: book: reference/diagnostics)
 
 use pathbuild_path::{
-    Allowed, Bindings, Definition, Path, PathName, Segment, SegmentKind, Subpath, SubpathName, SweepLimits,
+    Allowed, Bindings, Definition, Examined, Letter, Path, PathName, Segment, SegmentKind, Subpath, SubpathName, SweepLimits,
     parse_number, walk,
 };
 use regex::Regex;
@@ -32,15 +32,13 @@ impl<'m> Visit<'m> {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
-        if self.report(instance, &raw.diagnostics) {
-            return true;
-        }
-        let (path, problems) = self.model.bound(instance);
-        let mut is_wrong = self.report(instance, &problems) | drawing.has_unclear_clamps;
+        let mut is_wrong = self.report(instance, &raw.diagnostics) | drawing.has_unclear_clamps;
+        let Examined { path, problems } = self.model.bound(instance);
+        is_wrong |= self.report(instance, &problems);
         let Some(path) = path else { return true };
-        is_wrong |= self.report(instance, &SweepLimits::of(&path).check(path.embedded_sweep_height()));
-        if is_wrong {
-            return true;
+        is_wrong |= path.has_faults();
+        if !path.has_faults() {
+            is_wrong |= self.report(instance, &SweepLimits::of(&path).check(path.embedded_sweep_height()));
         }
         is_wrong |= self.report(instance, &walk(&path, self.model.language.join_tolerance).diagnostics);
         self.open.push(instance.clone());
@@ -125,17 +123,15 @@ impl<'m> Visit<'m> {
         if self.open.contains(&child) {
             return self.stop(at("PB509", &[name.as_str()]));
         }
-        let inner = model.bound(&child).0;
-        let misfits = inner.map_or(Vec::new(), |inner| misfits(path, subpath, &inner));
-        let mut is_wrong = !misfits.is_empty();
-        for (code, word) in misfits {
-            self.found.push(at(code, &[&word]));
-        }
         if self.path(&child) {
-            self.found.push(at("PB511", &[raw.name.as_str()]));
-            is_wrong = true;
+            return self.stop(at("PB511", &[raw.name.as_str()]));
         }
-        is_wrong
+        let inner = model.sound(&child);
+        let misfits = inner.map_or(Vec::new(), |inner| misfits(path, subpath, &inner));
+        for (code, word) in &misfits {
+            self.found.push(at(code, &[word]));
+        }
+        !misfits.is_empty()
     }
 
     fn stop(&mut self, finding: Finding) -> bool {
@@ -184,13 +180,17 @@ fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, S
     let mut found = Vec::new();
     for (letter, here, there) in [("T", subpath.thickness, inner.thickness), ("O", subpath.tool, inner.tool)]
     {
-        found.extend(differs(here, there).then(|| ("PB506", letter.to_owned())));
+        let is_known = Letter::new(letter.chars().next().unwrap_or_default())
+            .is_some_and(|letter| !subpath.hides(letter));
+        found.extend((is_known && differs(here, there)).then(|| ("PB506", letter.to_owned())));
     }
     match (&subpath.material, &inner.material) {
         (Some(here), Some(there)) => found.extend((here != there).then(|| ("PB506", "M".to_owned()))),
+        _ if subpath.hides(Letter::M) => {}
         _ => found.push(("PB201", "M".to_owned())),
     }
-    if path.thickness < subpath.thickness - LENGTH {
+    let is_thickness_known = !subpath.hides(Letter::T) && !path.hides(Letter::T);
+    if is_thickness_known && path.thickness < subpath.thickness - LENGTH {
         found.push(("PB510", String::new()));
     }
     let length = |from: pathbuild_path::Xy, to: pathbuild_path::Xy| (to - from).norm();

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName, PathPattern,
+    Bindings, Examined, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName, PathPattern,
     ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file,
 };
 
@@ -129,14 +129,14 @@ impl Model {
         &self.drawings[*drawing].content.paths[*path].0
     }
 
-    /// Binds a path that is sound.
-    fn bound(&self, instance: &Instance) -> (Option<Path>, Vec<Diagnostic>) {
-        let raw = self.raw(instance);
-        if raw.is_sound() {
-            pathbuild_path::bind(raw, &instance.2, &self.language)
-        } else {
-            (None, Vec::new())
-        }
+    /// A path without errors in its drawing and its values.
+    fn sound(&self, instance: &Instance) -> Option<Path> {
+        self.bound(instance).path.filter(|path| !path.has_faults())
+    }
+
+    /// A path as far as it is known, with what is wrong with its values.
+    fn bound(&self, instance: &Instance) -> Examined {
+        pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
     }
 }
 

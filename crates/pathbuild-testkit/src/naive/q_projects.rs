@@ -38,7 +38,7 @@ impl Model {
             found.extend(self.proxy_faults(drawing, proxy));
         }
         let values = |path: usize| Bindings::check_values(&project.content.paths[path].0.definitions);
-        let bound = |path: usize| self.bound(&(q_project, path, values(path))).0;
+        let bound = |path: usize| self.sound(&(q_project, path, values(path)));
         let paths: Option<Vec<Path>> = (0..project.content.paths.len()).map(bound).collect();
         let Some(paths) = paths.filter(|_| project.content.diagnostics.iter().all(|it| !it.is_error()))
         else {
@@ -113,7 +113,7 @@ impl Model {
             let given = given.filter(|value| allows(definition, value));
             Some((definition.name, given.or_else(|| examples.get(definition.name))?.into()))
         });
-        let Some(bound) = self.bound(&(number, path, Bindings::new(values))).0 else { return Vec::new() };
+        let Some(bound) = self.sound(&(number, path, Bindings::new(values))) else { return Vec::new() };
         let is = |letter: Letter, there: f64| {
             proxy.value(letter).is_none_or(|(here, _)| is_same(here, &there.to_string()))
         };
