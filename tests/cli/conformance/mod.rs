@@ -18,7 +18,10 @@ use self::recorded::{Form, Run};
 use crate::support;
 
 /// Runs that are known to differ, with the reason. A run that is equal must not stand here.
-const DIFFERENT: [(&str, &str); 0] = [];
+const DIFFERENT: [(&str, &str); 2] = [
+    ("reference-drawings/3", "PB202 beside PB101, PB102 and PB105: a milling segment has a T"),
+    ("reference-drawings/35", "PB201 beside PB202: B is missing as well, on other segments"),
+];
 
 #[test]
 fn recorded_runs_are_equal() {
