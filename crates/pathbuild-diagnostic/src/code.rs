@@ -189,6 +189,7 @@ codes! {
     775 FormulaDiffers "formula-differs" Error "PB775: a height that is not what its correction formula comes to, or a formula that is not the drawing's";
     776 UncheckedFormula "unchecked-formula" Error "PB776: a correction formula whose probes or measured heights the program does not state, or a height that lacks one";
     777 Disagreement "disagreement" Warning "PB777: two places say different things: header and tool table, option and drawing, comments and moves";
+    778 ForeignWord "foreign-word" Warning "PB778: a word that the post does not write and that is not followed";
 }
 
 impl Code {

@@ -181,4 +181,5 @@ pages! {
     FormulaDiffers "PB775" example;
     UncheckedFormula "PB776" example;
     Disagreement "PB777" example;
+    ForeignWord "PB778" example;
 }

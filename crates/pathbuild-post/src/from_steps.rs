@@ -161,7 +161,8 @@ impl Builder {
                 }
             },
             Action::Stop { .. } => self.push(Step::Stop),
-            Action::SelectTool(_) | Action::System(_) | Action::Change(_) | Action::End => {}
+            Action::SelectTool(_) | Action::System(_) | Action::Word(_) | Action::Change(_) | Action::End => {
+            }
         }
     }
 

@@ -18,6 +18,7 @@ mod number;
 mod options;
 mod read_back;
 mod recognise;
+mod samples;
 mod shadow;
 mod spindle;
 mod step;
@@ -32,6 +33,7 @@ pub use definition::{Output, Post};
 pub use from_steps::{Remark, is_of_head, native_remark};
 pub use job::{Coolant, Entry, Job, Operation, Plane, Spindle, Stock, Texts, Tool, Units, VelocityMode};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
+pub use samples::samples;
 pub use step::{Arc, Hole, HoleKind, Position, Step};
 pub use tools::{ToolEntry, ToolTable};
 

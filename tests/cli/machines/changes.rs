@@ -5,7 +5,9 @@
 //! spindle speed, or goes anywhere else below S.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
+use pathbuild_diagnostic::messages::gcode::RETURN_IN_LINE;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
@@ -13,8 +15,10 @@ use pathbuild_gcode::interpret::{
     guess, interpret, interpret_each,
 };
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_gcode::verify::{Against, Checks, Drawn, Rules, Stock, ToolUse, coarse_arcs};
-use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, Spindle as Turn, ToolEntry, ToolTable, load};
+use pathbuild_gcode::verify::{Against, Checks, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
+use pathbuild_post::{
+    BUILT_IN, Job, Language, PostOptions, Spindle as Turn, ToolEntry, ToolTable, load, samples,
+};
 use pathbuild_toolpath::{Correction, Program};
 use rayon::prelude::*;
 
@@ -129,10 +133,16 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     let drawn = Drawn {
         moves: each_move_of(program),
         clearance: program.start_height(),
-        tool: ToolUse { number: Some(1), turning: Some(Turning::Clockwise), speed: Some(SPEED) },
+        tool: ToolUse {
+            number: Some(1),
+            turning: Some(Turning::Clockwise),
+            speed: Some(SPEED),
+            coolant: None,
+        },
         spin_up: 0.0,
     };
-    let mut against = Against::new(drawn, dialect);
+    let words = known_words();
+    let mut against = Against::new(drawn, dialect, &words[&dialect]);
     found.extend(interpret_each(text.as_bytes(), dialect, &options, &mut |step| {
         rules.step(&step);
         against.step(&step);
@@ -144,6 +154,18 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     found.extend(coarse_arcs(text.as_bytes(), dialect));
     found.extend(against.finish().differences);
     found
+}
+
+/// The words that the post of each dialect writes.
+fn known_words() -> &'static BTreeMap<Dialect, PostWords> {
+    static WORDS: OnceLock<BTreeMap<Dialect, PostWords>> = OnceLock::new();
+    WORDS.get_or_init(|| Dialect::ALL.iter().map(|dialect| (*dialect, words_of(*dialect))).collect())
+}
+
+fn words_of(dialect: Dialect) -> PostWords {
+    let Ok(post) = load(dialect.name()) else { return PostWords::native(dialect) };
+    let written = samples().into_iter().filter_map(|job| post.write(&job, &PostOptions::default()).ok());
+    PostWords::of_programs(written.map(|output| output.text), dialect)
 }
 
 /// A cut with the spindle's state, or a rapid move below S.
@@ -167,9 +189,11 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
             Action::Move(it) if it.is_nothing() => {}
             Action::Move(it) if it.pace != Pace::Rapid => effects.push((it, Some(spindle))),
             Action::Move(it) if it.to.z() < low || it.from.z() < low => effects.push((it, None)),
-            Action::Change(Change::Corners(Corners::Exact | Corners::Rounded(None))) => {}
+            Action::Change(Change::Corners(Corners::Exact)) => {}
             Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most <= 0.01 => {}
             // The tool's length, offsets and the like change the machine's coordinates, not the program's.
+            Action::Change(Change::Corners(Corners::Rounded(None))) => effects.push((nothing(), None)),
+            Action::Change(Change::RapidFeed(_)) => {}
             Action::Change(_) | Action::System(_) => effects.push((nothing(), Some(spindle))),
             _ => {}
         }
@@ -348,5 +372,92 @@ fn programs_that_name_their_dialect_are_read_in_it() {
     for post in BUILT_IN {
         let header = format!("(pathbuild 0.1.0 3f2a-09c1 {} O2 T5)\nG0 X1\n", post.name);
         assert_eq!(guess(header.as_bytes()).dialect.name(), post.name);
+    }
+}
+
+/// Changes of one text of a program, by post: those that must be found, and their neighbours that must not.
+const TEXTS: &[(&str, &str, &str, bool)] = &[
+    ("linuxcnc", " G54", "", true),
+    ("mach3", " G54", "", true),
+    ("fanuc", " G54", "", true),
+    ("haas", " G54", "", true),
+    ("grbl", " G54", "", true),
+    ("native", " G54", "", true),
+    ("linuxcnc", " G40", "", true),
+    ("haas", " G94", " g94.0", false),
+    ("linuxcnc", " G80", "", false),
+    ("linuxcnc", "G43 H1 ", "", true),
+    ("linuxcnc", "G43 H1 ", "G49 ", true),
+    ("linuxcnc", "G43 H1 ", "g43 H 01.0 ", false),
+    ("linuxcnc", "G43 H1 ", "G43 H01.0 ", false),
+    ("linuxcnc", "G64 P0.01", "", true),
+    ("linuxcnc", "G64 P0.01", "G64", true),
+    ("linuxcnc", "G64 P0.01", "G64 P0", true),
+    ("linuxcnc", "G64 P0.01", "G64 P0.01 Q1", true),
+    ("linuxcnc", "G64 P0.01", "G64 P0.011", true),
+    ("linuxcnc", "G64 P0.01", "G64 P0.005", false),
+    ("linuxcnc", "T1 M6", "", true),
+    ("linuxcnc", "G49", "G49 G97", true),
+    ("linuxcnc", "G49", "g 4 9", true),
+    ("mach3", "G49", "G49 G50", true),
+    ("mach3", "G49", "G49 g069.0", true),
+    ("fanuc", "G17", "G28 G17", true),
+    ("grbl", "T1", "T1 M8", false),
+    ("native", "T1", "", true),
+    ("native", "T1", "T1 M6", true),
+    ("native", "T1", "T01", false),
+    ("marlin", "G90", "G90\nG54", true),
+    ("marlin", "G90", "G90\nG53", true),
+    ("marlin", "G90", "G90\nG61", true),
+    ("marlin", "G90", "g90", true),
+    ("marlin", "G90", "G090", false),
+    ("marlin", "G0 F1000", "G0 F1001", true),
+    ("marlin", "G0 F1000", "G0", true),
+    ("marlin", "G0 F1000", "G0 F999", false),
+    ("xpertmill", "M06 01\nS12000", "S12000\nM06 01", false),
+    ("xpertmill", "M06 01\nS12000", "M06 02\nS12000\nM06 01", true),
+    ("xpertmill", "M06 01", "", false),
+    ("xpertmill", "M06 01", "M06 02", true),
+    ("xpertmill", "G71", "G71\nG91", true),
+    ("xpertmill", "G71", "G71\nG51 P2", true),
+    ("xpertmill", "M30", "M2\nM30", true),
+];
+
+#[test]
+fn words_are_known_just_inside_and_not_just_outside() {
+    let it = &programs()[0];
+    let mut wrong = Vec::new();
+    for &(name, from, to, is_found) in TEXTS {
+        let post = BUILT_IN.iter().find(|post| post.name == name).unwrap();
+        let written = written(name, post.language, it).unwrap_or_else(|errors| panic!("{}", texts(&errors)));
+        let text = written.text.replace("\r\n", "\n");
+        assert!(text.contains(from), "{name} {from}: {text}");
+        let found = findings(&text.replacen(from, to, 1), written.dialect, &it.program);
+        let has_error = found.iter().any(Diagnostic::is_error);
+        if has_error != is_found {
+            wrong.push(format!("{name}: `{from}` became `{to}`: {}", texts(&found)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A lone carriage return hides what follows from us, and not from every control.
+#[test]
+fn a_carriage_return_within_a_line_is_found_in_every_dialect() {
+    let is_found = |text: &str, dialect| {
+        let problems = interpret(text.as_bytes(), dialect, &Options::default()).problems;
+        problems.iter().any(|it| it.message.key == RETURN_IN_LINE.key)
+    };
+    for &dialect in Dialect::ALL {
+        for open in ["; x", "(x", "// x", ""] {
+            let close = if open == "(x" { ")" } else { "" };
+            let line = |end: &str| format!("G21 G90\n{open}\rG0 Z-5{end}{close}\nG0 Z5\n");
+            assert!(is_found(&line(""), dialect), "{dialect} {open}");
+            assert!(is_found(&line("\r"), dialect), "{dialect} {open}");
+        }
+        for end in ["\r\n", "\r\r\n", "\r \r\n", "\r"] {
+            let text = format!("G21 G90{end}G0 Z5{end}");
+            assert!(!is_found(&text, dialect), "{dialect} {end:?}");
+        }
     }
 }

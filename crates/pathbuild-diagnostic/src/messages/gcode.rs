@@ -17,6 +17,48 @@ messages! {
         help_en: "write `{word}.`",
         help_de: "`{word}.` schreiben",
     }
+    /// `g0 f1000` where only capitals are read.
+    SMALL_LETTER: UnknownWord {
+        en: "common builds of {dialect} do not read small letters: write {letter}",
+        de: "übliche Ausgaben von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
+        help_en: "write all words in capitals",
+        help_de: "alle Wörter in Großbuchstaben schreiben",
+    }
+    /// CR in a line that ends with LF.
+    RETURN_IN_LINE: UnknownCharacter {
+        en: "a carriage return (CR) within the line; the line is left out",
+        de: "ein Wagenrücklauf (CR) mitten in der Zeile; die Zeile bleibt unbeachtet",
+        help_en: "some controls end the line there and obey what follows, even in a comment: end every line with LF or CR LF",
+        help_de: "manche Steuerungen beenden die Zeile dort und führen aus, was folgt, auch in einem Kommentar: alle Zeilen mit LF oder CR LF beenden",
+    }
+    /// A word that the post does not write and that is not followed.
+    FOREIGN_WORD: ForeignWord {
+        en: "{word} is not checked: the post for {dialect} does not write it, and what it does is not followed",
+        de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
+        help_en: "remove it, or check at the control what it does",
+        help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
+    }
+    /// `verify --against`: no T before the first cut.
+    TOOL_NOT_CHOSEN: MovesDiffer {
+        en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
+        de: "das Werkzeug ist vor der ersten Fräsbewegung nicht gewählt: das Programm der Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: `G54` is missing in the header.
+    MODE_MISSING: MovesDiffer {
+        en: "{word} is missing before the first move: the control may keep what the program before has set",
+        de: "{word} fehlt vor der ersten Bewegung: die Steuerung behält womöglich, was das vorige Programm gesetzt hat",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: M8, M9.
+    COOLANT_DIFFERS: MovesDiffer {
+        en: "the coolant is `{found}`, for the drawing's cutter it is `{expected}`",
+        de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung ist sie `{expected}`",
+        help_en: "write the program again with `pathbuild emit`, or correct `coolant` in [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder `coolant` in [tool.NAME] berichtigen",
+    }
     /// A line that begins with a value.
     NO_COMMAND: UnknownWord {
         en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",

@@ -31,6 +31,8 @@ pub struct Rules {
     pub dwell: DwellRules,
     /// The control obeys one G, M or T word a line, the first, and every line begins with one. Other words are values of that one.
     pub one_command: bool,
+    /// Rapid moves are as fast as F says, like any other.
+    pub rapids_at_feed: bool,
     /// `O1234` at the beginning is the program's number.
     pub program_numbers: bool,
     /// A number without a decimal point counts least increments on some machines: `X10` is 0.010 mm.
@@ -122,6 +124,7 @@ const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
 
 const BASE_SPELLING: Spelling = Spelling {
+    small_letters: true,
     round_comments: Style::Usual,
     nested_comments: false,
     semicolon_comments: Style::Unknown,
@@ -154,6 +157,7 @@ const BASE: Rules = Rules {
     motion_is_stated: false,
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
     one_command: false,
+    rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
     repeats: b'L',
@@ -299,6 +303,7 @@ pub(super) static HAAS: Rules = Rules {
 pub(super) static MARLIN: Rules = Rules {
     dialect: Dialect::Marlin,
     spelling: Spelling {
+        small_letters: false,
         round_comments: Style::Unknown,
         semicolon_comments: Style::Usual,
         percent: Percent::Refused,
@@ -314,5 +319,6 @@ pub(super) static MARLIN: Rules = Rules {
     motion_is_stated: true,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"S" },
     one_command: true,
+    rapids_at_feed: true,
     ..BASE
 };

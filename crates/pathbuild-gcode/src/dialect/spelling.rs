@@ -4,6 +4,8 @@
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct Spelling {
+    /// Letters of words may be small.
+    pub small_letters: bool,
     /// `( )`.
     pub round_comments: Style,
     /// `(` within a round comment is an error where this is false, an ordinary character where it is true.

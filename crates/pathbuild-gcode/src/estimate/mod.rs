@@ -42,6 +42,7 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
             Action::SelectTool(_)
             | Action::Coolant(_)
             | Action::System(_)
+            | Action::Word(_)
             | Action::Change(_)
             | Action::Comment(_)
             | Action::End => {}

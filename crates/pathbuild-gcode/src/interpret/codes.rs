@@ -1,5 +1,7 @@
 //! G codes by what they do.
 
+use super::step::WordEffect;
+
 /// A plane of arcs and cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Plane {
@@ -116,9 +118,10 @@ pub(super) enum Origin {
     Resume,
 }
 
-/// Of these, one in a line. (NIST RS274/NGC, table 4)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Group {
+/// Groups of G words, of each of which one may stand in a line. (NIST RS274/NGC, table 4)
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Group {
     NonModal,
     Motion,
     Plane,
@@ -161,6 +164,17 @@ impl Command {
             Self::FeedMode(_) => Group::FeedMode,
             Self::RetractToR(_) => Group::Retract,
             Self::NoEffect(group) | Self::NotFollowed(group) => group,
+        }
+    }
+
+    /// How far the interpreter follows it. A command that is reported as not followed needs no second report.
+    pub(super) fn effect(self) -> WordEffect {
+        match self {
+            Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
+            Self::NoEffect(_) => WordEffect::NotFollowed,
+            Self::System(_) => WordEffect::System,
+            Self::Home(_) | Self::MachineCoordinates => WordEffect::Place,
+            _ => WordEffect::Followed,
         }
     }
 

@@ -83,6 +83,7 @@ impl<'i> Interpreter<'i> {
             self.set_parameters();
         }
         self.check_conflicts(block);
+        self.state_words(block);
         self.execute(block);
         self.report_unused(block);
     }

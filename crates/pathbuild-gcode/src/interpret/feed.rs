@@ -4,11 +4,11 @@ use pathbuild_diagnostic::Word;
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::codes::{self, Command, FeedUnit, Group};
-use super::execute::Interpreter;
+use super::execute::{Interpreter, whole};
 use super::limits;
 use super::state::INCH;
-use super::step::Move;
-use super::switches::SPINDLE;
+use super::step::{Action, Change, Move};
+use super::switches::{SPINDLE, TOOL};
 use crate::dialect::FeedMode;
 use crate::read::{Block, Span};
 
@@ -51,13 +51,26 @@ impl Interpreter<'_> {
         if !self.rules.layers {
             return;
         }
-        if let Some(old) = self.state.layer_speed.filter(|old| *old != slot.value) {
-            let layer = u64::from(self.state.layer);
+        let layer = self.layer_of_block();
+        let speeds = &mut self.state.layer_speeds;
+        let old = match speeds.iter_mut().find(|(known, _)| *known == layer) {
+            Some((_, speed)) => std::mem::replace(speed, slot.value),
+            None => {
+                speeds.push((layer, slot.value));
+                return;
+            }
+        };
+        if old != slot.value {
             self.report(block, &say::SPEED_REPLACED, slot.span, |d| {
-                d.with("layer", layer).with("old", old).with("new", slot.value)
+                d.with("layer", u64::from(layer)).with("old", old).with("new", slot.value)
             });
         }
-        self.state.layer_speed = Some(slot.value);
+    }
+
+    /// The layer that the block's words belong to: M6 takes effect before them.
+    fn layer_of_block(&self) -> u32 {
+        let chosen = self.words.m_code(TOOL).and_then(|_| self.words.values.peek(b'T'));
+        chosen.and_then(|slot| whole(slot.value)).unwrap_or(self.state.layer)
     }
 
     pub(super) fn units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {
@@ -69,6 +82,15 @@ impl Interpreter<'_> {
             self.report(block, &say::UNITS_CONTRADICTED, span, |d| {
                 d.with("word", codes::name('G', code)).with("unit", taken).with("comment", comment)
             });
+        }
+    }
+
+    /// Tells how fast rapid moves are from here on, where that is what F says.
+    pub(super) fn rapid_feed(&mut self, block: &Block<'_>) {
+        let feed = self.state.feed;
+        if self.rules.rapids_at_feed && self.state.rapid_feed != Some(feed) {
+            self.state.rapid_feed = Some(feed);
+            self.step(block, Action::Change(Change::RapidFeed(feed)));
         }
     }
 

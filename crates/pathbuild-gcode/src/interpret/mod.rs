@@ -32,14 +32,14 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 
 pub(crate) use codes::name as code_name;
-pub use codes::{Plane, WorkSystem};
+pub use codes::{Group, Plane, WorkSystem};
 pub(crate) use geometry::Course;
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
 pub use program::{each_move_of, moves_of};
 pub use step::{
-    Action, Arc, Axes, Change, Coolant, Corners, Move, Named, Pace, Path, Position, Spindle, Step,
-    ToolLength, Turning,
+    Action, Arc, Axes, Change, Coolant, Corners, Move, Named, Pace, Path, Position, Spindle, StatedWord,
+    Step, ToolLength, Turning, WordEffect,
 };
 
 use crate::dialect::Dialect;

@@ -144,7 +144,10 @@ impl Interpreter<'_> {
         let named = is_machine.then_some(Named::Machine);
         let mut it = Move { from, to, path: Path::Line, pace, named };
         it.pace = match pace {
-            Pace::Rapid => Pace::Rapid,
+            Pace::Rapid => {
+                self.rapid_feed(block);
+                Pace::Rapid
+            }
             Pace::Feed(_) => Pace::Feed(self.feed(block, &it)),
             Pace::Probe { toward, must_answer, .. } => {
                 Pace::Probe { feed: self.feed(block, &it), toward, must_answer }

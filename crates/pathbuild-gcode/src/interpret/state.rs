@@ -36,7 +36,10 @@ pub(super) struct State {
     pub(super) tool: Option<u32>,
     /// XpertMILL's layer.
     pub(super) layer: u32,
-    pub(super) layer_speed: Option<f64>,
+    /// The speeds of its layers, by number.
+    pub(super) layer_speeds: Vec<(u32, f64)>,
+    /// The feed of the last rapid move in mm/min, where F sets it.
+    pub(super) rapid_feed: Option<f64>,
     pub(super) retract_to_r: bool,
     pub(super) cycle: CycleState,
     pub(super) offsets: Offsets,
@@ -88,7 +91,8 @@ impl State {
             coolant: Coolant::default(),
             tool: None,
             layer: 1,
-            layer_speed: None,
+            layer_speeds: Vec::new(),
+            rapid_feed: None,
             retract_to_r: !rules.lifts_to_start,
             cycle: CycleState::default(),
             offsets: Offsets::new(offsets),

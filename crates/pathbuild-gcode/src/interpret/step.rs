@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Word;
 
-use super::codes::{Plane, WorkSystem};
+use super::codes::{Group, Plane, WorkSystem};
 
 /// One thing that the machine does, and the line that makes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,8 @@ pub enum Action {
     Coolant(Coolant),
     /// The coordinate system from here on. Positions do not jump: they stay those of the program's first system.
     System(WorkSystem),
+    /// A G or M word that is no motion, whatever it does.
+    Word(StatedWord),
     /// Something else that may change where, how deep or how fast the tool goes from here on.
     Change(Change),
     /// A remark.
@@ -58,6 +60,32 @@ pub enum Action {
     },
     /// M2, M30.
     End,
+}
+
+/// A G or M word of a program that is no motion. What it does is in other steps, if anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatedWord {
+    /// `G` or `M`.
+    pub letter: char,
+    /// Ten times the number: `G38.2` is 382.
+    pub code: u16,
+    /// The modal group of a G word.
+    pub group: Option<Group>,
+    /// How far its effect is followed.
+    pub effect: WordEffect,
+}
+
+/// How far the effect of a word is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordEffect {
+    /// Other steps and positions take account of it.
+    Followed,
+    /// It chooses a coordinate system, which a control may not have.
+    System,
+    /// It goes to a place of the machine, or counts from its zero: where that is, is in no program.
+    Place,
+    /// Not at all.
+    NotFollowed,
 }
 
 /// A move of the tool's tip.
@@ -265,6 +293,9 @@ pub enum Change {
     Corners(Corners),
     /// An arc's plane other than XY.
     Plane(Plane),
+    /// From here on rapid moves have this feed in mm/min, on controls that move as fast as F says; 0 before
+    /// any F.
+    RapidFeed(f64),
     /// `#5221=...`: a parameter is set.
     Parameter,
     /// An M code that no other step stands for, times ten.
@@ -278,7 +309,7 @@ pub enum ToolLength {
     Off,
     /// G43 H: that of the table's entry; without H that of the tool in the spindle.
     OfTool(Option<u32>),
-    /// Another: G43.1, G43.2, G44.
+    /// Another: G43.1, G43.2, G44, or G43 beside X or Y alone.
     Other,
 }
 
@@ -287,6 +318,6 @@ pub enum ToolLength {
 pub enum Corners {
     /// G61: it stops there, or keeps to the path.
     Exact,
-    /// G64: it rounds them, by so many mm at most where P says so.
+    /// G64: it rounds them, by so many mm at most where P says so. (Q, by how much lines may be joined, counts likewise.)
     Rounded(Option<f64>),
 }

@@ -38,17 +38,27 @@ impl Interpreter<'_> {
                 d.with("word", "M6").with("missing", "the number of a layer")
             });
         }
+        self.step(block, Action::ChangeTool(self.state.tool));
         if self.rules.layers {
-            self.state.layer = self.state.tool.unwrap_or(0);
-            self.state.layer_speed = None;
-        }
-        if !self.rules.layers {
+            self.enter_layer(block, self.state.tool.unwrap_or(0));
+        } else {
             self.state.stated_axes = Axes::NONE;
         }
-        self.step(block, Action::ChangeTool(self.state.tool));
         let is_turning = matches!(self.state.spindle.turning, Turning::Clockwise | Turning::Counterclockwise);
         if is_turning && !self.rules.layers {
             self.state.spindle.turning = Turning::Off;
+            self.step(block, Action::Spindle(self.state.spindle));
+        }
+    }
+
+    /// The speed belongs to the layer: what was set for another one does not hold here.
+    fn enter_layer(&mut self, block: &Block<'_>, layer: u32) {
+        self.state.layer = layer;
+        let speeds = &self.state.layer_speeds;
+        let known = speeds.iter().find(|(other, _)| *other == layer).map(|(_, speed)| *speed);
+        let speed = known.unwrap_or(0.0);
+        if self.state.spindle.speed != speed {
+            self.state.spindle.speed = speed;
             self.step(block, Action::Spindle(self.state.spindle));
         }
     }
@@ -165,7 +175,11 @@ impl Interpreter<'_> {
     fn tool_length(&mut self, block: &Block<'_>, code: u16) {
         let entry = self.words.values.take(b'H');
         self.words.values.take(b'D');
+        // Some controls count the length along the axes of the line.
+        let is_across =
+            [b'X', b'Y'].iter().any(|axis| self.words.values.has(*axis)) && !self.words.values.has(b'Z');
         let length = match (code, entry.map(whole)) {
+            (430, _) if is_across => ToolLength::Other,
             (490, _) => ToolLength::Off,
             (430, None) => ToolLength::OfTool(None),
             (430, Some(Some(number))) => ToolLength::OfTool(Some(number)),
@@ -182,7 +196,8 @@ impl Interpreter<'_> {
     fn corners(&mut self, block: &Block<'_>, code: u16) {
         let unit = self.state.unit;
         let most = self.words.values.take(b'P').map(|most| most * unit);
-        self.words.values.take(b'Q');
+        let joined = self.words.values.take(b'Q').map_or(0.0, |joined| joined * unit);
+        let most = most.map(|most| most.max(joined));
         let corners = if code == 640 { Corners::Rounded(most) } else { Corners::Exact };
         self.step(block, Action::Change(Change::Corners(corners)));
     }
@@ -217,6 +232,11 @@ impl Interpreter<'_> {
             self.report(block, &say::STOP_BEFORE_MOTION, span, |d| d.with("word", codes::name('M', code)));
         }
     }
+}
+
+/// Whether what an M code does is followed: stops, tools, spindle, coolant.
+pub(super) fn is_followed_m(m_code: u16) -> bool {
+    !is_other(m_code) && m_code != 190
 }
 
 /// Whether an M code has no step of its own.

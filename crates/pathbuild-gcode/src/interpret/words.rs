@@ -2,12 +2,14 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::codes::{self, Command, Motion};
+use super::codes::{self, Command, Group, Motion};
 use super::evaluate::{name_of, parameter_number};
 use super::execute::Interpreter;
 use super::gather::{Setting, Slot, ValueFault};
 use super::limits;
 use super::options::UnitCodes;
+use super::step::{Action, StatedWord, WordEffect};
+use super::switches::is_followed_m;
 use crate::dialect::Acceptance;
 use crate::read::{Block, Span, Target, Value, Word};
 
@@ -139,7 +141,11 @@ impl Interpreter<'_> {
         };
         match self.rules.words.g(code) {
             Acceptance::Taken => {
-                let command = self.unit_word(code).unwrap_or_else(|| Command::of(code));
+                let command = match self.unit_word(code) {
+                    Some(unit) => unit,
+                    None if self.rules.words.g_own.contains(&code) => Command::NotFollowed(Group::NonModal),
+                    None => Command::of(code),
+                };
                 self.words.commands.push((command, code, word.span));
             }
             Acceptance::Ignored => self.ignored(block, 'G', code, word.span),
@@ -178,6 +184,26 @@ impl Interpreter<'_> {
 
     fn ignored(&mut self, block: &Block<'_>, letter: char, code: u16, span: Span) {
         self.report(block, &say::IGNORED, span, |d| d.with("word", codes::name(letter, code)));
+    }
+
+    /// Hands on every G and M word of the block that is no motion.
+    pub(super) fn state_words(&mut self, block: &Block<'_>) {
+        let moves_beside = self.words.values.has_coordinates();
+        for index in 0..self.words.commands.len() {
+            let (command, code, _) = self.words.commands[index];
+            let is_move = matches!(code, 0..=30) && matches!(command, Command::Motion(_));
+            let is_lone = command == Command::MachineCoordinates && !moves_beside;
+            let effect = if is_lone { WordEffect::NotFollowed } else { command.effect() };
+            if !is_move {
+                let word = StatedWord { letter: 'G', code, group: Some(command.group()), effect };
+                self.step(block, Action::Word(word));
+            }
+        }
+        for index in 0..self.words.m_codes.len() {
+            let (code, _) = self.words.m_codes[index];
+            let effect = if is_followed_m(code) { WordEffect::Followed } else { WordEffect::NotFollowed };
+            self.step(block, Action::Word(StatedWord { letter: 'M', code, group: None, effect }));
+        }
     }
 
     pub(super) fn set_parameters(&mut self) {

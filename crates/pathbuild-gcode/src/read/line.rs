@@ -85,7 +85,8 @@ impl Line<'_> {
             }
             let Some(byte) = self.peek() else { return Ok(()) };
             match byte {
-                b' ' | b'\t' | b'\r' => self.at += 1,
+                b' ' | b'\t' => self.at += 1,
+                b'a'..=b'z' if !self.spelling().small_letters => self.small_letter(byte)?,
                 b'a'..=b'z' | b'A'..=b'Z' => self.word(byte.to_ascii_uppercase())?,
                 b'(' => self.round_comment()?,
                 b';' | b'!' | b'/' => self.comment_to_end(byte)?,
@@ -141,6 +142,13 @@ impl Line<'_> {
 
     pub(super) fn spelling(&self) -> &'static Spelling {
         &self.rules.spelling
+    }
+
+    /// Reports a small letter where the control reads capitals only, and reads its word all the same.
+    fn small_letter(&mut self, letter: u8) -> Result<(), Broken> {
+        let letter = letter.to_ascii_uppercase();
+        self.report(&say::SMALL_LETTER, self.here(), |d| d.with("letter", char::from(letter)));
+        self.word(letter)
     }
 
     fn block_delete(&mut self) {

@@ -193,6 +193,10 @@ impl<'t> BlockReader<'t> {
         if self.rules.spelling.real_time_bytes {
             self.check_real_time(line);
         }
+        if let Some(at) = memchr(b'\r', line) {
+            self.report_return(line, at);
+            return false;
+        }
         let start = match self.percent(line) {
             Beginning::Nothing => 0,
             Beginning::Passed(start) => start,
@@ -261,6 +265,12 @@ impl<'t> BlockReader<'t> {
         self.problems.add(&say::REAL_TIME_CHARACTER, at, |d| {
             d.with("dialect", dialect).with("found", found).with("effect", effect)
         });
+    }
+
+    /// A carriage return within a line: controls that end the line there obey what follows, even in a comment.
+    fn report_return(&mut self, line: &[u8], at: usize) {
+        let at = At { line: self.line, text: line, span: Span::new(at, at + 1) };
+        self.problems.add(&say::RETURN_IN_LINE, at, |d| d);
     }
 
     fn check_length(&mut self, line: &[u8]) {

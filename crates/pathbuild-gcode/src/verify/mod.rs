@@ -18,6 +18,7 @@ mod stated;
 mod stock;
 mod tops;
 mod walk;
+mod words;
 
 use pathbuild_diagnostic::Diagnostic;
 
@@ -31,6 +32,7 @@ pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;
 pub use stock::{Stock, StockSpan};
+pub use words::{PostWords, WordRules};
 
 use crate::interpret::{Program, Step};
 use crate::read::Problems;

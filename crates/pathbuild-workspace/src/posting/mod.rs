@@ -14,8 +14,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts as messages;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
-use pathbuild_gcode::verify::Machine;
-use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable};
+use pathbuild_gcode::verify::{Machine, PostWords};
+use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, samples};
 
 use crate::config::{Origin, types};
 use crate::files::unreadable;
@@ -221,6 +221,25 @@ impl PostProcessor {
         output: Option<&Utf8Path>,
         inserted: &mut Vec<Inserted>,
     ) -> Result<Output, Vec<Diagnostic>> {
+        self.write_with(job, output, self.manner.unchecked, inserted)
+    }
+
+    /// The words that it writes, read in a dialect: those of programs that show everything a post may have words for.
+    pub fn words(&self, dialect: Dialect) -> PostWords {
+        let written = samples().into_iter().filter_map(|job| {
+            let output = self.write_with(&job, None, true, &mut Vec::new());
+            output.ok().map(|output| output.text)
+        });
+        PostWords::of_programs(written, dialect)
+    }
+
+    fn write_with(
+        &self,
+        job: &Job,
+        output: Option<&Utf8Path>,
+        unchecked: bool,
+        inserted: &mut Vec<Inserted>,
+    ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
         let below = self.directory.as_deref().map(|directory| Below { directory, system });
         let noted = below.map(|below| Noted { below, read: RefCell::default() });
@@ -233,7 +252,7 @@ impl PostProcessor {
             charset: self.charset,
             most_bytes: self.most_bytes,
             dialect: self.wishes.dialect.clone(),
-            unchecked: self.manner.unchecked,
+            unchecked,
             program_number: self.manner.program_number,
             manual_spindle: self.manner.manual_spindle,
             needs_speed: !self.manner.manual_spindle,
@@ -266,6 +285,15 @@ impl PostProcessor {
         );
         identity
     }
+}
+
+/// The words that programs of a dialect may have: those of the configuration's post, if it writes this dialect, else of the post that
+/// comes with pathbuild.
+pub fn known_words(context: &Workspace, dialect: Dialect) -> PostWords {
+    let of_run = |name| PostProcessor::of_run(context, name, PostArguments::default()).ok().flatten();
+    let writes_it = |poster: &PostProcessor| poster.reader().is_none_or(|reader| reader == dialect);
+    let poster = of_run(None).filter(writes_it).or_else(|| of_run(Some(dialect.name())));
+    poster.map_or_else(|| PostWords::native(dialect), |poster| poster.words(dialect))
 }
 
 /// Whether a post's name is a file's: it has an extension or a directory.

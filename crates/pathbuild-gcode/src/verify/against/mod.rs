@@ -10,8 +10,9 @@ mod setup;
 
 use pathbuild_diagnostic::Diagnostic;
 
+use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
-use crate::interpret::{Action, Move, Step, Turning};
+use crate::interpret::{Action, Coolant, Move, Step, Turning};
 use crate::read::Problems;
 
 pub use clamps::{Clamps, PastClamps};
@@ -40,6 +41,8 @@ pub struct ToolUse {
     pub turning: Option<Turning>,
     /// Turns a minute.
     pub speed: Option<f64>,
+    /// The coolant while cutting.
+    pub coolant: Option<Coolant>,
 }
 
 /// How far a program does what a drawing says.
@@ -53,17 +56,19 @@ pub struct Agreement {
 
 /// Compares a program's steps with what the drawing says; give it every step, then [`finish`](Self::finish) it.
 #[derive(Debug)]
-pub struct Against<M: Iterator<Item = (u32, Move)>> {
-    setup: Setup,
+pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
+    setup: Setup<'w>,
+    words: WordRules<'w>,
     cuts: Cuts<M>,
     problems: Problems,
 }
 
-impl<M: Iterator<Item = (u32, Move)>> Against<M> {
-    /// A comparison at the beginning of a program of this dialect.
-    pub fn new(drawn: Drawn<M>, dialect: Dialect) -> Self {
+impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
+    /// A comparison at the beginning of a program of this dialect, whose post writes these words.
+    pub fn new(drawn: Drawn<M>, dialect: Dialect, words: &'w PostWords) -> Self {
         Self {
-            setup: Setup::new(dialect, drawn.clearance, drawn.tool, drawn.spin_up),
+            setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
+            words: WordRules::strict(words, dialect),
             cuts: Cuts::new(drawn.moves, drawn.clearance, dialect),
             problems: Problems::default(),
         }
@@ -71,6 +76,7 @@ impl<M: Iterator<Item = (u32, Move)>> Against<M> {
 
     /// The next step of the program.
     pub fn step(&mut self, step: &Step) {
+        self.words.step(step);
         self.setup.step(step, &mut self.problems);
         if let Action::Move(it) = &step.action {
             self.cuts.take(step.line, it);
@@ -81,6 +87,7 @@ impl<M: Iterator<Item = (u32, Move)>> Against<M> {
     pub fn finish(mut self) -> Agreement {
         self.setup.finish(&mut self.problems);
         let mut differences = self.problems.into_diagnostics();
+        differences.extend(self.words.finish());
         let (first, equal) = self.cuts.finish();
         differences.extend(first);
         differences.sort_by_key(|diagnostic| diagnostic.place.line);

@@ -1,4 +1,6 @@
-//! Everything that is no move: tool and its length, spindle, coordinate systems, corners, dwells.
+//! Everything that is no move: the head's modes, tool and its length, spindle, coolant, corners, dwells.
+
+use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
@@ -6,10 +8,11 @@ use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 use super::ToolUse;
 use crate::dialect::Dialect;
 use crate::interpret::{
-    Action, Axes, Change, Corners, Move, Named, Pace, Plane, Position, Spindle, Step, ToolLength, Turning,
-    WorkSystem, code_name,
+    Action, Axes, Change, Coolant, Corners, Group, Move, Named, Pace, Plane, Position, Spindle, StatedWord,
+    Step, ToolLength, Turning, code_name,
 };
 use crate::read::Problems;
+use crate::verify::words::PostWords;
 
 /// Corners may be rounded by so many mm: that of the built-in posts.
 const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
@@ -21,12 +24,21 @@ const SAME_HEIGHT: f64 = 0.002;
 const SAME_SPEED: f64 = 0.01;
 
 #[derive(Debug)]
-pub(super) struct Setup {
+pub(super) struct Setup<'w> {
     dialect: Dialect,
+    words: &'w PostWords,
     clearance: f64,
     expected: ToolUse,
     spin_up: f64,
     at: Position,
+    /// What the post states before the first move, and the program has not yet.
+    missing: BTreeMap<Group, u16>,
+    /// The tool that T chose.
+    selected: Option<u32>,
+    coolant: Coolant,
+    coolant_line: u32,
+    /// How near the tool keeps to corners, where the program says it.
+    corners: Option<Corners>,
     /// The tool that M6 put in.
     inserted: Option<u32>,
     /// The length that counts, and its line.
@@ -35,30 +47,45 @@ pub(super) struct Setup {
     spindle_line: u32,
     /// Seconds that passed since the spindle was switched on.
     running: f64,
-    /// Corners are rounded by so many mm at most.
-    is_limited: bool,
     /// What has been said of the state that holds.
     said: Said,
 }
 
 /// Each is said once, until the state changes.
 #[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct Said {
     spindle: bool,
     length: bool,
+    tool: bool,
+    coolant: bool,
+    corners: bool,
 }
 
-impl Setup {
-    pub(super) fn new(dialect: Dialect, clearance: f64, tool: ToolUse, spin_up: f64) -> Self {
+impl<'w> Setup<'w> {
+    pub(super) fn new(
+        dialect: Dialect,
+        words: &'w PostWords,
+        clearance: f64,
+        tool: ToolUse,
+        spin_up: f64,
+    ) -> Self {
         let expected = if dialect == Dialect::Native {
             // The native program names T1 and leaves the spindle to the machine's operator.
-            ToolUse { number: Some(1), turning: Some(Turning::Unstated), speed: None }
+            ToolUse { number: Some(1), turning: Some(Turning::Unstated), speed: None, coolant: None }
         } else {
             tool
         };
         let spin_up = if dialect == Dialect::Native { 0.0 } else { spin_up };
+        let missing = words.lead().clone();
         Self {
             dialect,
+            words,
+            missing,
+            selected: None,
+            coolant: Coolant::default(),
+            coolant_line: 0,
+            corners: None,
             clearance,
             expected,
             spin_up,
@@ -68,7 +95,6 @@ impl Setup {
             spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
             spindle_line: 0,
             running: 0.0,
-            is_limited: false,
             said: Said::default(),
         }
     }
@@ -78,15 +104,23 @@ impl Setup {
         match &step.action {
             Action::Move(it) => self.moves(line, it, problems),
             Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
+            Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
             Action::SelectTool(number) => self.select(line, *number, problems),
             Action::ChangeTool(number) => {
                 let number = number.unwrap_or(0);
                 self.select(line, number, problems);
                 self.inserted = Some(number);
+                if self.has_post() && !self.words.has('M', 60) {
+                    extra(line, "M6".to_owned(), problems);
+                }
             }
             Action::Spindle(spindle) => self.switch_spindle(line, *spindle, problems),
-            Action::System(system) if *system != WorkSystem::default() => {
-                extra(line, system.name().to_owned(), problems);
+            Action::Coolant(coolant) => {
+                (self.coolant, self.coolant_line) = (*coolant, line);
+                self.said.coolant = false;
+                if self.has_post() && *coolant != Coolant::default() && !self.switches_coolant() {
+                    extra(line, "M7, M8".to_owned(), problems);
+                }
             }
             Action::Change(change) => self.change(line, *change, problems),
             _ => {}
@@ -97,11 +131,14 @@ impl Setup {
         if matches!(self.spindle.turning, Turning::Clockwise | Turning::Counterclockwise) {
             extra(self.spindle_line, "M3, M4".to_owned(), problems);
         }
+        if self.coolant != Coolant::default() && self.switches_coolant() {
+            extra(self.coolant_line, "M7, M8".to_owned(), problems);
+        }
     }
 
     fn change(&mut self, line: u32, change: Change, problems: &mut Problems) {
         match change {
-            Change::ToolLength(ToolLength::Other) => extra(line, "G43.1".to_owned(), problems),
+            Change::ToolLength(ToolLength::Other) => extra(line, "G43, G44".to_owned(), problems),
             Change::ToolLength(ToolLength::OfTool(entry)) if !self.is_inserted(entry) => {
                 problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
             }
@@ -110,15 +147,29 @@ impl Setup {
                 self.said.length = false;
             }
             Change::Offsets { code, .. } => extra(line, code_name('G', code), problems),
-            Change::Corners(Corners::Rounded(Some(most))) if most <= CORNERS => self.is_limited = true,
-            Change::Corners(Corners::Rounded(Some(_))) => extra(line, "G64 P".to_owned(), problems),
-            Change::Corners(Corners::Rounded(None)) if self.is_limited => {
-                extra(line, "G64".to_owned(), problems);
+            Change::Corners(corners) => {
+                self.corners = Some(corners);
+                match corners {
+                    // P0 is no limit: it is the same as none.
+                    Corners::Rounded(Some(most)) if !(most > 0.0 && most <= CORNERS) => {
+                        extra(line, "G64 P".to_owned(), problems);
+                    }
+                    Corners::Rounded(None) if self.words.rounds_freely() => {}
+                    Corners::Rounded(None) => extra(line, "G64".to_owned(), problems),
+                    Corners::Rounded(Some(_)) | Corners::Exact => {}
+                }
             }
-            Change::Corners(_) | Change::Plane(Plane::Xy) => {}
+            Change::RapidFeed(feed) => {
+                let most = self.words.rapid_feed().unwrap_or(f64::INFINITY);
+                if feed == 0.0 {
+                    problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", "F"));
+                } else if feed > most + SAME_SPEED {
+                    extra(line, "G0 F".to_owned(), problems);
+                }
+            }
+            Change::Plane(Plane::Xy) | Change::Switch(_) => {}
             Change::Plane(_) => extra(line, "G18, G19".to_owned(), problems),
             Change::Parameter => extra(line, "#".to_owned(), problems),
-            Change::Switch(code) => extra(line, code_name('M', code), problems),
         }
     }
 
@@ -128,6 +179,10 @@ impl Setup {
     }
 
     fn select(&mut self, line: u32, number: u32, problems: &mut Problems) {
+        self.selected = Some(number);
+        if !self.words.chooses_tools() && self.has_post() {
+            return extra(line, "T".to_owned(), problems);
+        }
         let expected = *self.expected.number.get_or_insert(number);
         self.said.length = false;
         if number != expected {
@@ -162,12 +217,66 @@ impl Setup {
 
     fn moves(&mut self, line: u32, it: &Move, problems: &mut Problems) {
         self.at = it.to;
+        self.head(line, problems);
         if it.named == Some(Named::Machine) && !it.to.known.has(Axes::Z) && it.to.z() != 0.0 {
             extra(line, "G53 Z".to_owned(), problems);
         }
         if matches!(it.pace, Pace::Feed(_)) && !it.is_nothing() {
+            self.cutting_tool(line, problems);
             self.cutting_spindle(line, problems);
             self.cutting_length(line, problems);
+            self.cutting_coolant(line, problems);
+            self.cutting_corners(line, problems);
+        }
+    }
+
+    /// Whether a post is known that writes such programs.
+    fn has_post(&self) -> bool {
+        !self.words.lead().is_empty()
+    }
+
+    /// What the post states before the first move is stated there.
+    fn head(&mut self, line: u32, problems: &mut Problems) {
+        for code in std::mem::take(&mut self.missing).into_values() {
+            problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", code_name('G', code)));
+        }
+    }
+
+    /// Where programs choose their tool, or the layer that they mill, it is the drawing's.
+    fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
+        let chosen = if self.words.has('M', 60) { self.inserted } else { self.selected };
+        let is_chosen = if self.dialect.rules().layers {
+            // Moves before M6 are on the first layer.
+            self.expected.number.is_none_or(|expected| expected == chosen.unwrap_or(1))
+        } else {
+            chosen.is_some()
+        };
+        if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.said.tool, true) {
+            let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
+            problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.with("expected", expected));
+        }
+    }
+
+    fn switches_coolant(&self) -> bool {
+        self.words.has('M', 70) || self.words.has('M', 80)
+    }
+
+    fn cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
+        let differs = |expected: &Coolant| *expected != self.coolant && self.switches_coolant();
+        let Some(expected) = self.expected.coolant.filter(differs) else { return };
+        if !std::mem::replace(&mut self.said.coolant, true) {
+            let found = coolant_text(self.coolant);
+            problems.add_at_line(&say::COOLANT_DIFFERS, line, |d| {
+                d.with("found", found).with("expected", coolant_text(expected))
+            });
+        }
+    }
+
+    /// A control keeps the corners of the program before, unless a program says otherwise.
+    fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
+        let is_stated = self.corners.is_some() || !self.words.has('G', 640);
+        if !is_stated && !std::mem::replace(&mut self.said.corners, true) {
+            problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", "G64 P"));
         }
     }
 
@@ -236,9 +345,18 @@ impl Setup {
         matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl)
     }
 
-    /// Controls whose tools have lengths in a table.
+    /// Where the post counts the length of the tool that M6 puts in, a program has to do so.
     fn must_count(&self) -> bool {
-        matches!(self.dialect, Dialect::Fanuc | Dialect::Haas | Dialect::Mach3)
+        self.words.has('G', 430)
+    }
+}
+
+fn coolant_text(coolant: Coolant) -> &'static str {
+    match (coolant.mist, coolant.flood) {
+        (true, true) => "M7 M8",
+        (true, false) => "M7",
+        (false, true) => "M8",
+        (false, false) => "M9",
     }
 }
 

@@ -11,9 +11,9 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Move, Turning};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{self, Clamps, PastClamps, ToolUse};
+use pathbuild_gcode::verify::{self, Clamps, PastClamps, PostWords, ToolUse};
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_post::Spindle;
+use pathbuild_post::{Coolant, Spindle};
 use pathbuild_toolpath::Program as Drawn;
 use serde_json::json;
 
@@ -76,18 +76,19 @@ impl Against {
     }
 
     /// What compares a program of a dialect with the drawing. Its steps are those at the heights before correction.
-    pub(super) fn comparison(
+    pub(super) fn comparison<'w>(
         &self,
         context: &Context,
         dialect: Dialect,
-    ) -> verify::Against<impl Iterator<Item = (u32, Move)>> {
+        words: &'w PostWords,
+    ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
         let drawn = verify::Drawn {
             moves: interpret::each_move_of(&self.drawn),
             clearance: self.drawn.start_height(),
             tool: self.tool(context),
             spin_up: context.settings.machine.spin_up.value,
         };
-        verify::Against::new(drawn, dialect)
+        verify::Against::new(drawn, dialect, words)
     }
 
     /// Says what was compared, and how many moves are equal.
@@ -183,7 +184,11 @@ impl Against {
             Spindle::CounterClockwise => Turning::Counterclockwise,
             Spindle::Off => Turning::Off,
         });
-        ToolUse { number: entry.index, turning, speed: entry.speed }
+        let coolant = entry.coolant.map(|coolant| interpret::Coolant {
+            mist: coolant == Coolant::Mist,
+            flood: coolant == Coolant::Flood,
+        });
+        ToolUse { number: entry.index, turning, speed: entry.speed, coolant }
     }
 }
 

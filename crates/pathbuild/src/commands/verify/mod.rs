@@ -4,18 +4,20 @@ mod against;
 mod stock;
 
 use camino::Utf8Path;
+use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Pace;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, StatedStatistics, coarse_arcs, verify_with};
+use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, StatedStatistics, WordRules, coarse_arcs, verify_with};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{number, positive};
 use pathbuild_workspace::machine::machine;
+use pathbuild_workspace::posting::known_words;
 use pathbuild_workspace::session::Session;
 
 use super::program::Program;
@@ -93,19 +95,25 @@ fn check(
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
+    let words = known_words(context, program.dialect);
+    let mut foreign = against.is_none().then(|| WordRules::new(&words, program.dialect));
     // The probing run of a drawing is a text of its own.
     let is_probing = has_probed && program.dialect == Dialect::Native;
     let milled = against.filter(|against| !is_probing || !against.has_probes());
-    let mut comparison = milled.map(|against| against.comparison(context, program.dialect));
+    let mut comparison = milled.map(|against| against.comparison(context, program.dialect, &words));
     let mut past = against.and_then(|against| against.past_clamps(program.dialect));
     let mut found = verify_with(&drawn, &Checks { stock: stock.as_ref(), machine: None }, &mut |step| {
         if let Some(comparison) = &mut comparison {
             comparison.step(step);
         }
+        if let Some(foreign) = &mut foreign {
+            foreign.step(step);
+        }
         if let Some(past) = &mut past {
             past.step(step);
         }
     });
+    found.extend(foreign.into_iter().flat_map(WordRules::finish));
     found.extend(past.into_iter().flat_map(PastClamps::finish));
     found.extend(coarse_arcs(&program.text, program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
@@ -130,33 +138,18 @@ fn check(
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if against.is_some() {
-        diagnostics
-            .iter_mut()
-            .chain(&mut found)
-            .filter(|it| is_unsaid(it))
-            .for_each(|it| it.severity = Severity::Error);
+        let unsaid = diagnostics.iter_mut().filter(|it| is_unsaid(it));
+        let unchecked = found.iter_mut().filter(|it| it.code() == Code::UncheckedFormula);
+        unsaid.chain(unchecked).for_each(|it| it.severity = Severity::Error);
     }
     diagnostics.append(&mut found);
     Ok(diagnostics)
 }
 
-/// Whether a doubt is about something that the drawing's program says, or does not say at all.
+/// Whether a doubt is about something that the drawing's program does not say. How fine its arcs are is the drawing's business, and that
+/// feeds are passed over was asked for.
 fn is_unsaid(doubt: &Diagnostic) -> bool {
-    matches!(
-        doubt.code(),
-        Code::DoubtfulSpelling
-            | Code::AfterProgramEnd
-            | Code::NoProgramEnd
-            | Code::OptionalLine
-            | Code::MachineValue
-            | Code::UnknownOffset
-            | Code::UnitsNotStated
-            | Code::ModesNotStated
-            | Code::MotionNotStated
-            | Code::StopBeforeMotion
-            | Code::ActiveComment
-            | Code::UncheckedFormula
-    )
+    doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
 
 fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {

@@ -1,0 +1,226 @@
+//! Known words: a closed list for each program. (book: program/reading, "Known words")
+//!
+//! A word is known if the post for the program writes it, or if the interpreter follows what it does. Any other word may change
+//! where, how deep or how fast the tool cuts, and nothing here would tell.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
+
+use crate::dialect::Dialect;
+use crate::interpret::{
+    Action, Change, Corners, Group, Options, Pace, StatedWord, Step, WordEffect, code_name, interpret_each,
+};
+use crate::read::Problems;
+
+/// What the native program writes beside moves: see [`crate::native`].
+const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nF40 G38.3 Z0\nG4 P4\nM30\n";
+
+/// The words that a post writes.
+#[derive(Clone, Debug, Default)]
+pub struct PostWords {
+    /// G and M words that are no motions.
+    codes: BTreeSet<(char, u16)>,
+    /// The words that it writes before the first move, by their groups.
+    lead: BTreeMap<Group, u16>,
+    /// It writes T.
+    chooses_tools: bool,
+    /// It goes to places of the machine before the first cut, by these words.
+    first_places: BTreeSet<u16>,
+    /// The fastest feed of its rapid moves in mm/min, where F says how fast they are.
+    rapid_feed: Option<f64>,
+    /// It lets the control round corners as far as it likes.
+    rounds_freely: bool,
+}
+
+/// How far a program has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Progress {
+    /// Nothing has moved.
+    #[default]
+    Head,
+    /// Nothing was cut.
+    Approach,
+    Cutting,
+}
+
+impl Progress {
+    fn step(&mut self, step: &Step) {
+        match &step.action {
+            Action::Move(it) if it.pace != Pace::Rapid => *self = Self::Cutting,
+            Action::Move(_) if *self == Self::Head => *self = Self::Approach,
+            _ => {}
+        }
+    }
+}
+
+impl PostWords {
+    /// The words of the native program, and what is known of a dialect that no post writes.
+    pub fn native(dialect: Dialect) -> Self {
+        let words = Self::of_programs([NATIVE], Dialect::Native);
+        if dialect == Dialect::Native {
+            words
+        } else {
+            Self { lead: BTreeMap::new(), chooses_tools: false, ..words }
+        }
+    }
+
+    /// The words of programs that a post wrote. The head is that of the first.
+    pub fn of_programs<T: AsRef<[u8]>>(programs: impl IntoIterator<Item = T>, dialect: Dialect) -> Self {
+        let mut words = Self::default();
+        for (index, program) in programs.into_iter().enumerate() {
+            let mut progress = if index == 0 { Progress::Head } else { Progress::Approach };
+            interpret_each(program.as_ref(), dialect, &Options::default(), &mut |step| {
+                progress.step(&step);
+                words.take(&step, progress);
+            });
+        }
+        words
+    }
+
+    fn take(&mut self, step: &Step, progress: Progress) {
+        match &step.action {
+            Action::Word(word) => {
+                self.codes.insert((word.letter, word.code));
+                if word.effect == WordEffect::Place && progress != Progress::Cutting {
+                    self.first_places.insert(word.code);
+                }
+                if let Some(group) = word.group.filter(|group| is_kept(*group))
+                    && progress == Progress::Head
+                {
+                    self.lead.insert(group, word.code);
+                }
+            }
+            Action::SelectTool(_) | Action::ChangeTool(_) => self.chooses_tools = true,
+            Action::Change(Change::RapidFeed(feed)) => {
+                self.rapid_feed = Some(self.rapid_feed.map_or(*feed, |known| known.max(*feed)));
+            }
+            Action::Change(Change::Corners(Corners::Rounded(None))) => self.rounds_freely = true,
+            _ => {}
+        }
+    }
+
+    /// Whether the post writes a word, whose code is ten times its number.
+    pub fn has(&self, letter: char, code: u16) -> bool {
+        self.codes.contains(&(letter, code))
+    }
+
+    pub(super) fn chooses_tools(&self) -> bool {
+        self.chooses_tools
+    }
+
+    pub(super) fn rapid_feed(&self) -> Option<f64> {
+        self.rapid_feed
+    }
+
+    pub(super) fn rounds_freely(&self) -> bool {
+        self.rounds_freely
+    }
+
+    pub(super) fn lead(&self) -> &BTreeMap<Group, u16> {
+        &self.lead
+    }
+
+    /// Whether the post chooses one of the coordinate systems.
+    fn has_systems(&self) -> bool {
+        (540..600).any(|code| self.has('G', code))
+    }
+}
+
+/// Groups of which a control keeps what the program before has set. Motions, tool lengths and corners are judged where they count.
+fn is_kept(group: Group) -> bool {
+    !matches!(
+        group,
+        Group::NonModal
+            | Group::Motion
+            | Group::ToolLength
+            | Group::PathControl
+            | Group::MachineCoordinates
+            | Group::Dwell
+    )
+}
+
+/// Looks for words that are not known: give it every step of a program, then [`finish`](Self::finish) it.
+#[derive(Debug)]
+pub struct WordRules<'w> {
+    words: &'w PostWords,
+    dialect: Dialect,
+    /// The program is to be what a drawing says.
+    is_strict: bool,
+    progress: Progress,
+    /// Words before the first cut that go where the post goes only behind it: harmless in a program that cuts nothing.
+    early_places: Vec<(u32, StatedWord)>,
+    found: BTreeSet<(char, u16)>,
+    problems: Problems,
+}
+
+impl<'w> WordRules<'w> {
+    /// Doubts about the words of a program of this dialect.
+    pub fn new(words: &'w PostWords, dialect: Dialect) -> Self {
+        Self {
+            words,
+            dialect,
+            is_strict: false,
+            progress: Progress::Head,
+            early_places: Vec::new(),
+            found: BTreeSet::new(),
+            problems: Problems::default(),
+        }
+    }
+
+    /// The same, where every unknown word is an error.
+    pub(super) fn strict(words: &'w PostWords, dialect: Dialect) -> Self {
+        Self { is_strict: true, ..Self::new(words, dialect) }
+    }
+
+    /// The next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        self.progress.step(step);
+        if self.progress == Progress::Cutting {
+            for (line, word) in std::mem::take(&mut self.early_places) {
+                self.report(line, &word);
+            }
+        }
+        let Action::Word(word) = &step.action else { return };
+        if !self.is_known(word) {
+            self.report(step.line, word);
+        } else if self.is_early_place(word) {
+            self.early_places.push((step.line, *word));
+        }
+    }
+
+    fn report(&mut self, line: u32, word: &StatedWord) {
+        let is_new = self.found.insert((word.letter, word.code));
+        if !is_new && !self.is_strict {
+            return;
+        }
+        let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
+        self.problems.add_at_line(&say::FOREIGN_WORD, line, |d| {
+            let d = d.with("word", code_name(word.letter, word.code)).with("dialect", self.dialect.name());
+            Diagnostic { severity, ..d }
+        });
+    }
+
+    fn is_early_place(&self, word: &StatedWord) -> bool {
+        self.is_strict
+            && word.effect == WordEffect::Place
+            && self.progress != Progress::Cutting
+            && !self.words.first_places.contains(&word.code)
+    }
+
+    /// Everything that was found, by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
+    }
+
+    fn is_known(&self, word: &StatedWord) -> bool {
+        self.words.has(word.letter, word.code)
+            || match word.effect {
+                WordEffect::Followed => true,
+                WordEffect::System => !self.is_strict && self.words.has_systems(),
+                WordEffect::Place => !self.is_strict,
+                WordEffect::NotFollowed => false,
+            }
+    }
+}

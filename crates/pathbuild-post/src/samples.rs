@@ -1,0 +1,67 @@
+//! Small programs, each with one thing that a post may have words for.
+
+use super::job::{Coolant, Job, Operation, Spindle, Tool};
+use super::step::{Arc, Hole, HoleKind, Position, Step};
+
+/// Programs from which it can be seen which words a post writes. The first one is the plainest. A post that has no text for one of them
+/// refuses that one.
+pub fn samples() -> Vec<Job> {
+    let hole = |kind| {
+        Step::Hole(Hole {
+            at: [0.0, 0.0],
+            level: 5.0,
+            retract: 1.0,
+            bottom: -4.0,
+            exit: 5.0,
+            feed: Some(80.0),
+            kind,
+        })
+    };
+    let down = || vec![line(0.0, -1.0), line(10.0, -1.0)];
+    let arc = Step::Arc(Arc {
+        clockwise: true,
+        from: [0.0, 0.0, -1.0],
+        centre: [5.0, 0.0, -1.0],
+        to: [10.0, 0.0, -1.0],
+        feed: Some(100.0),
+    });
+    let probe = Step::Probe { to: Position { x: None, y: None, z: Some(0.0) }, feed: Some(40.0) };
+    let plain = || operation(1, Coolant::Flood, down());
+    vec![
+        job(vec![plain()]),
+        job(vec![plain(), operation(2, Coolant::Mist, down()), operation(1, Coolant::Off, down())]),
+        job(vec![Operation { spindle: Some(Spindle::CounterClockwise), ..plain() }]),
+        job(vec![operation(1, Coolant::Off, vec![line(0.0, -1.0), arc])]),
+        job(vec![operation(1, Coolant::Off, vec![hole(HoleKind::Plain)])]),
+        job(vec![operation(1, Coolant::Off, vec![hole(HoleKind::Peck { depth: 2.0 })])]),
+        job(vec![operation(1, Coolant::Off, vec![probe])]),
+        job(vec![operation(1, Coolant::Off, [vec![Step::Dwell { seconds: 1.0 }], down()].concat())]),
+    ]
+}
+
+fn job(operations: Vec<Operation>) -> Job {
+    Job { name: "1.1P".into(), drawing: "1.dxf".into(), operations, ..Job::default() }
+}
+
+/// To the clearance plane, and along it to X.
+fn rapid(x: Option<f64>) -> Step {
+    Step::Rapid { to: Position { x, y: x, z: Some(5.0) } }
+}
+
+fn line(x: f64, z: f64) -> Step {
+    Step::Feed { to: Position { x: Some(x), y: Some(0.0), z: Some(z) }, feed: Some(100.0) }
+}
+
+fn operation(tool: u32, coolant: Coolant, steps: Vec<Step>) -> Operation {
+    let operation = Operation::new("1.1P", Tool::new(tool, 3.0, "cutter"));
+    Operation {
+        part: "1.1P".into(),
+        spindle: Some(Spindle::Clockwise),
+        speed: Some(1000.0),
+        coolant: Some(coolant),
+        clearance: 5.0,
+        retract: 1.0,
+        steps: [vec![rapid(Some(0.0))], steps, vec![rapid(None)]].concat(),
+        ..operation
+    }
+}
