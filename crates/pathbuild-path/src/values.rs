@@ -101,7 +101,8 @@ impl<'t> Values<'t> {
                 written => return Filled::Value(written, value),
             },
             Err(Some(problem)) => {
-                let problem = mistakes::equals_sign(letter, self.text.value(piece), &problem).unwrap_or(*problem);
+                let problem =
+                    mistakes::equals_sign(letter, self.text.value(piece), &problem).unwrap_or(*problem);
                 self.report(piece, problem);
             }
             Err(None) => {}

@@ -78,7 +78,10 @@ impl PathSummary {
 /// Adds to PB102 where the path ends.
 fn say_where_it_ends(problems: &mut [Diagnostic], end: Xy) {
     for problem in problems.iter_mut().filter(|problem| problem.code() == Code::MissingEnd) {
-        let note = Note { message: &messages::ENDS_HERE, arguments: vec![("point", Point::new(end.x, end.y).into())] };
+        let note = Note {
+            message: &messages::ENDS_HERE,
+            arguments: vec![("point", Point::new(end.x, end.y).into())],
+        };
         problem.notes.push(note);
     }
 }

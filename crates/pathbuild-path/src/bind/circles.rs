@@ -42,7 +42,8 @@ impl Binder<'_> {
                     self.report(scope.at, problem);
                 }
                 // Whatever is made of it, it needs its depth, and is a point of the walk.
-                let class = if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
+                let class =
+                    if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
                 let hole = self.hole(&Scope { class, ..scope }, cut);
                 (BEFORE_ALL, SegmentKind::Hole(pushed(&mut self.holes, hole)))
             }

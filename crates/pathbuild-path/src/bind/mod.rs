@@ -110,7 +110,8 @@ impl<'a> Binder<'a> {
         let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
         let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
         // What only the path's own text lacks is missing there; what elements may lack because a text is at fault is not.
-        let hidden = if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
+        let hidden =
+            if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
         values.unread = values.unread.and(hidden);
         Self {
             raw,
@@ -198,7 +199,9 @@ impl<'a> Binder<'a> {
         };
         let ends = self.raw.end.iter().map(|end| end.at).chain(other_ends.iter().copied());
         path.faults = Some(Box::new(Faults {
-            letters: letters.filter(is_unknown).fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
+            letters: letters
+                .filter(is_unknown)
+                .fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
             is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
             is_walk_unknown: self.raw.start.is_none()
                 || *has_broken_entity

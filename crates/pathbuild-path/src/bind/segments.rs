@@ -73,11 +73,8 @@ impl Binder<'_> {
         let [thickness, tool] = [Letter::T, Letter::O].map(|letter| self.value(scope, letter));
         let is_material_unknown = values.is_unknown(Letter::M)
             || values.text(Letter::M).is_none() && self.values.is_unknown(Letter::M);
-        let unknown = [
-            (Letter::T, thickness.is_none()),
-            (Letter::O, tool.is_none()),
-            (Letter::M, is_material_unknown),
-        ];
+        let unknown =
+            [(Letter::T, thickness.is_none()), (Letter::O, tool.is_none()), (Letter::M, is_material_unknown)];
         let unknown = unknown.into_iter().filter(|(_, is_unknown)| *is_unknown);
         let own_text = |letter| values.text(letter).map(SmolStr::from);
         let value = |(value, piece): (&str, &LetterValue)| {

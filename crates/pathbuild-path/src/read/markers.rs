@@ -51,7 +51,8 @@ impl Collected<'_> {
         let turns = self.turns.iter().map(|turn| (turn, TURN));
         let probes = self.probes.iter().map(|probe| (probe, PROBE));
         let circles: Vec<(&Marker, f64)> = ends.chain(unclear).chain(turns).chain(probes).collect();
-        let (marker, radius) = circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
+        let (marker, radius) =
+            circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
         let marker = marker.clone();
         let problem = Diagnostic::new(&messages::MISSING_START)
             .with("name", self.name.as_str())

@@ -86,7 +86,9 @@ impl<'d> Texts<'d> {
 
     /// Lets a marker take the path's text, on its own layer.
     pub(super) fn give_to_start(&mut self, start: &Marker) {
-        let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == start.origin.layer) else { return };
+        let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == start.origin.layer) else {
+            return;
+        };
         if let Some(candidate) = layer.candidates.iter_mut().find(|known| known.id == start.origin.id) {
             candidate.owner = Owner::Start;
             return;
@@ -104,9 +106,9 @@ impl<'d> Texts<'d> {
             let circle = text.circle();
             let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
             circle.distance_to_centre(marker.at) < circle.radius + radius
-                && texts.first().is_some_and(|text| {
-                    text.letters.contains(Letter::O) && text.letters.contains(Letter::T)
-                })
+                && texts
+                    .first()
+                    .is_some_and(|text| text.letters.contains(Letter::O) && text.letters.contains(Letter::T))
         })
     }
 

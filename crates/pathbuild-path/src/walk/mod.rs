@@ -133,7 +133,8 @@ impl<'a> Walk<'a> {
         walked.open_end = open_end;
         let is_complete = result.is_ok();
         if let Err(problem) = result {
-            let missing = walked.diagnostics.into_iter().filter(|found| found.is_error() && !path.gives_infeed());
+            let missing =
+                walked.diagnostics.into_iter().filter(|found| found.is_error() && !path.gives_infeed());
             let problems = problem.map(|problem| *problem).into_iter().chain(missing);
             walked = Walked { diagnostics: problems.collect(), ..Walked::default() };
         }
@@ -186,7 +187,8 @@ impl<'a> Walk<'a> {
     /// A failure, unless a circle here means nothing as it is: the walk may turn or end at it.
     fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
         let circles = self.path.faults.as_ref().map_or(&[][..], |faults| &faults.unclear_circles);
-        let is_unclear = circles.iter().any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty());
+        let is_unclear =
+            circles.iter().any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty());
         (!is_unclear).then(|| problem(self).into())
     }
 

@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, Doubts, Examined, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath, Walked,
-    Xy, examine, raw_file, walk,
+    Bindings, Curve, Doubts, Examined, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath,
+    Walked, Xy, examine, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 

@@ -1,8 +1,8 @@
 //! How an embedding is judged. (book: language/embedding; the order: book: reference/diagnostics)
 
 use pathbuild_path::{
-    Allowed, Bindings, Definition, Examined, Letter, Path, PathName, Segment, SegmentKind, Subpath, SubpathName, SweepLimits,
-    parse_number, walk,
+    Allowed, Bindings, Definition, Examined, Letter, Path, PathName, Segment, SegmentKind, Subpath,
+    SubpathName, SweepLimits, parse_number, walk,
 };
 use regex::Regex;
 

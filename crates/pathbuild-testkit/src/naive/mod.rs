@@ -17,8 +17,8 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Examined, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName, PathPattern,
-    ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file,
+    Bindings, Examined, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
+    PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file,
 };
 
 pub use finding::{Finding, differences};

@@ -10,7 +10,9 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::Pace;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{Checks, MachineRules, PastClamps, StatedStatistics, WordRules, coarse_arcs, verify_with};
+use pathbuild_gcode::verify::{
+    Checks, MachineRules, PastClamps, StatedStatistics, WordRules, coarse_arcs, verify_with,
+};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
