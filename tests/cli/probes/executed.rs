@@ -125,6 +125,7 @@ fn consistent_changes_are_found_with_the_drawing() {
     assert!(run.status == Some(1) && run.stderr.contains("error[PB775]"), "{run}");
     // Comments are no moves: a warning.
     for (from, to) in [
+        ("native O3 T5)", "native O3 T5x)"),
         ("(Milling chain", "(Chain"),
         ("(Command count:", "(Commands:"),
         ("X150.000 Y-20.000 Z", "X150.000 Y-20.000 Z"),

@@ -91,6 +91,16 @@ pub(super) fn setup(program: &Program) -> &'static str {
     }
 }
 
+/// Whether a text has a title near its beginning, as every program of ours has.
+pub fn has_title(text: &[u8]) -> bool {
+    let first = text.split(|byte| *byte == b'\n').take(TITLE_LINES).map(<[u8]>::trim_ascii);
+    let comments = first.filter_map(|line| line.strip_prefix(b"(")?.strip_suffix(b")"));
+    comments.filter_map(|comment| str::from_utf8(comment).ok()).any(|title| path_of_title(title).is_some())
+}
+
+/// The title is among so many lines.
+const TITLE_LINES: usize = 4;
+
 /// Whether a text of ours is that of a compatible program, which states F before everything else.
 pub fn is_compatible(text: &[u8]) -> bool {
     let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
