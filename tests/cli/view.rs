@@ -191,6 +191,102 @@ fn library() -> Place {
     place
 }
 
+/// The posts whose programs are read in a dialect of the same name.
+const POSTS: [&str; 7] = ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "xpertmill"];
+
+#[test]
+fn the_text_is_the_file_that_emit_writes_and_each_cut_has_its_line() {
+    let place = library();
+    let configuration = fs::read_to_string(place.path().join("pathbuild.toml")).unwrap();
+    for post in ["native"].iter().chain(&POSTS) {
+        for (name, cycles) in [("8001.1P", true), ("8002.1P", false)] {
+            let manual =
+                format!("post = \"{post}\"\nspindle = \"manual\"\ncycles = {cycles}\n{configuration}");
+            fs::write(place.path().join("pathbuild.toml"), manual).unwrap();
+            let file = place.path().join("x.json").to_str().unwrap().to_owned();
+            let scene = scene(&place.run_with(&["view", name, "-o", &file]));
+            let path = &scene["paths"][0];
+            let emitted =
+                place.run_with(&["emit", name, "--no-cache", "-o", "-"]).stdout.replace("\r\n", "\n");
+            assert_eq!(path["gcode"].as_str().unwrap(), emitted, "{post}");
+            assert!(path["written"].as_str().unwrap().contains("_Milling."), "{post}");
+            assert_eq!(path["native"].is_null(), *post == "native", "{post}");
+            lines_lead_to_moves(path, &emitted, post.parse().unwrap());
+        }
+    }
+}
+
+/// The line of each milling move begins where the move does, in a text that is read in this dialect; plunges have a line, too.
+fn lines_lead_to_moves(path: &Value, text: &str, dialect: Dialect) {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let read = interpret(text.as_bytes(), dialect, &options).moves();
+    for it in path["moves"].as_array().unwrap() {
+        let line = it["line"].as_u64().unwrap_or_else(|| panic!("{dialect}: no line for {it}"));
+        if it["kind"] == "mill" || it["kind"] == "mark" {
+            let begins =
+                |at: [f64; 3]| (0..3).all(|axis| (at[axis] - number(it, "from", axis)).abs() < 0.006);
+            let is_there = read.iter().any(|(found, way)| u64::from(*found) == line && begins(way.from.at));
+            assert!(is_there, "{dialect}: line {line} does not begin {it}");
+        }
+    }
+}
+
+#[test]
+fn a_refused_program_is_shown_as_preview_with_the_reason() {
+    let place = library();
+    let configuration = fs::read_to_string(place.path().join("pathbuild.toml")).unwrap();
+    fs::write(place.path().join("pathbuild.toml"), format!("post = \"fanuc\"\n{configuration}")).unwrap();
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let ran = place.run_with(&["view", "8001.1P", "-o", &file]);
+    let scene = scene(&ran);
+    let path = &scene["paths"][0];
+    assert!(path["written"].is_null() && path["gcode"].as_str().unwrap().contains("(Sum:"));
+    assert!(path["refusal"]["en"].as_str().unwrap().contains("spindle"), "{path}");
+    assert!(path["refusal"]["de"].as_str().unwrap().contains("Spindel"), "{path}");
+}
+
+#[test]
+fn values_that_nothing_gives_are_examples_and_times_without_them_are_left_out() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MX\"\nmill 0,0 40,0\nend 40,0\n";
+    let place = Place::of(&format!("== 1234.1P.dxf ==\n{drawing}"));
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let seen = |arguments: &[&str]| {
+        let scene = scene(&place.run_with(&[&["view", "1234.1P.dxf"], arguments, &["-o", &file]].concat()));
+        let path = &scene["paths"][0];
+        let text = path["gcode"].as_str().unwrap().to_owned();
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+        (path["examples"].to_string(), path["totals"]["minutes"].clone(), path["written"].is_null(), text)
+    };
+    let (examples, minutes, is_preview, text) = seen(&[]);
+    assert_eq!(
+        examples,
+        r#"[{"name":"S","value":"8"},{"name":"feed","value":null},{"name":"rapid","value":null}]"#
+    );
+    assert!(minutes.is_null() && is_preview && !text.contains(" min)"), "{text}");
+    let (examples, minutes, is_preview, text) = seen(&["--feed", "100", "--sweep-height", "9"]);
+    assert_eq!(examples, r#"[{"name":"rapid","value":null}]"#);
+    assert!(
+        minutes.is_null() && is_preview && text.contains("(Milling length:    40 mm   ca.  1 min)"),
+        "{text}"
+    );
+    assert!(text.lines().any(|line| line.starts_with("(Sum:") && !line.contains("min")), "{text}");
+    let (examples, minutes, is_preview, _) =
+        seen(&["--feed", "100", "--sweep-height", "9", "--rapid", "1000"]);
+    assert!(examples == "null" && minutes == 1.0 && !is_preview);
+}
+
+#[test]
+fn line_ends_are_no_part_of_lines() {
+    let text = "G17 G21 G90 G94\nG0 X0 Y0\nG0 Z5\nG1 Z1 F100\nM30\n";
+    for ends in ["\n", "\r\n", "\r"] {
+        let place = Place::new().file("a.nc", text.replace('\n', ends));
+        let file = place.path().join("x.json").to_str().unwrap().to_owned();
+        let scene = scene(&place.run_with(&["view", "a.nc", "-o", &file]));
+        assert_eq!(scene["paths"][0]["gcode"].as_str().unwrap(), text, "{ends:?}");
+        assert_eq!(scene["paths"][0]["moves"][2]["line"], 4, "{ends:?}");
+    }
+}
+
 #[test]
 fn a_project_shows_what_it_embeds_and_where_moves_come_from() {
     let place = library();

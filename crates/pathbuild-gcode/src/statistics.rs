@@ -62,7 +62,7 @@ pub struct Tally {
 pub struct MoveTotals {
     /// Number of moves, also of those without a known length.
     pub moves: u64,
-    /// Length in mm, and minutes of length / feed.
+    /// Length in mm, and minutes of length / feed; infinite where a feed is not known.
     pub total: Total,
 }
 
@@ -84,7 +84,8 @@ impl Tally {
 
     fn sweeps(&self, rapid: f64) -> Total {
         let length = self.rapid.total.length;
-        Total { length, time: length / rapid }
+        // No way takes no time, whatever the feed.
+        Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }
     }
 
     /// Adds a move. `has_length`: whether its length is known, and counts.
@@ -103,8 +104,10 @@ impl Tally {
         if has_length {
             let length = it.length();
             kind.total.length += length;
-            if let Some(feed) = it.pace.feed().filter(|feed| *feed > 0.0) {
-                kind.total.time += length / feed;
+            if let Some(feed) = it.pace.feed()
+                && length > 0.0
+            {
+                kind.total.time += if feed > 0.0 { length / feed } else { f64::INFINITY };
             }
         }
     }

@@ -122,6 +122,16 @@ function all(folder) {
     assert.ok(own.stdout.length > 1000 && own.stdout.equals(Buffer.from(program)), post);
     const first = own.stdout.toString("latin1").split(/\r?\n/).find((line) => line.trim() !== "");
     assert.ok((await text(page, "#code")).includes(first.trim()), `${post}: ${first}`);
+    // Moves lead to lines of this file, and back from the native text.
+    for (let step = 0; step < 5; step++) await page.keyboard.press("ArrowLeft");
+    const number = Number(await page.locator(".row.now i").innerText());
+    const lines = own.stdout.toString("latin1").split("\n").map((line) => line.trim());
+    assert.equal((await page.locator(".row.now span").innerText()).trim(), lines[number - 1], post);
+    assert.match(await text(page, "#whose"), /8001\.1P_Milling\./);
+    await page.click("#native");
+    assert.match(await text(page, ".row.now"), /G0[0-3]/);
+    assert.match(await text(page, "#whose"), /^native program/);
+    await page.click("#native");
     await page.keyboard.press("Escape");
   }
   // What was downloaded lies on no disk that the page knows.

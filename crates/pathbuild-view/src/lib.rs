@@ -15,8 +15,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, keep_out, other_layers,
-    program_path,
+    DrawnSource, EmittedText, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, keep_out,
+    other_layers, program_path,
 };
 pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
@@ -24,8 +24,8 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
-    Arc, Bar, Element, ElementKind, Embedded, Finding, KeepOut, Label, Move, MoveKind, OtherShape, Parameter,
-    Point, ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
+    Arc, Bar, Element, ElementKind, Embedded, Example, Finding, KeepOut, Label, Move, MoveKind, NativeText,
+    OtherShape, Parameter, Point, ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

@@ -17,7 +17,7 @@ use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Configured, Owners};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{Seen, Session};
+use pathbuild_workspace::session::{Seen, Session, ShownText};
 use pathbuild_workspace::{Inputs, Silent, Workspace};
 use serde_json::{Value, json};
 
@@ -183,7 +183,8 @@ impl Opened {
             let file = self.file(&place.file);
             (file, path_names(self.session.db(), file).to_vec())
         };
-        let seen = self.session.settled(|session| session.scene(file, &names));
+        let text = ShownText::Emitted(self.poster.as_ref());
+        let seen = self.session.settled(|session| session.scene(file, &names, text));
         Some(seen.judged(workspace, &place.file).0)
     }
 

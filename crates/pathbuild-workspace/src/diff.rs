@@ -9,7 +9,7 @@ use pathbuild_path::PathName;
 use pathbuild_view::{Group, Picture, ScenePath, Totals, changes_svg, compare, groups};
 
 use crate::inputs::Inputs;
-use crate::session::{Session, by_name};
+use crate::session::{Session, ShownText, by_name};
 
 /// One of the two sides: drawings below a directory.
 #[derive(Debug)]
@@ -275,7 +275,7 @@ fn changed(
 /// # Errors
 /// What kept the program from being made: then there is but the drawing, which has no moves.
 fn seen(session: &Session<'_>, known: &Known) -> Result<ScenePath, Vec<Diagnostic>> {
-    let seen = session.scene(known.file, std::slice::from_ref(&known.name));
+    let seen = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = seen.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
     // What is wrong with the drawing as a whole is told already.
     let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();

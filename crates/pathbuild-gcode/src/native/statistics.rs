@@ -21,7 +21,10 @@ pub(super) fn lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Ve
 }
 
 fn total_line(label: &str, total: &Total) -> String {
-    format!("{label:<12} {:5.0} mm   ca.{:3.0} min", total.length, total.minutes())
+    let minutes = total.minutes();
+    // Without a rapid feed, or a feed of 0, nothing is known of the time.
+    let time = if minutes.is_finite() { format!("   ca.{minutes:3.0} min") } else { String::new() };
+    format!("{label:<12} {:5.0} mm{time}", total.length)
 }
 
 fn labels(lang: Lang) -> [&'static str; 5] {

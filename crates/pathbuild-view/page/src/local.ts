@@ -76,10 +76,7 @@ class Local implements Source {
   }
 
   async scene(file: string, path: string | null): Promise<Scene> {
-    const scene: Scene = JSON.parse(new TextDecoder().decode(await this.see("scene", { file, path })));
-    const post = options().post ?? "native";
-    if (post !== "native" && path !== null) await this.posted(scene, { file, path });
-    return scene;
+    return JSON.parse(new TextDecoder().decode(await this.see("scene", { file, path })));
   }
 
   async picture(file: string, path: string | null): Promise<Blob> {
@@ -90,16 +87,6 @@ class Local implements Source {
     this.hear = hear;
     hear();
     return new Promise(() => {});
-  }
-
-  /** Shows what a post makes of the program. Its lines are not those of the moves. */
-  private async posted(scene: Scene, place: Place): Promise<void> {
-    const { files } = await this.compiler!.emit([place]);
-    if (files.length !== 1) return;
-    for (const shown of scene.paths) {
-      shown.gcode = new TextDecoder().decode(files[0][1]);
-      for (const move of shown.moves) delete move.line;
-    }
   }
 
   private async see(what: "scene" | "picture", place: Place): Promise<Uint8Array<ArrayBuffer>> {

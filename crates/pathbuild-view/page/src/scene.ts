@@ -78,6 +78,10 @@ export interface Path {
   moves: Move[];
   totals: { milling: number; drilling: number; sweeps: number; minutes: number | null } | null;
   gcode: string | null;
+  written: string | null;
+  refusal?: { en: string; de: string };
+  native?: { gcode: string; lines: (number | null)[] };
+  examples?: { name: string; value: string | null }[];
 }
 
 export interface KeepOut {

@@ -3,9 +3,9 @@
 import { visible } from "./visible.js";
 import { Spot } from "./labels.js";
 import { Model, model } from "./model.js";
-import { Finding, Parameter, Scene, pointsOfShape } from "./scene.js";
+import { Finding, Parameter, Path, Scene, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
-import { Lang, Word, mm, say, sayKind } from "./words.js";
+import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
 
 const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const slider = $<HTMLInputElement>("slider");
@@ -37,11 +37,15 @@ let timer = 0;
 let measured: [number, number][] | null = null;
 /** On a telephone texts would cover the picture. */
 const shown = { rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true };
+/** Whether the native program is listed where a post writes another one. */
+let isNative = false;
 let lines: string[] = [];
 let linesOf: number | null = null;
 /** The path of each step, and its steps by line of G-code. */
 let byLine: Map<number, number>[] = [];
 let pathOf: number[] = [];
+/** The line of each step in the text that is listed. */
+let lineOf: (number | null)[] = [];
 
 /** Shows a scene. One that was shown before and has changed is shown from where it was looked at. */
 export function show(next: Scene, isSame: boolean, still: () => void = () => {}): void {
@@ -50,14 +54,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   scene = next;
   drawStill = still;
   isOpen = true;
-  byLine = scene.paths.map(() => new Map<number, number>());
-  pathOf = [];
-  scene.paths.forEach((path, index) => {
-    for (const move of path.moves) {
-      if (move.line !== undefined && !byLine[index].has(move.line)) byLine[index].set(move.line, pathOf.length);
-      pathOf.push(index);
-    }
-  });
+  number();
   $("title").textContent = visible(scene.title);
   document.title = visible(scene.title);
   linesOf = null;
@@ -71,6 +68,38 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   slider.max = String(made.steps.length);
   chosen = same && found(same);
   speak();
+}
+
+/** Numbers the lines of the text that is listed. */
+function number(): void {
+  byLine = scene.paths.map(() => new Map<number, number>());
+  [pathOf, lineOf] = [[], []];
+  scene.paths.forEach((path, index) => {
+    const own = isNative ? path.native : undefined;
+    path.moves.forEach((move, step) => {
+      const line = own ? own.lines[step] : (move.line ?? null);
+      if (line !== null && !byLine[index].has(line)) byLine[index].set(line, pathOf.length);
+      pathOf.push(index);
+      lineOf.push(line);
+    });
+  });
+  linesOf = null;
+}
+
+/** The text of a path that is listed. */
+function listed(path: Path | undefined): string {
+  return (isNative ? path?.native?.gcode : undefined) ?? path?.gcode ?? "";
+}
+
+/** Says which file is listed, and offers the other text. */
+function whose(path: Path | undefined): void {
+  const isDrawn = path !== undefined && path.embedded.length > 0;
+  $("program").hidden = !isDrawn || !path.gcode;
+  $("native").hidden = !path?.native;
+  $("native").textContent = say(isNative ? "showWritten" : "showNative", lang);
+  const reason = path?.refusal ? `: ${path.refusal[lang]}` : "";
+  const file = path?.written ?? `${say("preview", lang)}${reason}`;
+  $("whose").textContent = visible(isNative && path?.native ? `${say("nativeText", lang)} ${file}` : file);
 }
 
 /** Nothing is shown any more. */
@@ -214,7 +243,7 @@ function go(to: number): void {
 
 /** The line of G-code that is being run. */
 function current(): number | null {
-  return count === 0 ? null : (made.steps[count - 1].move.line ?? null);
+  return count === 0 ? null : lineOf[count - 1];
 }
 
 /** Shows the G-code round the present line; only the rows that can be seen are made. */
@@ -222,7 +251,8 @@ function listing(follow: boolean): void {
   const path = pathOf[Math.max(count - 1, 0)] ?? 0;
   if (linesOf !== path) {
     linesOf = path;
-    lines = (scene.paths[path]?.gcode ?? "").split("\n");
+    lines = listed(scene.paths[path]).split("\n");
+    whose(scene.paths[path]);
     code.hidden = !scene.paths.some((it) => it.gcode);
     rows.style.height = `${lines.length * ROW}px`;
   }
@@ -257,7 +287,8 @@ function describe(at: number | null): void {
     ["X", "Y", "Z"].map((axis, index) => (values[index] === null ? "" : `${axis}${mm(values[index]!)}`)).join(" ");
   list.push(["→", place(move.to)]);
   if (move.feed) list.push([say("feed", lang), `${mm(move.feed)} mm/min`]);
-  if (move.line !== undefined) list.push(["G-code", `${move.line}: ${(path.gcode ?? "").split("\n", move.line)[move.line - 1] ?? ""}`]);
+  const line = lineOf[at];
+  if (line !== null) list.push(["G-code", `${line}: ${listed(path).split("\n", line)[line - 1] ?? ""}`]);
   const element = move.element === undefined ? undefined : path.elements[move.element];
   if (element) {
     const inside = path.embedded[element.path];
@@ -294,6 +325,11 @@ function summary(): void {
       for (const kind of ["milling", "drilling", "sweeps"] as const) list.push([say(kind, lang), `${totals[kind].toFixed(0)} mm`]);
       if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
     }
+    const examples = path.examples ?? [];
+    const known = examples.filter(({ value }) => value !== null).map(({ name, value }) => `${name} ${value}`);
+    const unknown = examples.filter(({ value }) => value === null).map(({ name }) => sayOption(name, lang));
+    if (known.length > 0) list.push([say("examples", lang), known.join(", ")]);
+    if (unknown.length > 0) list.push([say("notGiven", lang), unknown.join(", ")]);
   }
   fill(list);
 }
@@ -338,6 +374,7 @@ export function speak(): void {
   slider.setAttribute("aria-label", say("step", lang));
   hearers.forEach((hear) => hear());
   if (!isOpen) return;
+  linesOf = null;
   findings();
   describe(chosen);
   spots();
@@ -370,6 +407,13 @@ function play(): void {
     go(count + Math.max(1, Math.round(made.steps.length / 600)));
   }, 40);
 }
+
+$("native").addEventListener("click", () => {
+  isNative = !isNative;
+  number();
+  describe(chosen);
+  listing(true);
+});
 
 const acts = {
   view2: () => stage?.fit((space = false)),

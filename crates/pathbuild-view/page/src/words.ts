@@ -120,6 +120,12 @@ const words = {
     "This browser cannot run pathbuild; a current Firefox, Chrome, Edge or Safari can.",
     "Dieser Browser kann pathbuild nicht ausführen; aktuelle Firefox, Chrome, Edge und Safari können es.",
   ],
+  preview: ["preview; emit writes no file of this", "Vorschau; emit schreibt davon keine Datei"],
+  nativeText: ["native program; the machine gets", "eigenes Programm; die Maschine bekommt"],
+  showNative: ["Show native", "Eigenes zeigen"],
+  showWritten: ["Show file", "Datei zeigen"],
+  examples: ["example values", "Beispielwerte"],
+  notGiven: ["not given", "nicht angegeben"],
   start: ["start", "Start"],
   mill: ["milling", "Fräsen"],
   mark: ["marking", "Markieren"],
@@ -142,6 +148,11 @@ export function say(word: Word, lang: Lang): string {
 
 export function sayKind(kind: string, lang: Lang): string {
   return kind in words ? say(kind as Word, lang) : kind;
+}
+
+/** The name of an option that nothing gives. */
+export function sayOption(name: string, lang: Lang): string {
+  return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("rapidSpeed", lang) : name;
 }
 
 export function mm(value: number): string {

@@ -20,6 +20,12 @@ pub struct GcodeSource<'a> {
     pub rapid: Option<f64>,
 }
 
+/// A text with LF alone at the ends of its lines, which are those that the reader counts.
+pub(super) fn plain_lines(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }
+}
+
 /// A program without elements.
 pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
     let moves = source.steps.iter().filter_map(Step::as_move);
@@ -33,9 +39,12 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
             milling: summary.milling.total.length,
             drilling: summary.drilling.total.length,
             sweeps: summary.rapid.total.length,
-            minutes: source.rapid.map(|rapid| summary.sum(rapid).minutes()),
+            minutes: source
+                .rapid
+                .map(|rapid| summary.sum(rapid).minutes())
+                .filter(|minutes| minutes.is_finite()),
         }),
-        gcode: Some(String::from_utf8_lossy(source.text).into_owned()),
+        gcode: Some(plain_lines(source.text)),
         ..ScenePath::default()
     }
 }

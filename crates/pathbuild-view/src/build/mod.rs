@@ -3,6 +3,7 @@
 mod drawn;
 mod finding;
 mod gcode;
+mod lines;
 mod other;
 mod program;
 
@@ -10,4 +11,4 @@ pub use drawn::{DrawnSource, drawn_path, keep_out};
 pub use finding::findings;
 pub use gcode::{GcodeSource, gcode_path};
 pub use other::other_layers;
-pub use program::{ProgramSource, program_path};
+pub use program::{EmittedText, ProgramSource, program_path};

@@ -1,13 +1,15 @@
 //! A path with its program.
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Axes, Heights, Options, each_move_of, interpret_each};
+use pathbuild_gcode::interpret::{self, moves_of};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
 use pathbuild_toolpath::{Drawn, Occurrence, Program, Trace, support_bars};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
-use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, ProbeMark, ScenePath, Totals};
+use super::gcode::plain_lines;
+use super::lines::lines_of_moves;
+use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, NativeText, ProbeMark, ScenePath, Totals};
 
 /// The parameter of the first probe.
 const FIRST_PARAMETER: usize = 51;
@@ -23,18 +25,44 @@ pub struct ProgramSource<'a> {
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
     /// Its native text, made without cutting moves.
     pub text: &'a str,
+    /// Its text as `emit` writes it; `None` where only the native text is to be seen.
+    pub emitted: Option<EmittedText<'a>>,
     /// --rapid in mm/min.
     pub rapid: Option<f64>,
 }
 
+/// The text of a program's file.
+#[derive(Clone, Copy, Debug)]
+pub struct EmittedText<'a> {
+    /// The file, where `emit` writes it.
+    pub file: Option<&'a str>,
+    /// Its text; what is no UTF-8 in it is replaced.
+    pub bytes: &'a [u8],
+    /// How it is read.
+    pub dialect: Dialect,
+    /// Whether a post wrote it, and the native text is another.
+    pub is_posted: bool,
+}
+
 /// A path with its program.
 pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
-    let ProgramSource { program, trace, parts, text, rapid } = source;
+    let ProgramSource { program, trace, parts, text, emitted, rapid } = source;
     let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
     for occurrence in &trace.occurrences {
         builder.occurrence(occurrence, &parts[occurrence.id]);
     }
-    builder.moves(program, trace, text);
+    let (bytes, dialect) =
+        emitted.map_or((text.as_bytes(), Dialect::Native), |emitted| (emitted.bytes, emitted.dialect));
+    let ways: Vec<_> = moves_of(program);
+    let of_text = |bytes, dialect| {
+        let moves: Vec<_> = ways.iter().map(|(_, way)| *way).collect();
+        lines_of_moves(&moves, bytes, dialect)
+    };
+    builder.moves(&ways, trace, &of_text(bytes, dialect));
+    let native = emitted.filter(|emitted| emitted.is_posted).map(|_| NativeText {
+        gcode: plain_lines(text.as_bytes()),
+        lines: of_text(text.as_bytes(), Dialect::Native),
+    });
     builder.number_elements();
     let root = parts[trace.occurrences[0].id];
     let totals = totals(program, *rapid);
@@ -55,7 +83,9 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
         material: root.1.material.as_ref().map(ToString::to_string),
         probes: program.probes.iter().enumerate().map(probe).collect(),
         totals: Some(totals),
-        gcode: Some((*text).to_owned()),
+        gcode: Some(plain_lines(bytes)),
+        written: emitted.and_then(|emitted| emitted.file).map(str::to_owned),
+        native,
         ..builder.scene
     }
 }
@@ -66,7 +96,7 @@ fn totals(program: &Program, rapid: Option<f64>) -> Totals {
         milling: statistics.milling.length,
         drilling: statistics.drilling.length,
         sweeps: statistics.sweeps.length,
-        minutes: rapid.map(|_| statistics.sum().minutes()),
+        minutes: rapid.map(|_| statistics.sum().minutes()).filter(|minutes| minutes.is_finite()),
     }
 }
 
@@ -126,11 +156,10 @@ impl Builder {
         }
     }
 
-    fn moves(&mut self, program: &Program, trace: &Trace<usize>, text: &str) {
-        let mut lines = lines(text).into_iter();
-        for (step, way) in each_move_of(program) {
-            let mut it = Move::new(way, lines.next());
-            let step = step as usize - 1;
+    fn moves(&mut self, ways: &[(u32, interpret::Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
+        for ((step, way), line) in ways.iter().zip(lines) {
+            let mut it = Move::new(*way, *line);
+            let step = *step as usize - 1;
             it.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
             let kind = it.element.map(|element| self.scene.elements[element as usize].kind);
             if it.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
@@ -158,18 +187,4 @@ impl Builder {
 fn circle(centre: Xy, radius: f64) -> Curve {
     let low = Xy::new(centre.x, centre.y - radius);
     Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })
-}
-
-/// The lines of a native text's moves, from where the program's own begin.
-fn lines(text: &str) -> Vec<u32> {
-    let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let mut lines = Vec::new();
-    interpret_each(text.as_bytes(), Dialect::Native, &options, &mut |step| {
-        if let Some((line, it)) = step.as_move()
-            && (!lines.is_empty() || it.from.known == Axes::ALL)
-        {
-            lines.push(line);
-        }
-    });
-    lines
 }

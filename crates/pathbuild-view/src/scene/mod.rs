@@ -72,8 +72,37 @@ pub struct ScenePath {
     pub moves: Vec<Move>,
     /// Lengths and times.
     pub totals: Option<Totals>,
-    /// The G-code; lines are counted from 1.
+    /// The G-code as `emit` writes it, with LF at the ends of lines, which are counted from 1.
     pub gcode: Option<String>,
+    /// The file that `emit` writes it to; `None` where it writes none.
+    pub written: Option<String>,
+    /// Why `emit` refuses to write a path without errors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<Said>,
+    /// The native program, where a post writes another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub native: Option<NativeText>,
+    /// Values without which there would be no program, and that nothing gives.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub examples: Vec<Example>,
+}
+
+/// The native text of a program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NativeText {
+    /// Its text.
+    pub gcode: String,
+    /// The line of each of [`ScenePath::moves`].
+    pub lines: Vec<Option<u32>>,
+}
+
+/// A value that a program was made with only to be shown.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Example {
+    /// A letter, or the name of an option.
+    pub name: String,
+    /// The value; `None` where there is none either, and what depends on it is not shown.
+    pub value: Option<String>,
 }
 
 /// A path where it lies in a program.

@@ -222,7 +222,7 @@ fn add(
     traced: &pathbuild_db::Traced,
     writing: &Writing,
 ) -> Result<Option<Arc<Program>>, Box<Diagnostic>> {
-    let Some(mut path) = program_scene(db, traced, writing)? else { return Ok(None) };
+    let Some(mut path) = program_scene(db, traced, writing, None)? else { return Ok(None) };
     let [x, y] = path.zero;
     let own = keep_outs(db, target.file(db)).iter();
     scene.keep_outs.extend(own.map(|clamp| view::keep_out(clamp, [-x, -y])));

@@ -47,8 +47,8 @@ pub use result_store::{
     BUILD, Coverage, Dependencies, DrawingResult, FreshResult, FurtherFile, Held, MadeOutput, OutputState,
     Question, ResultStore, Scope, hash_output, is_passing,
 };
-pub use scene::Seen;
 pub(crate) use scene::program_scene;
+pub use scene::{Seen, ShownText};
 pub use work::{Asking, CheckedTarget, Emitted};
 
 /// A database with the run's settings.

@@ -4,20 +4,23 @@ use std::slice;
 
 use camino::Utf8Path;
 use pathbuild_db::{
-    Db, DrawnPath, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path, file_index, in_force,
-    keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
+    Db, DrawnPath, Role, Settings, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path,
+    file_index, in_force, keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
 };
-use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_path::{InForce, KeepOut, PathName};
-use pathbuild_toolpath::Correction;
-use pathbuild_view::{self as view, DrawnSource, ProgramSource, Scene, ScenePath};
+use pathbuild_path::{InForce, KeepOut, PathName, PathRole};
+use pathbuild_toolpath::{Correction, Move, Step};
+use pathbuild_view::{
+    self as view, DrawnSource, EmittedText, Example, ProgramSource, Said, Scene, ScenePath,
+};
 
 use super::work::about;
 use super::{CheckedTarget, Session, Writing};
-use crate::emit::writing;
+use crate::emit::{program_text, writing};
 use crate::findings::Findings;
+use crate::posting::PostProcessor;
 use crate::workspace::Workspace;
 
 /// A scene, and what is wrong with what it shows.
@@ -27,6 +30,15 @@ pub struct Seen {
     pub scene: Scene,
     /// What is wrong, located.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Which text of a program is shown with its moves.
+#[derive(Clone, Copy, Debug)]
+pub enum ShownText<'a> {
+    /// The native one.
+    Native,
+    /// What `emit` writes, natively or through a post; the native one where it writes nothing.
+    Emitted(Option<&'a PostProcessor>),
 }
 
 /// What is known of a path's moves without a picture of them.
@@ -52,9 +64,9 @@ impl Seen {
 }
 
 impl Session<'_> {
-    /// What there is to see of some paths of a drawing. Where options are missing, and of paths with variables, the program is that of a
+    /// What there is to see of some paths of a drawing, with their texts. Where options are missing, and of paths with variables, the program is that of a
     /// check: with example values, and S as if it were embedded.
-    pub fn scene(&self, file: SourceFile, names: &[PathName]) -> Seen {
+    pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> Seen {
         let name = file.path(&self.db).as_str();
         let title = match names {
             [path] => path.as_str(),
@@ -66,7 +78,7 @@ impl Session<'_> {
             .keep_outs
             .extend(keep_outs(&self.db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
         for path in names {
-            let (seen, found, clamps) = self.scene_path(file, path);
+            let (seen, found, clamps) = self.scene_path(file, path, text);
             let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
             scene.keep_outs.extend(clamps.iter().map(|clamp| view::keep_out(clamp, zero)));
             scene.paths.extend(seen);
@@ -89,14 +101,35 @@ impl Session<'_> {
         &self,
         file: SourceFile,
         name: &PathName,
+        text: ShownText<'_>,
     ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
         let checked =
             self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(self.context);
+        // Without a rapid feed, and of what is only checked, `emit` writes nothing: the text is a preview.
+        let is_written = *checked.target.role(&self.db) == Role::Emitted
+            && self.context.settings.general.rapid.value.is_some();
+        let (emitted, refusal) = match text {
+            ShownText::Native => (None, None),
+            ShownText::Emitted(poster) => match program_text(self, poster, &checked) {
+                Ok(emitted) => (emitted, None),
+                Err(problems) => (None, problems.iter().find(|it| it.is_error() && is_written).map(said)),
+            },
+        };
+        let shown = emitted.as_ref().map(|emitted| EmittedText {
+            file: is_written.then_some(emitted.file.as_str()),
+            bytes: &emitted.bytes,
+            dialect: emitted.dialect,
+            is_posted: matches!(text, ShownText::Emitted(Some(_))),
+        });
         let work = |db: &pathbuild_db::Database, target: &Target| -> Result<_, Box<Diagnostic>> {
             let Some(traced) = traced_program(db, *target) else { return Ok(None) };
-            let scene = program_scene(db, traced, writing)?;
+            let mut scene = program_scene(db, traced, writing, shown)?;
+            if let Some(scene) = &mut scene {
+                scene.examples = examples(db, traced, writing);
+                scene.refusal = refusal.clone();
+            }
             let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
         };
@@ -147,6 +180,34 @@ fn stops_making(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
+/// A finding's message in both languages.
+fn said(problem: &Diagnostic) -> Said {
+    Said { en: problem.text(Lang::En), de: problem.text(Lang::De) }
+}
+
+/// The values that a program has only because it is shown: of variables, of S and of options that nothing gives.
+fn examples(db: &dyn Db, Traced { program, parts, .. }: &Traced, writing: &Writing) -> Vec<Example> {
+    let Some(root) = parts.first() else { return Vec::new() };
+    let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
+    let mut examples: Vec<Example> =
+        root.bindings.iter().map(|(name, value)| example(name.to_string(), Some(value))).collect();
+    if root.path.sweep_height(&Settings::get(db).fold(db), PathRole::Emitted).is_none() {
+        let height = Number(program.sweep_height).to_string();
+        examples.push(example("S".to_owned(), Some(&height)));
+    }
+    let has_no_feed = |step: &Step| {
+        let Step::Move { to, .. } = step else { return false };
+        matches!(to, Move::Drill { feed, .. } | Move::Line { feed, .. } | Move::Arc { feed, .. } if *feed <= 0.0)
+    };
+    if program.steps.iter().any(has_no_feed) {
+        examples.push(example("feed".to_owned(), None));
+    }
+    if writing.options.rapid <= 0.0 {
+        examples.push(example("rapid".to_owned(), None));
+    }
+    examples
+}
+
 /// What is drawn in a drawing.
 fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     let mut scene = Scene::new(file.path(db).file_name().unwrap_or_default());
@@ -165,6 +226,7 @@ pub(crate) fn program_scene(
     db: &dyn Db,
     traced: &Traced,
     writing: &Writing,
+    emitted: Option<EmittedText<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let Traced { program, trace, parts } = traced;
     // The first is the path that is emitted.
@@ -183,7 +245,14 @@ pub(crate) fn program_scene(
     let options = WriteOptions { correction, ..writing.options };
     let text = Writing { options, ..*writing }.text(program, &Header::default())?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
-    Ok(Some(view::program_path(&ProgramSource { program, trace, parts: &sources, text: &text, rapid })))
+    Ok(Some(view::program_path(&ProgramSource {
+        program,
+        trace,
+        parts: &sources,
+        text: &text,
+        emitted,
+        rapid,
+    })))
 }
 
 fn drawn_source<'db>(

@@ -10,8 +10,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use pathbuild_view::Shown;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
-use pathbuild_workspace::posting::PostProcessor;
-use pathbuild_workspace::session::Session;
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::{Session, ShownText};
 use pathbuild_workspace::watch::{Beginning, Bell, Listener, Update};
 use serde_json::{Value, json};
 
@@ -49,7 +49,11 @@ impl<'a> Page<'a> {
                 Some(path) => vec![all.iter().find(|name| name.as_str() == path)?.clone()],
             };
             let file_name = file.path(session.db()).as_str();
-            Some(session.scene(file, &names).judged(self.context, file_name).0)
+            let poster = PostProcessor::of_run(self.context, None, PostArguments::default());
+            // A post that cannot be read is among the problems of the whole library.
+            let text =
+                poster.as_ref().map_or(ShownText::Native, |poster| ShownText::Emitted(poster.as_ref()));
+            Some(session.scene(file, &names, text).judged(self.context, file_name).0)
         })?;
         Some(match form {
             Form::Scene => scene.to_json(),

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
-use pathbuild_workspace::session::Session;
+use pathbuild_workspace::session::{Session, ShownText};
 use pathbuild_workspace::{Inputs, Workspace};
 
 use super::revision::{self, Revision};
@@ -145,7 +145,7 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
                 Failure::Found(problems)
             });
         };
-        let seen = session.scene(path.file, std::slice::from_ref(&path.name));
+        let seen = session.scene(path.file, std::slice::from_ref(&path.name), ShownText::Native);
         if seen.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(Failure::Found(seen.diagnostics));
         }

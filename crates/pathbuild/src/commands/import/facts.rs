@@ -33,9 +33,11 @@ impl<'a> Facts<'a> {
     }
 
     /// The compatible time in whole minutes; of cutting moves only where the rapid feed is not known. (book: program/gcode)
-    pub(super) fn minutes(&self) -> f64 {
+    /// `None` where a cutting move has no feed.
+    pub(super) fn minutes(&self) -> Option<f64> {
         let total = &self.summary.total;
-        self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes()
+        let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();
+        Some(minutes).filter(|minutes| minutes.is_finite())
     }
 }
 

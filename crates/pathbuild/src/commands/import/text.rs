@@ -117,15 +117,20 @@ impl Say<'_> {
     }
 
     fn time(&self, facts: &Facts<'_>) -> String {
-        let minutes = facts.minutes();
-        let mut time = match facts.rapid {
-            Some(rapid) => format!(
+        let mut time = match (facts.minutes(), facts.rapid) {
+            (None, _) => self
+                .is(
+                    "not known: a cutting move has no feed",
+                    "unbekannt: einer Schnittbewegung fehlt der Vorschub",
+                )
+                .to_owned(),
+            (Some(minutes), Some(rapid)) => format!(
                 "{} {minutes:.0} min, {} {}",
                 self.is("about", "etwa"),
                 self.is("rapid at", "Eilgang mit"),
                 Number(rapid).prose(self.0.lang())
             ),
-            None => format!(
+            (Some(minutes), None) => format!(
                 "{} {minutes:.0} min {}",
                 self.is("about", "etwa"),
                 self.is(

@@ -8,7 +8,8 @@ use pathbuild_path::PathName;
 use pathbuild_view::{GcodeSource, Scene, gcode_path};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::files::is_there;
-use pathbuild_workspace::session::{self, Session};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::{self, Session, ShownText};
 
 use crate::args::ViewArgs;
 use crate::commands::program::Program;
@@ -73,7 +74,9 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
                 return Err(Failure::Usage(reason));
             }
         };
-    let mut what = session.scene(file, &names);
+    let poster = PostProcessor::of_run(session.workspace(), None, PostArguments::default());
+    let poster = poster.map_err(Failure::Found)?;
+    let mut what = session.scene(file, &names, ShownText::Emitted(poster.as_ref()));
     if names.is_empty() && !what.diagnostics.iter().any(Diagnostic::is_error) {
         let problem = Diagnostic::new(&outputs::NO_PATH).with("pattern", "path-pattern");
         what.diagnostics.push(problem.in_file(file.path(db)));

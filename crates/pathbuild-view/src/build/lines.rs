@@ -1,0 +1,84 @@
+//! Which line of a text makes a program's moves. A post may write other rapid moves than the native program, cycles for holes, and several
+//! lines for a move, so that lines are found by where moves end.
+
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Axes, Heights, Move, Options, Pace, Position, interpret_each};
+
+/// Tolerance in mm within which two ends are one place: above what inches with four decimals lose.
+const SAME_PLACE: f64 = 0.006;
+
+/// Number of moves of the text that are searched for the end of one move.
+const SEARCHED: usize = 4096;
+
+/// For each move of a program, the line that makes it in a text that was written from it; `None` where none is found.
+pub(super) fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let mut written: Vec<(u32, Move)> = Vec::new();
+    interpret_each(text, dialect, &options, &mut |step| {
+        // What leads to the first position that is wholly known belongs to the frame.
+        if let Some((line, it)) = step.as_move()
+            && (!written.is_empty() || it.from.known == Axes::ALL)
+        {
+            written.push((line, it));
+        }
+    });
+    let mut finder = Finder { written: &written, next: 0, last: None };
+    moves.iter().map(|it| finder.line(it)).collect()
+}
+
+struct Finder<'a> {
+    written: &'a [(u32, Move)],
+    /// The first written move that belongs to no move yet.
+    next: usize,
+    last: Option<u32>,
+}
+
+impl Finder<'_> {
+    fn line(&mut self, it: &Move) -> Option<u32> {
+        match it.pace {
+            Pace::Rapid => self.rapid(it),
+            Pace::Feed(_) | Pace::Probe { .. } => self.cut(it),
+        }
+    }
+
+    /// The first line of a cut, which ends where the last of its pieces does.
+    fn cut(&mut self, it: &Move) -> Option<u32> {
+        let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
+        let rest = &self.written[self.next..self.written.len().min(self.next + SEARCHED)];
+        let ends = |candidate: &(u32, Move)| is_cut(candidate) && is_same(&candidate.1.to, &it.to, Axes::ALL);
+        let end = rest.iter().position(ends)?;
+        let first = rest[..=end].iter().find(|candidate| is_cut(candidate))?.0;
+        self.next += end + 1;
+        self.last = Some(first);
+        Some(first)
+    }
+
+    /// A rapid move before the next cut with the same ends, else with the same end, else in the same direction; where a line stands for
+    /// several, the line of the one before.
+    fn rapid(&mut self, it: &Move) -> Option<u32> {
+        let rest = &self.written[self.next..];
+        let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
+        let rapids: Vec<&Move> = rapids.take(SEARCHED).map(|(_, written)| written).collect();
+        let moved = if it.is_upright() { Axes::Z } else { Axes::XY };
+        let has_both = |written: &&Move| {
+            is_same(&written.from, &it.from, Axes::ALL) && is_same(&written.to, &it.to, Axes::ALL)
+        };
+        let has_end = |written: &&Move| is_same(&written.to, &it.to, Axes::ALL);
+        let has_part = |written: &&Move| is_same(&written.to, &it.to, moved);
+        let found = rapids.iter().position(has_both);
+        let found = found.or_else(|| rapids.iter().position(has_end));
+        let found = found.or_else(|| rapids.iter().position(has_part));
+        if let Some(found) = found {
+            self.last = Some(rest[found].0);
+            self.next += found + 1;
+        }
+        self.last
+    }
+}
+
+/// Whether two places are the same along some axes.
+fn is_same(a: &Position, b: &Position, axes: Axes) -> bool {
+    (0..3).filter(|axis| axes.has(Axes::of(*axis))).all(|axis| {
+        a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < SAME_PLACE
+    })
+}

@@ -1,0 +1,46 @@
+//! The text of a program as `emit` would write it, for pages that show it.
+
+use std::slice;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::Database;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::dialect::Dialect;
+
+use super::deliver::{JobFiles, OutputSettings, make};
+use super::job::{Job, Maker};
+use crate::config::types::SheetFormat;
+use crate::posting::PostProcessor;
+use crate::session::{CheckedTarget, Session};
+
+/// A program's file, in memory.
+pub(crate) struct ProgramText {
+    /// Where `emit` writes it.
+    pub(crate) file: Utf8PathBuf,
+    pub(crate) bytes: Vec<u8>,
+    /// How it is read.
+    pub(crate) dialect: Dialect,
+}
+
+/// The program that becomes of a checked path; `None` where the path has errors.
+///
+/// # Errors
+/// Why `emit` refuses to write it.
+pub(crate) fn program_text(
+    session: &Session<'_>,
+    poster: Option<&PostProcessor>,
+    checked: &CheckedTarget,
+) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
+    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
+    let Some(job) = maker.job(slice::from_ref(checked))? else { return Ok(None) };
+    let settings = OutputSettings::new(session.workspace(), poster);
+    let work = |db: &Database, job: &Job| make(db, job, &settings);
+    let made = session.guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
+    let made = made.map_err(|problem| vec![*problem])?;
+    // A text of which no dialect is known is read as one in RS274's words, as when it is read back.
+    let dialect = poster.map_or(Dialect::Native, |poster| poster.reader().unwrap_or(Dialect::LinuxCnc));
+    match made.outputs.into_iter().find(|output| output.kind.is_program()) {
+        Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
+        None => Err(made.delivered.problems),
+    }
+}
