@@ -260,7 +260,7 @@ fn values_that_nothing_gives_are_examples_and_times_without_them_are_left_out() 
     let (examples, minutes, is_preview, text) = seen(&[]);
     assert_eq!(
         examples,
-        r#"[{"name":"S","value":"8"},{"name":"feed","value":null},{"name":"rapid","value":null}]"#
+        r#"[{"name":"S","value":"7"},{"name":"feed","value":null},{"name":"rapid","value":null}]"#
     );
     assert!(minutes.is_null() && is_preview && !text.contains(" min)"), "{text}");
     let (examples, minutes, is_preview, text) = seen(&["--feed", "100", "--sweep-height", "9"]);
