@@ -153,7 +153,24 @@ impl Diagnostic {
 
     /// What diagnostics are ordered by wherever several are shown: file, path, place, code.
     pub fn sort_key(&self) -> impl Ord + '_ {
-        (&self.file, &self.path, self.place.line, &self.place, self.message.code, &self.text)
+        (
+            &self.file,
+            &self.path,
+            self.place.line,
+            &self.place,
+            self.message.code,
+            self.named_line(),
+            &self.text,
+        )
+    }
+
+    /// The line that the message names, of something that is no file.
+    fn named_line(&self) -> Option<u64> {
+        let line = self.arguments.iter().find(|(name, _)| *name == "line").map(|(_, value)| value);
+        match line {
+            Some(Value::Count(line)) if self.place.line.is_none() => Some(*line),
+            _ => None,
+        }
     }
 }
 

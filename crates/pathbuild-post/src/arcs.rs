@@ -60,6 +60,30 @@ impl Polar {
     }
 }
 
+impl Arc {
+    /// Moves the centre as far from the end as from the start, if it is nearly that.
+    pub(crate) fn centre(&mut self, plane: Plane) {
+        let [u, v, _] = plane.axes();
+        let radius = |end: [f64; 3]| libm::hypot(end[u] - self.centre[u], end[v] - self.centre[v]);
+        let difference = (radius(self.from) - radius(self.to)).abs();
+        let chord = [self.to[u] - self.from[u], self.to[v] - self.from[v]];
+        let square = chord[0] * chord[0] + chord[1] * chord[1];
+        if !(WIDEST_OF_MM..=WIDEST_OF_INCHES).contains(&difference) || square == 0.0 {
+            return;
+        }
+        let middle = [u, v].map(|axis| f64::midpoint(self.from[axis], self.to[axis]));
+        let aside = [self.centre[u] - middle[0], self.centre[v] - middle[1]];
+        let share = (aside[0] * chord[0] + aside[1] * chord[1]) / square;
+        self.centre[u] -= share * chord[0];
+        self.centre[v] -= share * chord[1];
+    }
+}
+
+/// By how many mm the radii of an arc may differ that is written in mm (NIST RS274/NGC).
+const WIDEST_OF_MM: f64 = 0.002;
+/// The same, of one in inches.
+const WIDEST_OF_INCHES: f64 = 0.005_08;
+
 /// How an arc's numbers are written.
 pub(crate) struct Rounding<'r> {
     /// A length in mm as the number that is written, in the unit that is written.

@@ -1,5 +1,6 @@
 //! A definition of either language, and what it writes.
 
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -8,6 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 use super::built_in::Language;
 use super::job::{Coolant, Job, Operation, Spindle};
 use super::options::{PostMacro, PostOptions};
+use super::origin::LineOrigin;
 use super::read_back::{self, Expected};
 use super::shadow::Unfollowed;
 use super::suggest::nearest;
@@ -59,8 +61,7 @@ impl Post {
             let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());
             return Err(vec![diagnostic.with("limit", LARGEST).in_file(file)]);
         }
-        let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
-            .map_err(|_| vec![Diagnostic::new(&posts::POST_NOT_UTF8).in_file(file)])?;
+        let text = &*decode(bytes).map_err(|error| vec![error.in_file(file)])?;
         let is_cambam = text.trim_start().starts_with('<') || file.extension() == Some("cbpp");
         let (engine, warnings) = if is_cambam {
             let (definition, warnings) = cambam::Definition::parse(text, file)?;
@@ -127,14 +128,14 @@ impl Post {
             post_build: None,
         };
         let target = target.as_ref();
-        let (shadow, unfollowed) = match &self.engine {
+        let (shadow, unfollowed, origins) = match &self.engine {
             Engine::CamBam(definition) => self.write_cambam(definition, job, target, options, &mut output)?,
             Engine::Cad6(definition) => {
                 let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.note_switches(&written.switches, job, options.spin_up);
-                (written.shadow, written.unfollowed)
+                (written.shadow, written.unfollowed, written.origins)
             }
         };
         output.text = target::plain(&output.text, target, options.charset);
@@ -151,7 +152,7 @@ impl Post {
             output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
         }
         let placed = |problems: Vec<Diagnostic>, text: &[u8]| {
-            let problems = problems.into_iter().map(|problem| read_back::in_output(problem, text));
+            let problems = problems.into_iter().map(|problem| read_back::in_output(problem, text, &origins));
             problems.map(|problem| problem.in_file(&self.file)).collect::<Vec<_>>()
         };
         let doubts = found.map_err(|errors| placed(errors, &output.text))?;
@@ -250,24 +251,46 @@ impl Post {
         target: Option<&Target>,
         options: &PostOptions<'_>,
         output: &mut Output,
-    ) -> Result<(String, Vec<Unfollowed>), Vec<Diagnostic>> {
-        let written = cambam::write(definition, &self.file, job, target, options)?;
+    ) -> Result<(String, Vec<Unfollowed>, Vec<LineOrigin>), Vec<Diagnostic>> {
+        let cambam::Written { written, post_build, leaves_out_coolant } =
+            cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
         output.warnings.extend(written.warnings);
-        if written.leaves_out_coolant {
+        if leaves_out_coolant {
             output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
         }
         if options.spin_up > 0.0 && definition.switches_spindle() && !definition.waits_for_spindle() {
             output.note(&posts::SPIN_UP_NOT_WRITTEN, "macro", "{$spindle(up)}");
         }
-        match written.post_build {
+        match post_build {
             Some(command) if !options.run_post_build => {
                 output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));
             }
             command => output.post_build = command,
         }
-        Ok((written.shadow, written.unfollowed))
+        Ok((written.shadow, written.unfollowed, written.origins))
     }
+}
+
+/// The text of a definition in UTF-8, or in UTF-16 with its mark, as some editors save XML.
+fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Diagnostic> {
+    let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        let text: Result<String, _> = char::decode_utf16(units).collect();
+        text.map(Cow::Owned).map_err(|_| Diagnostic::new(&posts::POST_NOT_UTF16))
+    };
+    match bytes {
+        [0xFF, 0xFE, rest @ ..] => return wide(rest, u16::from_le_bytes),
+        [0xFE, 0xFF, rest @ ..] => return wide(rest, u16::from_be_bytes),
+        [b'<' | b'[', 0, ..] => return wide(bytes, u16::from_le_bytes),
+        [0, b'<' | b'[', ..] => return wide(bytes, u16::from_be_bytes),
+        _ => {}
+    }
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    std::str::from_utf8(bytes).map(Cow::Borrowed).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        Diagnostic::new(&posts::POST_NOT_UTF8).at_line(u32::try_from(line).unwrap_or(u32::MAX), None)
+    })
 }
 
 /// A speed that belongs to a tool cannot change while the tool does not.

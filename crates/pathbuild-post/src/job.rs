@@ -97,6 +97,19 @@ impl Job {
         }
     }
 
+    /// Moves the centres of arcs as far from both ends, where they are not quite that: the numbers of a program in inches are rounded to
+    /// 0.0025 mm, which is more than arcs in millimetres may be wrong.
+    pub fn centre_arcs(&mut self) {
+        for operation in &mut self.operations {
+            let plane = operation.plane;
+            let arcs = operation.steps.iter_mut().filter_map(|step| match step {
+                Step::Arc(arc) => Some(arc),
+                _ => None,
+            });
+            arcs.for_each(|arc| arc.centre(plane));
+        }
+    }
+
     /// The tools in order of first use, each once.
     pub fn tools(&self) -> Vec<&Tool> {
         let mut seen = HashSet::new();

@@ -16,6 +16,7 @@ mod holes;
 mod job;
 mod number;
 mod options;
+mod origin;
 mod read_back;
 mod recognise;
 mod samples;

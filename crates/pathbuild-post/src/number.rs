@@ -13,6 +13,9 @@ pub(crate) struct NumberFormat {
     most: usize,
 }
 
+/// With fewer decimals coordinates are rounded to more than any cutter's accuracy.
+pub(crate) const FEWEST_DECIMALS: u8 = 2;
+
 /// More digits than any control reads, and than an `f64` has.
 const MOST_DIGITS: usize = 15;
 

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
+use super::origin::LineOrigin;
 use super::shadow::Unfollowed;
 use super::step::{Arc, Position, Step};
 use super::target::Target;
@@ -120,8 +121,8 @@ fn broken_rules(
     (broken, doubts)
 }
 
-/// Shows the line of the output that a problem is about: it is no line of the definition, and there will be no file.
-pub(super) fn in_output(mut problem: Diagnostic, output: &[u8]) -> Diagnostic {
+/// Shows the line of the output that a problem is about, and the place of the definition that wrote it: there will be no file.
+pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineOrigin]) -> Diagnostic {
     let Some(number) = problem.place.line.take() else { return problem };
     let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
     if problem.text.is_none()
@@ -130,11 +131,22 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8]) -> Diagnostic {
         let line = String::from_utf8_lossy(line.trim_ascii_end());
         problem.text = Some(TextFault::new(&line, 0..line.len()));
     }
-    if problem.message.code != posts::POST_DIFFERS.code {
+    if !says_line(&problem) {
         let arguments = vec![("line", u64::from(number).into())];
         problem.notes.push(Note { message: &posts::IN_OUTPUT, arguments });
     }
+    if let Some(LineOrigin { section, line }) = origins.get(index) {
+        let mut arguments = vec![("section", (*section).into())];
+        let message = if *line > 0 { &posts::WRITTEN_BY_LINE } else { &posts::WRITTEN_BY };
+        arguments.extend((*line > 0).then(|| ("at", u64::from(*line).into())));
+        problem.notes.push(Note { message, arguments });
+    }
     problem
+}
+
+/// Whether a message names the line of the output itself.
+fn says_line(problem: &Diagnostic) -> bool {
+    problem.arguments.iter().any(|(name, _)| *name == "line")
 }
 
 /// Each control has its own word for probing, which complains where nothing is met or does not: the way is the same.

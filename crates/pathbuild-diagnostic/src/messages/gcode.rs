@@ -760,10 +760,10 @@ messages! {
         help_en: "check I and J: they count from the arc's beginning, unless the file means absolute centres",
         help_de: "I und J prüfen: sie zählen ab dem Beginn des Bogens, außer die Datei meint absolute Mittelpunkte",
     }
-    /// Nearly 180 degrees by R.
+    /// By R, nearly 180 degrees or with few digits.
     NEAR_HALF_CIRCLE: DoubtfulArc {
-        en: "a half circle by R: its centre moves by {shift} mm when the last digit changes",
-        de: "ein Halbkreis mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer ändert",
+        en: "an arc by R: its centre moves by {shift} mm when the last digit of R changes",
+        de: "ein Bogen mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
         help_en: "write it with I and J",
         help_de: "mit I und J schreiben",
     }

@@ -3,10 +3,31 @@
 messages! {
     /// Bytes that are no text.
     POST_NOT_UTF8: InvalidPost {
-        en: "the definition is not UTF-8 text",
-        de: "die Definition ist kein UTF-8-Text",
-        help_en: "save the file as UTF-8",
-        help_de: "die Datei als UTF-8 speichern",
+        en: "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI",
+        de: "die Definition ist kein UTF-8-Text: diese Zeile hat ein Zeichen in einer anderen Kodierung, etwa ANSI",
+        help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
+        help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
+    }
+    /// A mark of UTF-16, but pairs that are none.
+    POST_NOT_UTF16: InvalidPost {
+        en: "the definition begins as UTF-16 text, but is none",
+        de: "die Definition beginnt wie UTF-16-Text, ist aber keiner",
+        help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
+        help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
+    }
+    /// Coordinates of whole millimetres.
+    COARSE_NUMBERS: DoubtfulPost {
+        en: "{option} is \"{value}\": coordinates are rounded to {decimals} decimals",
+        de: "{option} ist \"{value}\": Koordinaten werden auf {decimals} Nachkommastellen gerundet",
+        help_en: "write three decimals, such as NumberFormat 0.0## or decimals = 3",
+        help_de: "drei Nachkommastellen schreiben, etwa NumberFormat 0.0## oder decimals = 3",
+    }
+    /// `{units}`.
+    MACRO_WITHOUT_SIGN: UnknownMacro {
+        en: "{macro} in {section} would be written as it stands",
+        de: "{macro} in {section} würde so geschrieben, wie es dasteht",
+        help_en: "a macro has a dollar sign: {nearest}",
+        help_de: "ein Makro hat ein Dollarzeichen: {nearest}",
     }
     /// The XML or TOML parser's complaint.
     POST_SYNTAX: InvalidPost {
@@ -115,6 +136,13 @@ messages! {
     VALUE_MISSING: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
+    }
+    /// A value that the configuration or the definition may give.
+    VALUE_MISSING_OPEN: MissingPostValue {
+        en: "{macro} in {section} has no value in {operation}",
+        de: "{macro} in {section} hat in {operation} keinen Wert",
+        help_en: "no drawing says it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
+        help_de: "keine Zeichnung sagt ihn: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
     }
     /// Nothing written for it.
     DRILLING_LOST: LostDrilling {
@@ -306,6 +334,13 @@ messages! {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
     }
+    /// One that exists, but not here.
+    VARIABLE_WITHOUT_VALUE: UnknownMacro {
+        en: "{text}, line {line}, column {column}: {name} has no value here: {reason}",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} hat hier keinen Wert: {reason}",
+        help_en: "give it one, or ask first whether it exists, by a statement with \"!\"",
+        help_de: "ihr einen geben oder vorher mit einer Anweisung mit \"!\" fragen, ob es sie gibt",
+    }
     /// As above, but one is like it.
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
@@ -391,6 +426,13 @@ messages! {
         en: "{text}, line {line}, column {column}: \"{found}\" is no number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
+    /// A text among numbers.
+    TERM_IS_TEXT: InvalidControlText {
+        en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
+        de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",
+        help_en: "write the variable outside of a statement, or in one with s",
+        help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer mit s",
+    }
     /// Division by zero and the like.
     TERM_NOT_FINITE: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
@@ -457,6 +499,13 @@ messages! {
         de: "{operation} geht beim Fräsen von Z {from} nach Z {to}, aber der Text {text} hat kein ~Z1~",
         help_en: "add Z to the text; for a way straight down between passes, lift-between-passes = true also does (never for T-slot cutters)",
         help_de: "Z in den Text aufnehmen; für den Weg gerade hinab zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
+    }
+    /// A helix without Z.
+    NO_Z_IN_ARC: InvalidControlText {
+        en: "{operation} has a helix from Z {from} to Z {to}, but the text arc has no ~Z1~",
+        de: "{operation} hat eine Wendel von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
+        help_en: "add Z with ~Z1~ to the text arc; where the control knows no helix, to the text line, and it is written as lines",
+        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Wendel, in den Text line, dann werden es Strecken",
     }
     /// A text for what no program has.
     TEXT_NEVER_CALLED: InvalidControlText {
@@ -582,6 +631,16 @@ messages! {
     IN_OUTPUT: PostDiffers {
         en: "in line {line} of the output",
         de: "in Zeile {line} der Ausgabe",
+    }
+    /// A note: the text of the definition that wrote the line.
+    WRITTEN_BY_LINE: PostDiffers {
+        en: "it is written by {section}, line {at} of the definition",
+        de: "sie wird von {section} geschrieben, Zeile {at} der Definition",
+    }
+    /// The same, of a text that stands in for an absent one.
+    WRITTEN_BY: PostDiffers {
+        en: "it is written by {section}, as it is when the definition does not have it",
+        de: "sie wird von {section} geschrieben, so wie es gilt, wenn die Definition es nicht hat",
     }
     /// G55 and the like.
     JOB_SYSTEM: NothingToPost {

@@ -262,6 +262,10 @@ impl<'a> Builder<'a> {
             }
             return Ok(());
         }
+        if self.abilities.arc && arc.to[2] != arc.from[2] && !self.abilities.line_z {
+            let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).with("operation", &*self.present().name);
+            return Err(Box::new(diagnostic.with("from", arc.from[2]).with("to", arc.to[2])));
+        }
         let Some(count) = polar.chords(self.abilities.arc_tolerance) else {
             let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", MOST_CHORDS);
             return Err(Box::new(diagnostic.with("radius", polar.radius)));

@@ -14,6 +14,7 @@ use super::marks::is_private;
 use super::settings::{SETTINGS, Settings};
 use crate::Units;
 use crate::findings::{Findings, LineStarts};
+use crate::number::FEWEST_DECIMALS;
 use crate::suggest::nearest;
 
 /// A definition as its file has it.
@@ -225,6 +226,10 @@ impl ControlTextReader<'_> {
             let Some((_, setting)) = SETTINGS.iter().find(|(name, _)| *name == key) else { return };
             if (setting.set)(settings, value.get_ref()).is_none() {
                 reader.refuse(key, value, setting.expected);
+            } else if key == "decimals" && settings.decimals < usize::from(FEWEST_DECIMALS) {
+                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).with("option", key);
+                let diagnostic = diagnostic.with("value", settings.decimals.to_string());
+                reader.report(diagnostic.with("decimals", settings.decimals as u64), value.span());
             }
         });
     }

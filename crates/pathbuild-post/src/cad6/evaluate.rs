@@ -32,6 +32,10 @@ pub(super) struct ResultLine {
     pub(super) is_made: bool,
     /// Part of it comes from a file.
     pub(super) is_inserted: bool,
+    /// The byte of the expanded text where it begins.
+    pub(super) begins: usize,
+    /// The line of the definition's file that wrote it, from 1; 0 where that is not known.
+    pub(super) origin: u32,
 }
 
 /// What a text comes to.
@@ -96,11 +100,11 @@ impl<'a> Evaluator<'a> {
     }
 
     fn push(&mut self, c: char) {
-        let is_made = self.depth > 0;
+        let (is_made, begins) = (self.depth > 0, self.at);
         let line = self.line();
         match c {
             _ if is_mark(c) => line.is_made = true,
-            '\n' => self.lines.push(ResultLine { is_made, ..ResultLine::default() }),
+            '\n' => self.lines.push(ResultLine { is_made, begins, ..ResultLine::default() }),
             _ => line.text.push(c),
         }
     }
@@ -219,11 +223,46 @@ impl<'a> Evaluator<'a> {
     fn number(&mut self, start: usize) -> Evaluated<()> {
         let form = self.form();
         let length = self.rest().find(['}', '{']).unwrap_or(self.rest().len());
+        if let (Form::C(form), Some(text)) = (form, self.lone_text(length)) {
+            return self.text_in_form(form, text, length);
+        }
         let value = self.term(self.at..self.at + length)?;
         self.at += length;
         let text = form.write(value, self.surroundings.decimals);
         let text = text.ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
         self.line().text.push_str(&text);
+        Ok(())
+    }
+
+    /// The character of a text, where nothing else stands in the next part of a statement.
+    fn lone_text(&self, length: usize) -> Option<char> {
+        let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
+        let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
+        first.filter(|_| inside.next().is_none())
+    }
+
+    /// `{s ~PrgName~}`, `{-20s ~PrgName~}`: a text, with blanks beside it.
+    fn text_in_form(&mut self, form: CForm, text: char, length: usize) -> Evaluated<()> {
+        let width = self.surroundings.variables.text(text).map_or(0, |text| text.chars().count());
+        let Some([before, behind]) = form.blanks(width) else {
+            // Another form is a number's.
+            let found = self.surroundings.variables.text(text).unwrap_or("").to_owned();
+            let is_number = found.trim().parse::<f64>().is_ok_and(f64::is_finite);
+            if !is_number {
+                return Err(self.fault(&posts::TERM_IS_TEXT, length).with("found", found));
+            }
+            let value = self.term(self.at..self.at + length)?;
+            self.at += length;
+            let number = Form::C(form).write(value, self.surroundings.decimals);
+            let number = number.ok_or_else(|| self.fault(&posts::TERM_NOT_WHOLE, 0))?;
+            self.line().text.push_str(&number);
+            return Ok(());
+        };
+        self.at += length;
+        let line = self.line();
+        line.text.push_str(&" ".repeat(before));
+        line.text.push(text);
+        line.text.push_str(&" ".repeat(behind));
         Ok(())
     }
 
@@ -255,6 +294,10 @@ impl<'a> Evaluator<'a> {
         // A text may be a number, but no term.
         let plain = self.surroundings.variables.plain(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
+        let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);
+        if let Some(found) = found {
+            return Err(Fault::new(&posts::TERM_IS_TEXT, span).with("found", found));
+        }
         let term =
             evaluate(if is_number { &plain } else { text }).map_err(|fault| fault.shifted(span.start))?;
         self.doubts.extend(term.doubts.into_iter().map(|doubt| (span.start, doubt)));

@@ -21,7 +21,7 @@ pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
         };
         Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
     });
-    definition.texts().flat_map(|(kind, text)| of_text(kind, text, file)).chain(uncalled).collect()
+    uncalled.chain(definition.texts().flat_map(|(kind, text)| of_text(kind, text, file))).collect()
 }
 
 fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {

@@ -35,6 +35,7 @@ use runner::Runner;
 use super::PostOptions;
 use super::guard::Guard;
 use super::job::{Job, Units};
+use super::origin::LineOrigin;
 use super::shadow::{Shadow, Unfollowed};
 use super::target::Target;
 use super::words::{CommentMarks, words};
@@ -46,6 +47,8 @@ pub(super) struct Written {
     pub(super) shadow: String,
     /// The words of the text that its shadow does not have.
     pub(super) unfollowed: Vec<Unfollowed>,
+    /// Of each line.
+    pub(super) origins: Vec<LineOrigin>,
     /// What is doubtful in it.
     pub(super) warnings: Vec<Diagnostic>,
     /// The variables of switches that the texts have which were called.
@@ -68,9 +71,9 @@ pub(super) fn write(
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
     let called = runner.called();
     let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
-    let (text, warnings) = runner.finish();
+    let (text, origins, warnings) = runner.finish();
     let (shadow, unfollowed) = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(Written { text, shadow, unfollowed, warnings, switches })
+    Ok(Written { text, shadow, unfollowed, origins, warnings, switches })
 }
 
 fn shadow(text: &[u8], units: Units) -> (String, Vec<Unfollowed>) {

@@ -108,6 +108,12 @@ impl CForm {
         Some(self.pad(&text))
     }
 
+    /// The blanks in front of and behind a text of so many characters; `None` where this is no form of texts.
+    pub(super) fn blanks(self, length: usize) -> Option<[usize; 2]> {
+        let fill = self.width.saturating_sub(length);
+        (self.letter == 's').then_some(if self.left { [0, fill] } else { [fill, 0] })
+    }
+
     fn pad(self, text: &str) -> String {
         let fill = self.width.saturating_sub(text.len());
         match (self.left, self.zeros, text.strip_prefix('-')) {

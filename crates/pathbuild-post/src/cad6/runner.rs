@@ -14,9 +14,10 @@ use super::fault::Fault;
 use super::marks::byte_of;
 use super::report::locate;
 use super::term::Doubt;
-use super::variables::{KNOWN, Variables};
+use super::variables::{KNOWN, Variables, reason};
 use crate::PostFiles;
 use crate::guard::Guard;
+use crate::origin::LineOrigin;
 use crate::suggest::nearest;
 
 /// Success, or the diagnostic that ends the writing.
@@ -45,6 +46,8 @@ pub(super) struct Runner<'a> {
     pub(super) warnings: Vec<Diagnostic>,
     /// The texts that were called.
     called: Vec<ControlTextKind>,
+    /// Of each line.
+    origins: Vec<LineOrigin>,
 }
 
 impl<'a> Runner<'a> {
@@ -69,6 +72,7 @@ impl<'a> Runner<'a> {
             fuel: FUEL,
             warnings: Vec::new(),
             called: Vec::new(),
+            origins: Vec::new(),
         }
     }
 
@@ -80,7 +84,11 @@ impl<'a> Runner<'a> {
             self.called.push(kind);
         }
         for line in self.evaluate(kind, text)? {
+            let before = self.text.len();
             self.line(&line, kind)?;
+            let origin = LineOrigin { section: kind.name(), line: line.origin };
+            let count = line_ends(&self.text[before..]);
+            self.origins.extend(std::iter::repeat_n(origin, count));
         }
         Ok(())
     }
@@ -164,7 +172,7 @@ impl<'a> Runner<'a> {
             let at = expanded.origin(at);
             self.doubt(locate(Diagnostic::new(message(doubt)), kind, text, at..at + 1, self.file));
         }
-        Ok(lines)
+        Ok(with_origins(lines, &expanded, text))
     }
 
     fn doubt(&mut self, doubt: Diagnostic) {
@@ -188,6 +196,11 @@ impl<'a> Runner<'a> {
             }
             if name.as_deref().is_some_and(is_assigned) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;
+            } else if let Some(reason) =
+                name.as_deref().and_then(|name| reason(self.variables.own_name(name)))
+            {
+                diagnostic.message = &posts::VARIABLE_WITHOUT_VALUE;
+                diagnostic = diagnostic.with("reason", reason);
             }
         }
         Box::new(locate(diagnostic, kind, text, span, self.file))
@@ -199,9 +212,26 @@ impl<'a> Runner<'a> {
     }
 
     /// The content of the file.
-    pub(super) fn finish(self) -> (Vec<u8>, Vec<Diagnostic>) {
-        (self.text, self.warnings)
+    pub(super) fn finish(self) -> (Vec<u8>, Vec<LineOrigin>, Vec<Diagnostic>) {
+        (self.text, self.origins, self.warnings)
     }
+}
+
+/// The lines of a result with the lines of the file that wrote them.
+fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlText) -> Vec<ResultLine> {
+    let Some((first, _)) = text.begins else { return lines };
+    let ends: Vec<usize> = text.text.match_indices('\n').map(|(at, _)| at).collect();
+    for line in &mut lines {
+        let at = expanded.origin(line.begins);
+        let before = ends.partition_point(|end| *end < at);
+        line.origin = first + u32::try_from(before).unwrap_or(0);
+    }
+    lines
+}
+
+/// How many lines end in a text.
+fn line_ends(text: &[u8]) -> usize {
+    text.iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// A span of the expanded text as one of the control text.

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use pathbuild_diagnostic::Word;
+
 use super::marks::{MOST_TEXTS, char_of_text, is_private, text_of};
 
 /// The names that pathbuild sets, in the order in which they are documented.
@@ -67,6 +69,38 @@ pub(super) const KNOWN: &[&str] = &[
 /// Those whose text is no number.
 pub(super) const TEXTS: &[&str] = &["PrgName", "PathName", "SourceFile", "ToolName", "Date", "CommentText"];
 
+/// Why a variable that pathbuild sets has no value at some places; `None` if it sets no variable of that name.
+pub(super) fn reason(name: &str) -> Option<&'static Word> {
+    let reason = match name {
+        "MillingSpindleRate" => &Word {
+            en: "the tool has no spindle speed (spindle in [tool.NAME])",
+            de: "das Werkzeug hat keine Spindeldrehzahl (spindle in [tool.NAME])",
+        },
+        "Date" => &Word { en: "--date is not given", de: "--date ist nicht angegeben" },
+        "MachineToolNo" => &Word { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" },
+        "MovingVel" | "LoweringVel" => {
+            &Word { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
+        }
+        "XC" | "YC" | "IRel" | "JRel" | "Radius" | "StartAngle" | "EndAngle" | "SweepAngle" | "ArcDir" => {
+            &Word { en: "only the text arc has it", de: "nur der Text arc hat sie" }
+        }
+        "XB1" | "YB1" | "XB2" | "YB2" => &Word {
+            en: "only curves have it, and no program has any",
+            de: "nur Kurven haben sie, und kein Programm hat welche",
+        },
+        "PeckDepth" => &Word { en: "only cycle and point have it", de: "nur cycle und point haben sie" },
+        "DwellTime" => {
+            &Word { en: "only cycle, point and dwell have it", de: "nur cycle, point und dwell haben sie" }
+        }
+        "CommentText" => &Word { en: "only the text comment has it", de: "nur der Text comment hat sie" },
+        _ if KNOWN.contains(&name) => {
+            &Word { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
+        }
+        _ => return None,
+    };
+    Some(reason)
+}
+
 /// Whether a name is that of a parameter that every user may set: Q0, Q1 ..., T0, T1 ...
 pub(super) fn is_parameter(name: &str) -> bool {
     let digits = name.strip_prefix(['Q', 'T']);
@@ -91,7 +125,8 @@ impl Variables {
         Self { aliases, ..Self::default() }
     }
 
-    fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
+    /// pathbuild's name of a variable that the definition calls otherwise.
+    pub(super) fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
         self.aliases.get(name).map_or(name, |own| own)
     }
 

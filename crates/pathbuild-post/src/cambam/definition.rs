@@ -14,6 +14,7 @@ use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts};
 use crate::job::Units;
+use crate::number::FEWEST_DECIMALS;
 
 /// A definition as its file has it.
 #[derive(Clone, Debug)]
@@ -200,12 +201,30 @@ impl<'a> CbppReader<'a> {
 
     fn template(&mut self, section: Section, text: &str, line: u32) -> Option<Template> {
         match Template::parse(section, text, line) {
-            Ok(template) => Some(template),
+            Ok(template) => {
+                self.notice_bare_macros(&template);
+                Some(template)
+            }
             Err(errors) => {
                 for error in &errors {
                     self.findings.add(template_error(section, error, self.file));
                 }
                 None
+            }
+        }
+    }
+
+    /// `{units}` would be written as it stands.
+    fn notice_bare_macros(&mut self, template: &Template) {
+        if matches!(template.section, Section::Comment | Section::EndComment) {
+            return;
+        }
+        for (name, line) in template.in_braces() {
+            if is_built_in(name) {
+                let diagnostic = Diagnostic::new(&posts::MACRO_WITHOUT_SIGN);
+                let diagnostic =
+                    diagnostic.with("macro", format!("{{{name}}}")).with("nearest", format!("{{${name}}}"));
+                self.report(diagnostic.with("section", template.section.name()), line);
             }
         }
     }
@@ -237,6 +256,11 @@ impl<'a> CbppReader<'a> {
 
     fn option(&mut self, name: &str, text: &str, line: u32) {
         match self.definition.options.set(name, text) {
+            Ok(()) if name == "NumberFormat" && self.definition.decimals() < FEWEST_DECIMALS => {
+                let decimals = u64::from(self.definition.decimals());
+                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).with("option", name);
+                self.report(diagnostic.with("value", text.trim()).with("decimals", decimals), line);
+            }
             Ok(()) => {}
             Err(Refusal::Unknown) => {
                 self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);

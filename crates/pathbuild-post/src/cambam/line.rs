@@ -1,6 +1,7 @@
 //! The line that is being written.
 
 use super::registers::{Code, Register};
+use super::section::Section;
 
 /// The line that is being written.
 #[derive(Debug, Default)]
@@ -18,6 +19,8 @@ pub(super) struct Line {
     pub(super) turned: Vec<Register>,
     /// The motion that a macro stood for.
     pub(super) code: Option<Code>,
+    /// The section and the line of the definition's file that begin it.
+    pub(super) origin: Option<(Section, u32)>,
     /// It asks for the number of a tool where the program names none: such a line is not written.
     pub(super) names_no_tool: bool,
     /// Something was left out at the end of the text; whether blanks stood before it.

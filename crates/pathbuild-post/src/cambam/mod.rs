@@ -31,11 +31,10 @@ pub(super) use definition::Definition;
 use macros::{Macro, State};
 use plan::Plan;
 use template::Template;
-use writer::Writer;
+use writer::{Writer, WrittenText};
 
 use super::PostOptions;
 use super::job::Job;
-use super::shadow::Unfollowed;
 use super::target::Target;
 
 /// Writes a job that has operations.
@@ -49,26 +48,13 @@ pub(super) fn write(
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
-    let (text, (shadow, unfollowed), warnings) = Writer::new(&plan).run().map_err(one)?;
-    Ok(Written {
-        text,
-        shadow,
-        unfollowed,
-        warnings,
-        post_build,
-        leaves_out_coolant: leaves_out_coolant(&plan),
-    })
+    let written = Writer::new(&plan).run().map_err(one)?;
+    Ok(Written { written, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
 /// What the engine wrote.
 pub(super) struct Written {
-    pub(super) text: String,
-    /// What the text says, in the words of RS274.
-    pub(super) shadow: String,
-    /// The words of the text that its shadow does not have.
-    pub(super) unfollowed: Vec<Unfollowed>,
-    /// What is doubtful in it.
-    pub(super) warnings: Vec<Diagnostic>,
+    pub(super) written: WrittenText,
     /// The definition's own command.
     pub(super) post_build: Option<Vec<String>>,
     /// The program says what the coolant does, and the definition has no macro for that.

@@ -188,11 +188,18 @@ fn positive(value: &str) -> Read<f64> {
     length(value).ok().filter(|length| *length > 0.0).ok_or(Refusal::Expected("a number above 0"))
 }
 
-/// `\r` and `\n` stand for themselves or for the characters that they name.
+/// `\r` and `\n` stand for themselves or for the characters that they name. Signs may stand in front, such as ` *` or `;`, but no words.
 fn end_of_line(text: &str) -> Read<Box<str>> {
     let value = text.trim_matches([' ', '\t']).replace("\\r", "\r").replace("\\n", "\n");
-    let is_end = !value.is_empty() && value.len() <= 2 && value.chars().all(|c| matches!(c, '\r' | '\n'));
-    if is_end { Ok(value.into()) } else { Err(Refusal::Expected("made of \\r and \\n")) }
+    let sign = value.trim_end_matches(['\r', '\n']);
+    let end = &value[sign.len()..];
+    let is_sign = sign.len() <= 8 && sign.chars().all(|c| c.is_ascii_punctuation() || c == ' ');
+    if !is_sign || end.is_empty() || end.len() > 2 {
+        return Err(Refusal::Expected("made of \\r and \\n, with at most signs in front"));
+    }
+    // Blanks in front of a sign belong to it.
+    let blanks = if sign.is_empty() { 0 } else { text.len() - text.trim_start_matches([' ', '\t']).len() };
+    Ok(format!("{}{value}", " ".repeat(blanks.min(8))).into())
 }
 
 fn extension(value: &str) -> Read<Box<str>> {

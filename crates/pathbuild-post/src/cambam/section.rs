@@ -27,6 +27,21 @@ macro_rules! sections {
                 }
             }
 
+            /// Whether it holds lines, not words of a line.
+            pub(super) fn holds_lines(self) -> bool {
+                use Section::{
+                    ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Custom, Drill, DrillDwell, DrillPeck, Dwell,
+                    EndCut, FeedMove, Footer, Header, Mop, PostFile, Probe, Rapid, StartCut, ToolChange,
+                    ToolTableItem, UserMacro,
+                };
+                matches!(
+                    self,
+                    ArcCcw | ArcCw | CannedCycleEnd | CannedCycleStart | Custom | Drill | DrillDwell | DrillPeck
+                        | Dwell | EndCut | FeedMove | Footer | Header | Mop | PostFile | Probe | Rapid | StartCut
+                        | ToolChange | ToolTableItem | UserMacro
+                )
+            }
+
             /// The text that holds when the element is absent.
             pub(super) fn default_text(self) -> &'static str {
                 match self {

@@ -17,7 +17,12 @@ pub(super) struct Template {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TemplatePart {
     /// Stands as it is; may hold line feeds.
-    Text(Box<str>),
+    Text {
+        /// The text.
+        text: Box<str>,
+        /// 1-based line of the definition's file where it begins; 0 as of macros.
+        line: u32,
+    },
     /// Stands for something.
     Macro {
         /// For what.
@@ -49,7 +54,7 @@ impl Template {
     /// Its text without macros.
     pub(super) fn literal(&self) -> String {
         let literal = |piece: &TemplatePart| match piece {
-            TemplatePart::Text(text) => text.to_string(),
+            TemplatePart::Text { text, .. } => text.to_string(),
             TemplatePart::Macro { .. } => String::new(),
         };
         self.pieces.iter().map(literal).collect()
@@ -65,14 +70,30 @@ impl Template {
 
     /// Whether nothing at all can come out.
     pub(super) fn is_blank(&self) -> bool {
-        self.pieces.iter().all(|piece| matches!(piece, TemplatePart::Text(text) if text.trim().is_empty()))
+        self.pieces
+            .iter()
+            .all(|piece| matches!(piece, TemplatePart::Text { text, .. } if text.trim().is_empty()))
+    }
+
+    /// What stands between single braces, with its line: `{units}` is a macro without its `$`.
+    pub(super) fn in_braces(&self) -> impl Iterator<Item = (&str, u32)> {
+        let texts = self.pieces.iter().filter_map(|piece| match piece {
+            TemplatePart::Text { text, line } => Some((text, *line)),
+            TemplatePart::Macro { .. } => None,
+        });
+        texts.flat_map(|(text, first)| {
+            (first..).zip(text.split('\n')).flat_map(|(line, text)| {
+                let names = text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0));
+                names.map(move |name| (name, line))
+            })
+        })
     }
 
     /// The macros in it, with their lines.
     pub(super) fn macros(&self) -> impl Iterator<Item = (&Macro, u32)> {
         self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Macro { what, line } => Some((what, *line)),
-            TemplatePart::Text(_) => None,
+            TemplatePart::Text { .. } => None,
         })
     }
 }
@@ -100,8 +121,8 @@ impl Parser {
         if text.is_empty() {
             return;
         }
+        self.pieces.push(TemplatePart::Text { text: text.into(), line: self.line });
         self.count_lines(text);
-        self.pieces.push(TemplatePart::Text(text.into()));
     }
 
     fn call(&mut self, call: &str) {
@@ -114,6 +135,9 @@ impl Parser {
     }
 
     fn count_lines(&mut self, text: &str) {
+        if self.line == 0 {
+            return;
+        }
         let lines = text.bytes().filter(|&byte| byte == b'\n').count();
         self.line += u32::try_from(lines).unwrap_or(0);
     }

@@ -88,8 +88,10 @@ impl Writer<'_> {
             self.line.leave_out();
             return Ok(());
         }
-        let diagnostic = Diagnostic::new(&posts::VALUE_MISSING)
+        let message = if value.is_open() { &posts::VALUE_MISSING_OPEN } else { &posts::VALUE_MISSING };
+        let diagnostic = Diagnostic::new(message)
             .with("macro", framed(value.name()))
+            .with("name", value.name())
             .with("operation", &*self.operation().name);
         Err(Box::new(self.plan.locate(diagnostic, section, line)))
     }

@@ -17,11 +17,25 @@ use super::template::{Template, TemplatePart};
 use crate::guard::Guard;
 use crate::job::{Feeds, Operation, Tool};
 use crate::number::NumberFormat;
+use crate::origin::LineOrigin;
 use crate::shadow::{Shadow, Unfollowed};
 use crate::words::{CommentMarks, Word, Words, words};
 
 /// Success, or the diagnostic that ends the writing.
 pub(super) type Written = Result<(), Box<Diagnostic>>;
+
+/// What a writer wrote.
+pub(crate) struct WrittenText {
+    pub(crate) text: String,
+    /// What the text says, in the words of RS274.
+    pub(crate) shadow: String,
+    /// The words of the text that its shadow does not have.
+    pub(crate) unfollowed: Vec<Unfollowed>,
+    /// Of each line.
+    pub(crate) origins: Vec<LineOrigin>,
+    /// What is doubtful in it.
+    pub(crate) warnings: Vec<Diagnostic>,
+}
 
 /// User macros may contain each other so deep, and sections as well.
 const MOST_DEPTH: usize = 16;
@@ -53,6 +67,10 @@ pub(super) struct Writer<'a> {
     turned: [Option<bool>; 3],
     /// Where the program has the tool, in the unit that is written, and the text that was written for it, by axis.
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
+    /// The place of the definition that is being written: a section and a line of its file.
+    place: (Section, u32),
+    /// Of each line that was written.
+    origins: Vec<LineOrigin>,
     /// The least and the greatest angle of paths that are wrapped round a cylinder, in degrees.
     pub(super) angles: Option<[f64; 2]>,
     /// What is wrong with a line that was written.
@@ -84,6 +102,8 @@ impl<'a> Writer<'a> {
             shadow: Shadow::new(plan.job.units, plan.definition.options.absolute_centres),
             turned: [None; 3],
             own: [None, None, None],
+            place: (Section::PostFile, 0),
+            origins: Vec::new(),
             angles: None,
             fault: None,
             depth: [0; 2],
@@ -103,9 +123,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The text of the whole file, its shadow, and what is doubtful in it.
-    pub(super) fn run(
-        mut self,
-    ) -> Result<(String, (String, Vec<Unfollowed>), Vec<Diagnostic>), Box<Diagnostic>> {
+    pub(super) fn run(mut self) -> Result<WrittenText, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
         if let Some(fault) = self.fault {
@@ -114,7 +132,9 @@ impl<'a> Writer<'a> {
         if let Some([least, most]) = self.angles.filter(|[least, most]| most - least > FULL_TURN) {
             self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
         }
-        Ok((self.lines.finish(), self.shadow.finish(), self.warnings))
+        let (shadow, unfollowed) = self.shadow.finish();
+        let Self { origins, warnings, .. } = self;
+        Ok(WrittenText { text: self.lines.finish(), shadow, unfollowed, origins, warnings })
     }
 
     /// The feeds of the present operation.
@@ -154,12 +174,25 @@ impl<'a> Writer<'a> {
         self.depth[kind] += 1;
         for piece in &template.pieces {
             match piece {
-                TemplatePart::Text(text) => self.text(text)?,
-                TemplatePart::Macro { what, line } => self.expand(what, template.section, *line)?,
+                TemplatePart::Text { text, line } => {
+                    self.enter(template.section, *line);
+                    self.text(text)?;
+                }
+                TemplatePart::Macro { what, line } => {
+                    self.enter(template.section, *line);
+                    self.expand(what, template.section, *line)?;
+                }
             }
         }
         self.depth[kind] -= 1;
         Ok(())
+    }
+
+    /// Notes which place of the definition is being written. Words belong to the text that their line stands in.
+    fn enter(&mut self, section: Section, line: u32) {
+        if section.holds_lines() {
+            self.place = (section, line);
+        }
     }
 
     fn expand(&mut self, what: &'a Macro, section: Section, line: u32) -> Written {
@@ -275,12 +308,22 @@ impl<'a> Writer<'a> {
             return Err(too_large(most));
         }
         let mut parts = text.split('\n');
-        self.line.push(parts.next().unwrap_or(""));
+        self.push(parts.next().unwrap_or(""));
         for part in parts {
             self.end_line();
-            self.line.push(part);
+            if self.place.1 > 0 {
+                self.place.1 += 1;
+            }
+            self.push(part);
         }
         Ok(())
+    }
+
+    fn push(&mut self, text: &str) {
+        if self.line.origin.is_none() && !text.trim().is_empty() {
+            self.line.origin = Some(self.place);
+        }
+        self.line.push(text);
     }
 
     /// Adds a text of a drawing, a file name or an option, so that no control acts on it.
@@ -329,6 +372,8 @@ impl<'a> Writer<'a> {
             line.code.filter(has_word).map(Code::number),
             self.turned[0] != self.turned[1],
         );
+        let (section, line) = line.origin.unwrap_or(self.place);
+        self.origins.push(LineOrigin { section: section.name(), line });
         self.lines.push(&text);
     }
 

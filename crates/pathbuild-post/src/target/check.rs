@@ -72,6 +72,7 @@ impl Checker<'_> {
             return;
         }
         let diagnostic = diagnostic.with("dialect", self.target.name).with("line", self.number);
+        let diagnostic = diagnostic.at_line(u32::try_from(self.number).unwrap_or(u32::MAX), None);
         self.errors.push(diagnostic.with_text(TextFault::new(self.line, span)));
     }
 

@@ -321,7 +321,7 @@ fn what_is_wrong_in_a_text_is_an_error() {
             "~Radios~",
             "PB751 program-start, line 1, column 1: there is no variable Radios here (did you mean Radius?",
         ),
-        ("{.~X1~}", "PB751 program-start, line 1, column 3: there is no variable X1 here"),
+        ("{.~X1~}", "PB751 program-start, line 1, column 3: X1 has no value here: no move has been made yet"),
         ("~Q2~", "PB753 program-start, line 1, column 1: the text of Q2 names variables more than 32 deep"),
         ("a}", "PB759 program-start, line 1, column 2: this brace closes nothing"),
         ("{$a", "PB759 program-start, line 1, column 4: a statement is not closed"),
@@ -590,9 +590,7 @@ fn arcs_that_cannot_be_written_become_lines() {
     assert_eq!(calls(&with_z, steps.clone())[3..5], ["Z-1.5 line 7.071 7.071 F9 10", "Z-2 line 0 10 F9 01"]);
     let no_z = output(CALLS, &job(steps), &PostOptions::default()).unwrap_err();
     assert!(
-        texts(&no_z)[0].starts_with(
-            "PB759 mill goes from Z -1 to Z -1.056 while it mills, but the text line has no ~Z1~"
-        ),
+        texts(&no_z)[0].starts_with("PB759 mill has a helix from Z -1 to Z -2, but the text arc has no ~Z1~"),
         "{:?}",
         texts(&no_z)
     );

@@ -9,6 +9,7 @@ mod cambam_moves;
 mod cambam_outputs;
 mod control_text_ways;
 mod jobs;
+mod messages;
 mod mutilated;
 mod others_texts;
 mod read_programs;

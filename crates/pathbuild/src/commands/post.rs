@@ -154,6 +154,7 @@ fn output(
     if let Some(surface) = surface {
         job.set_surface(surface);
     }
+    job.centre_arcs();
     if let Some(feed) = poster.feed() {
         job.set_missing_feeds(feed);
     }

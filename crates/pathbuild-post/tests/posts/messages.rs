@@ -1,0 +1,181 @@
+//! What is said of definitions: which text wrote a line, why a value is missing, what is doubtful.
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_post::{Arc, Job, Post, PostOptions, Spindle, Step};
+
+use crate::support::{DIN, bare, definition, feed, job, rapid, read, read_toml, texts};
+
+/// The notes of findings.
+fn notes(found: &[Diagnostic]) -> Vec<String> {
+    found.iter().flat_map(|found| found.notes.iter().map(|note| note.text(Lang::En))).collect()
+}
+
+fn milled() -> Job {
+    let mut job =
+        job(vec![rapid(0.0, 0.0, 5.0), feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)]);
+    (job.operations[0].spindle, job.operations[0].speed) = (Some(Spindle::Clockwise), Some(1000.0));
+    job
+}
+
+#[test]
+fn a_finding_names_the_text_that_wrote_the_line() {
+    let text = bare("<Rapid/>\n<FeedMove>\n{$_g1} {$_f}\n  {$_x} {$_y}\n</FeedMove>");
+    let found = read(&text).unwrap().write(&milled(), &PostOptions::default()).unwrap_err();
+    assert!(
+        notes(&found).iter().any(|note| note.starts_with("it is written by FeedMove, line ")),
+        "{:?}",
+        notes(&found)
+    );
+    let text = DIN.replace("line = 'G01 X{+~X1~}", "line = 'G01 X{+~X1~+1}");
+    let line = 1 + text.lines().position(|line| line.starts_with("line =")).expect("the text");
+    let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    let found = read_toml(&text).write(&milled(), &options).unwrap_err();
+    let expected = format!("it is written by line, line {line} of the definition");
+    assert!(notes(&found).contains(&expected), "{:?}", notes(&found));
+    // A text that the definition does not have has no line.
+    let found = read(&definition("<Dialect>grbl</Dialect>"))
+        .unwrap()
+        .write(&milled(), &PostOptions::default())
+        .unwrap_err();
+    assert!(
+        notes(&found)
+            .contains(&"it is written by ToolChange, as it is when the definition does not have it".into()),
+        "{:?}",
+        notes(&found)
+    );
+}
+
+#[test]
+fn a_variable_that_exists_has_a_reason_for_having_no_value() {
+    let without = |line: &str| {
+        let text = DIN.replace("(tool ~ToolName~", &format!("{line} ~ToolName~"));
+        let mut job = milled();
+        job.operations[0].speed = None;
+        texts(&read_toml(&text).write(&job, &PostOptions::default()).unwrap_err())[0].clone()
+    };
+    assert!(
+        without("").contains("MillingSpindleRate has no value here: the tool has no spindle speed"),
+        "{}",
+        without("")
+    );
+    assert!(without("(~Date~)").contains("Date has no value here: --date is not given"));
+    assert!(without("(~XC~)").contains("XC has no value here: only the text arc has it"));
+    assert!(
+        without("(~MilingSpindleRate~)").contains("did you mean MillingSpindleRate?"),
+        "one that there is not"
+    );
+}
+
+#[test]
+fn texts_have_a_form_and_are_no_numbers() {
+    let head = |statement: &str| {
+        let text =
+            DIN.replace("'G17 G21 G90'", &format!("'({statement})\nG17 G21 G90'").replace('\'', "\'\'\'"));
+        read_toml(&text)
+            .write(&milled(), &PostOptions::default())
+            .map(|output| String::from_utf8(output.text).unwrap().lines().next().unwrap_or("").to_owned())
+    };
+    assert_eq!(head("{s ~PrgName~}").unwrap(), "(part)");
+    assert_eq!(head("{6s ~PrgName~}").unwrap(), "(  part)");
+    assert_eq!(head("{-6s ~PrgName~}.").unwrap(), "(part  .)");
+    for number in ["{#~PrgName~}", "{~PrgName~+1}", "{f ~PrgName~}"] {
+        let errors = texts(&head(number).unwrap_err());
+        assert!(errors[0].contains("\"part\" is a text, not a number"), "{number}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
+    let arc = Arc {
+        clockwise: false,
+        from: [9.0, 0.0, -1.0],
+        centre: [0.0; 3],
+        to: [-9.0, 0.0, -2.0],
+        feed: Some(100.0),
+    };
+    let mut job = milled();
+    job.operations[0].steps =
+        vec![rapid(9.0, 0.0, 5.0), feed(9.0, 0.0, -1.0), Step::Arc(arc), rapid(-9.0, 0.0, 5.0)];
+    let flat = |text: &str| DIN.replace(text, text.strip_suffix(" Z{+~Z1~}").unwrap_or(text));
+    let both = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
+    let both = both.replace("line = 'G01 X{+~X1~} Y{+~Y1~} Z{+~Z1~}", "line = 'G01 X{+~X1~} Y{+~Y1~}");
+    let found = texts(&read_toml(&both).write(&job, &PostOptions::default()).unwrap_err());
+    assert!(found[0].contains("the text arc has no ~Z1~"), "{found:?}");
+    let with_line = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
+    assert!(read_toml(&with_line).write(&job, &PostOptions::default()).is_ok(), "lines have Z");
+}
+
+#[test]
+fn doubtful_options_and_bare_macros_are_told() {
+    let warnings = |file: &str, text: &str| {
+        let post = Post::read(text.as_bytes(), Utf8Path::new(file));
+        post.and_then(|post| {
+            post.write(&milled(), &PostOptions { unchecked: true, ..PostOptions::default() })
+        })
+        .map_or_else(|errors| texts(&errors), |output| texts(&output.warnings))
+    };
+    for (format, is_coarse) in [("0", true), ("#", true), ("0.0", true), ("0.00", false), ("0.##", false)] {
+        let found = warnings("t.cbpp", &definition(&format!("<NumberFormat>{format}</NumberFormat>")));
+        assert_eq!(
+            found.iter().any(|it| it.contains("PB752 NumberFormat")),
+            is_coarse,
+            "{format}: {found:?}"
+        );
+    }
+    for (decimals, is_coarse) in [(0, true), (1, true), (2, false)] {
+        let found = warnings("t.toml", &DIN.replace("[text]", &format!("decimals = {decimals}\n[text]")));
+        assert_eq!(found.iter().any(|it| it.contains("PB752 decimals")), is_coarse, "{decimals}: {found:?}");
+    }
+    let bare = warnings("t.cbpp", &definition("<Header>{units} {$distancemode}</Header>"));
+    assert!(bare[0].contains("PB751 {units} in Header") && bare[0].contains("{$units}"), "{bare:?}");
+    assert_eq!(
+        warnings(
+            "t.cbpp",
+            &definition("<Header>{$units} {own}</Header><SuppressParserErrors>true</SuppressParserErrors>")
+        ),
+        Vec::<String>::new()
+    );
+    let open = warnings("t.cbpp", &definition("<Header>{$tool.length}</Header>"));
+    assert!(open[0].contains("PB754") && open[0].contains("under [macros]"), "{open:?}");
+}
+
+#[test]
+fn ends_of_lines_may_have_signs_in_front() {
+    let end = |end: &str| {
+        let text = bare("")
+            .replace("<EndOfLine>\\n</EndOfLine>", "")
+            .replace("\n</PostProcessor>", &format!("<EndOfLine>{end}</EndOfLine></PostProcessor>"));
+        let post = read(&text)?;
+        post.write(&milled(), &PostOptions { unchecked: true, ..PostOptions::default() })
+    };
+    for (text, expected) in [("\\r\\n", "\r\n"), (" *\\r\\n", " *\r\n"), (";\\n", ";\n")] {
+        let output = end(text).unwrap_or_else(|errors| panic!("{text}: {:?}", texts(&errors)));
+        let first = String::from_utf8(output.text).unwrap();
+        let first = first.split_inclusive('\n').next().unwrap();
+        assert!(first.ends_with(expected), "{text:?}: {first:?}");
+    }
+    for wrong in ["*", "M0\\n", "\\n\\n\\n", ""] {
+        assert!(end(wrong).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn utf_16_is_read_and_ansi_is_refused_with_advice() {
+    let text = bare("<Notes>für die Fräse</Notes>");
+    let wide = |mark: bool, unit: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        let mark = mark.then_some(0xFEFF);
+        mark.into_iter().chain(text.encode_utf16()).flat_map(unit).collect()
+    };
+    for bytes in [
+        wide(true, u16::to_le_bytes),
+        wide(true, u16::to_be_bytes),
+        wide(false, u16::to_le_bytes),
+        wide(false, u16::to_be_bytes),
+    ] {
+        assert!(Post::read(&bytes, Utf8Path::new("t.cbpp")).is_ok());
+    }
+    let ansi: Vec<u8> = text.chars().map(|c| u8::try_from(c).unwrap()).collect();
+    let found = texts(&Post::read(&ansi, Utf8Path::new("t.cbpp")).unwrap_err());
+    assert!(found[0].starts_with("3: PB750") && found[0].contains("save it as UTF-8"), "{found:?}");
+}
