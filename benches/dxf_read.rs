@@ -45,6 +45,7 @@ fn each<T>(files: &[Vec<u8>], read: impl Fn(&[u8]) -> T) {
 fn read_with(file: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
     let options = Options {
         keep_layer,
+        note_text: None,
         units: Units::Millimetres,
         approximate_curves: 0.0,
         max_entities: 2_000_000,

@@ -57,6 +57,7 @@ fn read_dxf(drawing: &Path) -> usize {
     let pattern = PathPattern::default();
     let options = Options {
         keep_layer: &|layer| pattern.layer(layer).is_some(),
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 2_000_000,

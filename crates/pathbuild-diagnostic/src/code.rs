@@ -65,6 +65,9 @@ codes! {
     115 JoinedEnds "joined-ends" Warning "PB115: ends joined within join-tolerance";
     116 DoubtfulText "doubtful-text" Warning "PB116: a text that nearly belongs to another element";
     117 InvalidKeepOut "invalid-keep-out" Error "PB117: a clamp whose outline or height is not clear";
+    118 NearlyDrilled "nearly-drilled" Warning "PB118: a circle hardly larger than the cutter";
+    119 TextOnOtherLayer "text-on-other-layer" Warning "PB119: a parameter text on a layer that is no path";
+    120 NearlyPathLayer "nearly-path-layer" Warning "PB120: a layer that is nearly a path layer";
     201 MissingParameter "missing-parameter" Error "PB201: needed, neither given nor inherited";
     202 UnknownParameter "unknown-parameter" Error "PB202: letter not known for this element";
     203 ParameterOutOfRange "parameter-out-of-range" Error "PB203: a value against its limits";
@@ -75,7 +78,8 @@ codes! {
     208 InvalidAtReference "invalid-at-reference" Error "PB208: @ with other letters, to no path, or to a path that uses @";
     209 InvalidRegex "invalid-regex" Error "PB209: E is no regular expression";
     210 ParameterWithoutEffect "parameter-without-effect" Warning "PB210: parameter without effect";
-    211 DoubtfulValue "doubtful-value" Warning "PB211: a value that is allowed and unlikely: B, D, I or F";
+    211 DoubtfulValue "doubtful-value" Warning "PB211: a value that is allowed and unlikely: B, D, I, F or W";
+    212 LostBars "lost-bars" Warning "PB212: support bars described, but none drawn";
     301 InvalidVariableDefinition "invalid-variable-definition" Error "PB301: invalid variable definition";
     302 MissingVariableValue "missing-variable-value" Error "PB302: missing variable value";
     303 UnknownVariable "unknown-variable" Error "PB303: value without definition, or reference to none";

@@ -57,6 +57,9 @@ pages! {
     JoinedEnds "PB115" example;
     DoubtfulText "PB116" example;
     InvalidKeepOut "PB117" example;
+    NearlyDrilled "PB118" example;
+    TextOnOtherLayer "PB119" example;
+    NearlyPathLayer "PB120" example;
     MissingParameter "PB201" example;
     UnknownParameter "PB202" example;
     ParameterOutOfRange "PB203" example;
@@ -68,6 +71,7 @@ pages! {
     InvalidRegex "PB209" example;
     ParameterWithoutEffect "PB210" example;
     DoubtfulValue "PB211" example;
+    LostBars "PB212" example;
     InvalidVariableDefinition "PB301" example;
     MissingVariableValue "PB302" example;
     UnknownVariable "PB303" example;

@@ -19,7 +19,7 @@ pub(crate) fn may_hold_wanted<'a>(
     let bytes = &blocks.bytes()[begin..];
     // Line numbers are counted on from the previous query, since a file may name a million layers.
     let mut counted = *blocks;
-    any_eight(bytes, |eight| {
+    any_digit(b'8', bytes, |eight| {
         let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
         let name = line_from(&bytes[at..], line_end);
         let line = || {
@@ -31,11 +31,21 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether `is` holds for the position of any 8 that may be a group code.
-fn any_eight(bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
+/// Whether any text (code 1) in these blocks satisfies `is`. `false` is certain, as above.
+pub(crate) fn has_text(blocks: &Pairs<'_>, is: &dyn Fn(&[u8]) -> bool) -> bool {
+    let line_end = blocks.line_end();
+    let bytes = &blocks.bytes()[blocks.consumed()..];
+    any_digit(b'1', bytes, |one| {
+        let behind = line_behind_code(bytes, one, line_end);
+        behind.is_some_and(|at| is(line_from(&bytes[at..], line_end)))
+    })
+}
+
+/// Whether `is` holds for the position of any such digit that may be a group code.
+fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
     let mut begin = 0;
     while let Some(window) = bytes.get(begin..).and_then(<[u8]>::first_chunk) {
-        let mut places = eights(window);
+        let mut places = digits(digit, window);
         while places != 0 {
             if is(begin + 1 + places.trailing_zeros() as usize) {
                 return true;
@@ -45,28 +55,28 @@ fn any_eight(bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
         begin += VECTOR;
     }
     let mut others = iter::once(0).chain(begin + 1..bytes.len());
-    others.any(|at| bytes.get(at) == Some(&b'8') && is(at))
+    others.any(|at| bytes.get(at) == Some(&digit) && is(at))
 }
 
 /// Number of bytes compared at once.
 const VECTOR: usize = 16;
 
-/// Bit mask of the inner bytes that are an `8` with neighbours that a group code could have: bit n for byte n + 1.
+/// Bit mask of the inner bytes that are this digit with neighbours that a group code could have: bit n for byte n + 1.
 #[inline]
-fn eights(window: &[u8; VECTOR + 2]) -> u32 {
+fn digits(digit: u8, window: &[u8; VECTOR + 2]) -> u32 {
     let bytes =
         |begin: usize| window[begin..].first_chunk().map_or(u8x16::splat(0), |bytes| u8x16::from(*bytes));
     let is = |bytes: u8x16, byte: u8| bytes.simd_eq(u8x16::splat(byte));
     let is_blank = |bytes: u8x16| bytes.simd_le(u8x16::splat(b' '));
     let before = bytes(0);
     let is_padding = is_blank(before) | is(before, b'0') | is(before, b'+');
-    (is_padding & is(bytes(1), b'8') & is_blank(bytes(2))).to_bitmask()
+    (is_padding & is(bytes(1), digit) & is_blank(bytes(2))).to_bitmask()
 }
 
-/// Start of the line after the one with this 8, if that line holds only a group code.
-fn line_behind_code(bytes: &[u8], eight: usize, line_end: u8) -> Option<usize> {
-    let length = rest_of_code(&bytes[eight + 1..], line_end)?;
-    is_begin_of_code(&bytes[..eight], line_end).then_some(eight + 1 + length)
+/// Start of the line after the one with this digit, if that line holds only a group code.
+fn line_behind_code(bytes: &[u8], digit: usize, line_end: u8) -> Option<usize> {
+    let length = rest_of_code(&bytes[digit + 1..], line_end)?;
+    is_begin_of_code(&bytes[..digit], line_end).then_some(digit + 1 + length)
 }
 
 /// Length of the line end at these bytes, if a code may end just before them.

@@ -7,7 +7,7 @@
 
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
-use crate::block_prefilter::may_hold_wanted;
+use crate::block_prefilter::{has_text, may_hold_wanted};
 use crate::code::Role;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
@@ -33,6 +33,10 @@ pub(crate) struct EntityReader<'a, 'o> {
     unseen_blocks: Option<Pairs<'a>>,
     /// Whether insertions on unwanted layers may bring something wanted.
     blocks_matter: bool,
+    /// The BLOCKS section, until it has been searched for texts that are to be noted.
+    unnoted_blocks: Option<Pairs<'a>>,
+    /// Whether a text on an unwanted layer was to be noted. Once there is one, no other is looked at.
+    pub(crate) has_noted_text: bool,
 }
 
 /// The space that entities are drawn in.
@@ -95,7 +99,17 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         blocks: Option<Pairs<'a>>,
     ) -> Self {
         let line_types = LineTypes::default();
-        Self { options, decoder, layers, line_types, fields, unseen_blocks: blocks, blocks_matter: false }
+        Self {
+            options,
+            decoder,
+            layers,
+            line_types,
+            fields,
+            unseen_blocks: blocks,
+            blocks_matter: false,
+            unnoted_blocks: blocks.filter(|_| !options.compatible),
+            has_noted_text: false,
+        }
     }
 
     /// The next entity that is or may be wanted. `None` at the record that ends the section or block, which stays the head.
@@ -172,8 +186,16 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         if self.is_in_paper_space() {
             return Ok(None);
         }
+        if want == Want::Note {
+            self.note_text();
+            return Ok(None);
+        }
         let layer = layer.unwrap_or_else(|| self.layers.id(b"0", || line, &mut self.decoder));
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
+            // It says no layer: all of it was read.
+            if self.notes_texts(kind) {
+                self.note_text();
+            }
             return Ok(None);
         }
         if kind == RecordKind::Insert && !self.insertion_matters(layer, space) {
@@ -196,12 +218,16 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         kind: RecordKind,
         space: Space,
     ) -> Result<(Want, Option<LayerId>), Stop<'a>> {
+        let notes_texts = self.notes_texts(kind);
         let Self { layers, decoder, fields, .. } = self;
         let mut found = None;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, || layer.line, decoder);
             found = Some(id);
-            want(layers, id, kind, space)
+            match want(layers, id, kind, space) {
+                Want::Skip if notes_texts => Want::Note,
+                want => want,
+            }
         };
         let (next, want) =
             fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
@@ -211,6 +237,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 
     /// Whether inserting a block on a layer may bring something wanted.
     fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
+        if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
+            self.has_noted_text = self.has_noted_text || has_text(&blocks, is_noted);
+        }
         if self.layers.is_kept(layer) || (space == Space::Block && self.layers.is_inheriting(layer)) {
             return true;
         }
@@ -218,6 +247,19 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             self.blocks_matter = may_hold_wanted(&blocks, &mut self.layers, &mut self.decoder);
         }
         self.blocks_matter
+    }
+
+    /// Notes the text on an unwanted layer that was just read.
+    fn note_text(&mut self) {
+        if let (Some(text), Some(is_noted)) = (self.fields.get(1), self.options.note_text) {
+            self.has_noted_text = is_noted(text.bytes);
+        }
+    }
+
+    fn notes_texts(&self, kind: RecordKind) -> bool {
+        matches!(kind, RecordKind::Text | RecordKind::MText)
+            && !self.has_noted_text
+            && self.options.note_text.is_some()
     }
 
     fn is_in_paper_space(&self) -> bool {

@@ -68,6 +68,8 @@ pub(crate) enum Want {
     Keep,
     /// Skip them.
     Skip,
+    /// Skip them, but keep a text (code 1).
+    Note,
 }
 
 /// Number of slots: one per role that keeps its value, and one for all others.
@@ -141,8 +143,10 @@ impl<'a> Fields<'a> {
             Role::BEGIN => return Ok(Some((group.pair(), Want::Keep))),
             Role::LAYER => {
                 let value = Value { bytes: group.value(), line: group.line(), entity: self.entity };
-                if want(value) == Want::Skip {
-                    return Ok(Some((groups.next_zero()?, Want::Skip)));
+                match want(value) {
+                    Want::Keep => {}
+                    Want::Skip => return Ok(Some((groups.next_zero()?, Want::Skip))),
+                    Want::Note => return Ok(Some((self.keep_text(groups)?, Want::Note))),
                 }
             }
             // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
@@ -153,6 +157,17 @@ impl<'a> Fields<'a> {
             _ => {}
         }
         Ok(None)
+    }
+
+    /// Stores the text among the remaining groups of the entity, if there is one. Returns the `0` of the next entity.
+    fn keep_text(&mut self, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
+        let text = Role::of(1);
+        let group = groups.pass_until(|role| role == text || role == Role::BEGIN, |_| {})?;
+        if group.role == Role::BEGIN {
+            return Ok(group.pair());
+        }
+        self.keep(&group);
+        groups.next_zero()
     }
 
     /// Whether repeated groups may have been dropped.

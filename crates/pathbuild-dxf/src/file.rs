@@ -154,6 +154,7 @@ impl<'a> File<'a> {
         if !records.head.is("ENDSEC") {
             return Err(not_ended("ENTITIES", &records.head));
         }
+        drawing.has_noted_text = reader.has_noted_text;
         drawing.diagnostics.extend(reader.decoder.into_doubt());
         drawing
             .diagnostics

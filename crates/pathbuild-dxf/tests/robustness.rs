@@ -51,6 +51,7 @@ const MOST: usize = 200;
 
 fn options(layers: &dyn Fn(&str) -> bool, tolerance: f64) -> Options<'_> {
     Options {
+        note_text: None,
         keep_layer: layers,
         units: Units::Drawing,
         approximate_curves: tolerance,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 
+use crate::approx::above;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
@@ -135,14 +136,54 @@ impl<'a> Grouped<'a> {
         }
         let parameters = first.cut(path).chain;
         match parameters.infeed {
-            Some(infeed) => items.push(Item::Chain(Chain {
-                infeed,
-                first_depth: parameters.first_depth,
-                members: *chained..members.len(),
-            })),
+            Some(infeed) => {
+                let chain =
+                    Chain { infeed, first_depth: parameters.first_depth, members: *chained..members.len() };
+                let doubt = chain.doubtful_first_depth(path, &members[*chained..]);
+                diagnostics.extend(doubt.filter(|doubt| is_new(diagnostics, doubt)));
+                items.push(Item::Chain(chain));
+            }
             None => diagnostics.push(first.without_infeed(path)),
         }
         *chained = members.len();
+    }
+}
+
+/// Whether a doubt about W is not yet among the diagnostics. The path's W is that of each of its chains.
+fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
+    let is_same = |known: &Diagnostic| {
+        (known.message, &known.arguments, &known.text) == (doubt.message, &doubt.arguments, &doubt.text)
+    };
+    doubt.text.is_some() || !diagnostics.iter().any(is_same)
+}
+
+impl Chain {
+    /// PB211 where W is outside of the material that the chain removes.
+    fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
+        // Others are reported as out of range.
+        let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
+        let first = members.first()?;
+        let bottom = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);
+        let problem = if above(depth, path.thickness) {
+            Diagnostic::new(&messages::FIRST_DEPTH_IN_AIR)
+        } else if above(bottom, depth) {
+            Diagnostic::new(&messages::FIRST_DEPTH_BELOW_BOTTOM)
+                .with("bottom", bottom)
+                .with("depth", path.thickness - bottom)
+        } else {
+            return None;
+        };
+        let problem = problem
+            .with("value", depth)
+            .with("thickness", path.thickness)
+            .with("example", (path.thickness - self.infeed).max(bottom));
+        let own = path.drawn.text(first.cut(path).chain_letters);
+        let fault = own.and_then(|text| text.fault_of(Letter::W));
+        let problem = first.origin(path).at(problem);
+        Some(match fault {
+            Some(fault) => problem.with_text(fault),
+            None => problem,
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use crate::approx::above;
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
-use crate::values::{Given, Values};
+use crate::values::Values;
 
 /// From where on something is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,15 +21,27 @@ pub struct Doubts {
     pub maximum_feed: Option<f64>,
     /// By how much a text must be nearer to its element than to another, in mm.
     pub text_margin: f64,
+    /// By how much a circle may be larger than the cutter, in mm, and yet be taken for a hole that was to be drilled.
+    pub hole_margin: f64,
 }
 
 impl Default for Doubts {
     fn default() -> Self {
-        Self { below_plate: 0.5, infeed: 1.0, mark_depth: 0.5, maximum_feed: None, text_margin: 0.1 }
+        Self::DEFAULT
     }
 }
 
 impl Doubts {
+    /// The limits when the configuration gives none.
+    pub const DEFAULT: Self = Self {
+        below_plate: 0.5,
+        infeed: 1.0,
+        mark_depth: 0.5,
+        maximum_feed: None,
+        text_margin: 0.1,
+        hole_margin: 0.05,
+    };
+
     /// What is doubtful about the feed in mm/min that holds for a path without F.
     pub fn fallback_feed(&self, feed: f64) -> Option<Diagnostic> {
         let maximum = self.maximum_feed.filter(|maximum| above(feed, *maximum))?;
@@ -75,14 +87,18 @@ pub(crate) fn check(
         let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);
         own.number(letter).number().filter(|_| has_effect)
     };
+    let thickness = path.number(Letter::T).number();
     let below = value(Letter::B).filter(|bottom| above(-bottom, limits.below_plate)).map(|bottom| {
-        let problem = Diagnostic::new(&messages::BELOW_PLATE).with("value", bottom).with("depth", -bottom);
-        own.underline(Letter::B, problem.with("limit", limits.below_plate))
+        let depth = -bottom;
+        let problem = match thickness.filter(|thickness| above(*thickness, depth)) {
+            Some(thickness) => Diagnostic::new(&messages::BELOW_PLATE_BY_DEPTH)
+                .with("thickness", thickness)
+                .with("example", thickness - depth),
+            None => Diagnostic::new(&messages::BELOW_PLATE),
+        };
+        let problem = problem.with("value", bottom).with("depth", depth).with("limit", limits.below_plate);
+        own.underline(Letter::B, problem)
     });
-    let thickness = match path.number(Letter::T) {
-        Given::Number(thickness) => Some(thickness),
-        Given::Absent | Given::Faulty => None,
-    };
     let infeed = value(Letter::I)
         .zip(thickness)
         .filter(|(infeed, thickness)| above(*infeed, limits.infeed * thickness));

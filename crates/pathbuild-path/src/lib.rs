@@ -69,7 +69,10 @@ pub use path::{
 pub use pattern::PatternError;
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
 pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
-pub use read::{AssignedElement, AssignedText, ProxyLine, assigned_texts, keep_outs, proxy_lines, raw_file};
+pub use read::{
+    AssignedElement, AssignedText, NearNames, ProxyLine, assigned_texts, keep_outs, may_be_stray_text,
+    proxy_lines, raw_file, stray_findings,
+};
 pub use table::RangeTable;
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
 pub use text_circle::TextCircle;

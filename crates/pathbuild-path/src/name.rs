@@ -100,6 +100,11 @@ impl PathPattern {
         self.0.may_begin(layer) && self.0.matches(&with_points(without_tilde(layer)))
     }
 
+    /// Whether a layer's name begins as those of path layers do: `false` is certain.
+    pub fn may_begin(&self, layer: &str) -> bool {
+        self.0.may_begin(layer)
+    }
+
     /// Whether a name is a path's.
     pub fn matches(&self, name: &str) -> bool {
         self.0.matches(name)

@@ -61,7 +61,7 @@ pub struct Path {
     /// The end marker.
     pub end_origin: Origin,
     /// Curves that are no part of it.
-    pub left_out: Vec<(EntityKind, Point)>,
+    pub left_out: Vec<(EntityKind, Option<Point>)>,
     /// What is not known of it because it has errors.
     pub(crate) faults: Option<Box<Faults>>,
 }

@@ -38,8 +38,8 @@ pub struct RawPath {
     pub(crate) faults: DrawingFaults,
     /// The variables that it defines, in the order written.
     pub definitions: Vec<Definition>,
-    /// Curves on its layers that are no part of it, with where they begin.
-    pub left_out: Vec<(EntityKind, Point)>,
+    /// Curves on its layers that are no part of it, with where they begin, if that is known.
+    pub left_out: Vec<(EntityKind, Option<Point>)>,
     /// What is wrong with the drawing alone. When one is an error the path goes no further.
     pub diagnostics: Vec<Diagnostic>,
 }

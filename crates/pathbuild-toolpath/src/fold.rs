@@ -1,5 +1,7 @@
 //! The fold: one walk over a path and what it embeds that carries the tool's position.
 
+use std::collections::BTreeMap;
+
 use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
 use pathbuild_path::{
     ElementClass, Hole, Item, Letter, Origin, Path, PathOptions, PathRole, PlacedSubpath, Placement,
@@ -8,7 +10,7 @@ use pathbuild_path::{
 
 use crate::probes;
 use crate::program::{
-    Class, Comment, Count, ElementKind, FIRST_FEED, Height, Move, Names, ProbePoint, Program, Step,
+    Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Move, Names, ProbePoint, Program, Step,
 };
 use crate::trace::{Drawn, Occurrence, Trace};
 
@@ -77,6 +79,7 @@ fn folded<P: Parts>(
         steps: Vec::with_capacity(usize::try_from(moves).unwrap_or(0).min(MOST_FORESEEN)),
         names: Names::default(),
         probes: Vec::new(),
+        left_out: BTreeMap::new(),
         mergeable: None,
         here: Drawn::default(),
         trace,
@@ -84,6 +87,7 @@ fn folded<P: Parts>(
     fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
     program.steps = fold.steps;
     program.names = fold.names;
+    program.left_out = fold.left_out.into_values().collect();
     program.probes = probes::in_order(&fold.probes);
     (program, fold.trace)
 }
@@ -112,6 +116,8 @@ pub(crate) struct Fold<'a, P: Parts> {
     steps: Vec<Step>,
     names: Names,
     probes: Vec<ProbePoint>,
+    /// By path.
+    left_out: BTreeMap<Box<str>, LeftOut>,
     /// The last sweep, while nothing but comments follow it: another sweep replaces it.
     mergeable: Option<usize>,
     /// The element that is gone along.
@@ -140,6 +146,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.parts.checkpoint();
         let outside = self.enter(id, placement, raised, sweep_height);
         let path = self.parts.path(id);
+        self.note_left_out(path);
         let place = PlacedPath {
             path,
             placement,
@@ -177,6 +184,20 @@ impl<'a, P: Parts> Fold<'a, P> {
             }
         }
         self.here = outside;
+    }
+
+    /// Notes what the path's layers hold beside its elements.
+    fn note_left_out(&mut self, path: &Path) {
+        if path.left_out.is_empty() {
+            return;
+        }
+        self.left_out.entry(path.name.as_str().into()).or_insert_with(|| {
+            let mut entities = BTreeMap::new();
+            for (kind, _) in &path.left_out {
+                *entities.entry(*kind).or_default() += 1;
+            }
+            LeftOut { path: path.name.as_str().into(), entities: entities.into_iter().collect() }
+        });
     }
 
     /// What follows belongs to that path; gives what it belonged to so far.

@@ -25,7 +25,7 @@ pub use cost::{memory, own_moves};
 pub use fold::{Parts, fold, fold_traced};
 pub use pathbuild_path::Xy;
 pub use program::{
-    Class, Comment, Count, ElementKind, Height, Move, NameId, Names, ProbePoint, Program, Step,
+    Class, Comment, Count, ElementKind, Height, LeftOut, Move, NameId, Names, ProbePoint, Program, Step,
 };
 pub use statistics::{Statistics, Total};
 pub use trace::{Drawn, Occurrence, Trace};

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use pathbuild_diagnostic::EntityKind;
 use pathbuild_path::Xy;
 
 /// A finished program: what the machine does, step by step, before any dialect writes it down.
@@ -29,6 +30,17 @@ pub struct Program {
     pub steps: Vec<Step>,
     /// Z-probes in the order in which they are measured: the first is #51.
     pub probes: Vec<ProbePoint>,
+    /// What is drawn on the layers of its paths and no part of it.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Curves on the layers of a path that are no part of its program (PB111).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftOut {
+    /// The path.
+    pub path: Box<str>,
+    /// Their types, each once, with their number.
+    pub entities: Vec<(EntityKind, usize)>,
 }
 
 /// A point whose real height is measured before milling. (book: language/probes)

@@ -80,6 +80,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("warnings.infeed", "[warnings]\ninfeed = 2", BOTH),
     ("warnings.mark-depth", "[warnings]\nmark-depth = 1", BOTH),
     ("warnings.text-margin", "[warnings]\ntext-margin = 1", BOTH),
+    ("warnings.hole-margin", "[warnings]\nhole-margin = 1", BOTH),
     ("watch.debounce", "[watch]\ndebounce = '1 s'", NONE),
     ("watch.poll", "[watch]\npoll = true", NONE),
 ];

@@ -1,11 +1,15 @@
 //! A compact index of a drawing: the names of its paths, and what other paths and a check need of each.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::{Bindings, KeepOuts, Language, PathHeader, PathName, RawFile, RawPath, judge_file_name};
+use pathbuild_path::{
+    Bindings, KeepOuts, Language, NearNames, PathHeader, PathName, RawFile, RawPath, judge_file_name,
+    stray_findings,
+};
+use smol_str::SmolStr;
 
 use super::nearby_ends::LayerEnds;
 use super::reading::{Fingerprint, entities, read, read_entities};
@@ -62,15 +66,24 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let (reading, language) = (settings.reading(db), settings.language(db));
     let index = read(db, file, |bytes, stamp, drawing| {
         let has_keep_outs = Cell::new(false);
+        let others = RefCell::new(Vec::new());
         let is_wanted = |layer: &str| {
             if language.is_keep_out(layer) {
                 has_keep_outs.set(true);
             }
-            language.path_pattern.is_layer(layer)
+            let is_path = language.path_pattern.is_layer(layer);
+            if !is_path && language.path_pattern.may_begin(layer) {
+                others.borrow_mut().push(SmolStr::new(layer));
+            }
+            is_path
         };
         let read = catch_bugs(|| {
             read_entities(bytes, drawing, reading, &is_wanted);
-            let raw = pathbuild_path::raw_file(drawing, language);
+            let mut raw = pathbuild_path::raw_file(drawing, language);
+            if drawing.has_noted_text || has_near_layer(&raw, &others.borrow()) {
+                let all = entities(bytes, reading, &|_| true);
+                raw.diagnostics.extend(stray_findings(&all, language));
+            }
             (raw, has_keep_outs.get().then(|| keep_outs(bytes, reading, language)))
         });
         let content = Content::of(bytes, stamp, reading);
@@ -88,6 +101,15 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
         diagnostic.file = Some(file.path(db).clone());
     }
     index
+}
+
+/// Whether a layer is nearly a path's.
+fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
+    if others.is_empty() {
+        return false;
+    }
+    let names = NearNames::new(raw.paths.iter().map(|(raw, _)| &*raw.name));
+    others.iter().any(|layer| names.path(layer).is_some())
 }
 
 /// Reads clamps. Unsupported curves among them are reported even in compatible mode, where paths skip them.

@@ -6,6 +6,7 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_dxf::{Drawing, Options};
+use pathbuild_path::may_be_stray_text;
 use rustc_hash::FxHasher;
 
 use crate::bugs::catch_bugs;
@@ -68,6 +69,7 @@ pub(super) fn read_entities(
 ) {
     let options = Options {
         keep_layer,
+        note_text: Some(&may_be_stray_text),
         units: reading.units,
         approximate_curves: reading.approximate_curves,
         max_entities: reading.entities,

@@ -88,6 +88,13 @@ messages! {
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name; `text-margin` under [warnings] sets the limit",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
     }
+    /// A text that a large element of another kind has taken from one that it lies on.
+    NEARER_OF_OTHER_KIND: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
+        de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
+        help_en: "move the text away from the element that it shall not belong to, or make it smaller, or put text and element on a layer of their own with ~ and letters behind the name",
+        help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
+    }
     /// A text that belongs to an element because that comes first.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
@@ -111,6 +118,27 @@ messages! {
         de: "der Kreisdurchmesser {diameter} mm ist kleiner als der des Fräsers, O{tool}",
         help_en: "a circle of the cutter's diameter is a drilled hole, a larger one a helical circle",
         help_de: "ein Kreis mit dem Durchmesser des Fräsers ist ein Bohrloch, ein größerer ein Helixkreis",
+    }
+    /// Hardly larger than the cutter.
+    NEARLY_DRILLED: NearlyDrilled {
+        en: "the circle's diameter {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: it is not drilled, but milled along a helix of {radius} mm radius",
+        de: "der Kreisdurchmesser {diameter} mm ist nur {difference} mm größer als der des Fräsers, O{tool}: er wird nicht gebohrt, sondern auf einer Helix von {radius} mm Radius gefräst",
+        help_en: "draw it with a diameter of {tool} mm to drill it; `hole-margin` under [warnings] sets the limit",
+        help_de: "zum Bohren mit {tool} mm Durchmesser zeichnen; `hole-margin` unter [warnings] setzt die Grenze",
+    }
+    /// A depth that does not reach its element.
+    TEXT_ON_OTHER_LAYER: TextOnOtherLayer {
+        en: "the text \"{text}\" has no effect: layer {layer} belongs to no path",
+        de: "der Text \"{text}\" hat keine Wirkung: Layer {layer} gehört zu keinem Pfad",
+        help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
+        help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
+    }
+    /// A slip of the pen in a layer's name.
+    NEARLY_PATH_LAYER: NearlyPathLayer {
+        en: "layer {layer} belongs to no path, but its name is nearly that of path {path}: what is drawn on it has no effect ({elements})",
+        de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",
+        help_en: "call it {path}, or {path}~A with letters only behind ~; give it quite another name if it is not milled",
+        help_de: "{path} nennen, oder {path}~A mit nichts als Buchstaben hinter ~; ganz anders nennen, wenn es nicht gefräst wird",
     }
     /// Not in the plane.
     OFF_PLANE: OffPlane {

@@ -106,6 +106,34 @@ messages! {
         help_en: "check B, and that nothing lies there that must not be milled; `below-plate` under [warnings] allows more than {limit} mm",
         help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; `below-plate` unter [warnings] erlaubt mehr als {limit} mm",
     }
+    /// Below the plate by what may have been meant as a depth.
+    BELOW_PLATE_BY_DEPTH: DoubtfulValue {
+        en: "B is {value}: {depth} mm below the plate",
+        de: "B ist {value}: {depth} mm unter der Platte",
+        help_en: "heights are measured from the plate upwards: {depth} mm deep in T{thickness} is B{example}; where {depth} mm below the plate is meant, `below-plate` under [warnings] allows more than {limit} mm",
+        help_de: "Höhen werden von der Platte nach oben gemessen: {depth} mm tief bei T{thickness} ist B{example}; sind {depth} mm unter der Platte gemeint, erlaubt `below-plate` unter [warnings] mehr als {limit} mm",
+    }
+    /// Sweepless milling that begins in the air.
+    FIRST_DEPTH_IN_AIR: DoubtfulValue {
+        en: "W is {value}, above the surface T of {thickness}: the first pass mills air",
+        de: "W ist {value} und liegt über der Oberfläche T von {thickness}: der erste Durchgang fräst in der Luft",
+        help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
+        help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
+    }
+    /// Sweepless milling without passes.
+    FIRST_DEPTH_BELOW_BOTTOM: DoubtfulValue {
+        en: "W is {value}, below the bottom {bottom}: everything is milled in one pass, {depth} mm deep",
+        de: "W ist {value} und liegt unter dem Grund {bottom}: alles wird in einem Durchgang von {depth} mm Tiefe gefräst",
+        help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
+        help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
+    }
+    /// Support bars that no line type asks for.
+    LOST_BARS: LostBars {
+        en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",
+        de: "das Teil in diesem Umriss wird von nichts gehalten: der Pfad hat {letters} für Stützstege, aber keine Linie mit Linientyp BORDER oder CENTER",
+        help_en: "give the outline line type BORDER or CENTER (programs and blocks lose it to CONTINUOUS), or remove {letters} where the part is held otherwise",
+        help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (Programme und Blöcke machen CONTINUOUS daraus) oder {letters} entfernen, wenn das Teil anders gehalten wird",
+    }
     /// More than the whole plate at once.
     INFEED_ABOVE_THICKNESS: DoubtfulValue {
         en: "I is {value}, more than the thickness T of {thickness}: everything is milled in one pass",
@@ -245,6 +273,13 @@ messages! {
         de: "{letter} hat hier keine Wirkung",
         help_en: "remove it; it has no effect",
         help_de: "entfernen; es bewirkt nichts",
+    }
+    /// W of a path that mills no chain.
+    FIRST_DEPTH_WITHOUT_CHAIN: ParameterWithoutEffect {
+        en: "{letter} has no effect here: the path has no milling chain",
+        de: "{letter} hat hier keine Wirkung: der Pfad hat keine Fräskette",
+        help_en: "remove it, or check the line types: only lines and arcs with CONTINUOUS, DIVIDE, BORDER or CENTER form chains",
+        help_de: "entfernen oder die Linientypen prüfen: nur Linien und Bögen mit CONTINUOUS, DIVIDE, BORDER oder CENTER bilden Ketten",
     }
     /// B of what is only marked.
     BOTTOM_OF_MARK: ParameterWithoutEffect {

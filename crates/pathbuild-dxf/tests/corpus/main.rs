@@ -21,6 +21,7 @@ fn corpus() -> Option<PathBuf> {
 fn read_all(bytes: &[u8]) -> Drawing {
     let options = Options {
         keep_layer: &|_| true,
+        note_text: None,
         units: Units::Millimetres,
         approximate_curves: 0.01,
         max_entities: 1_000_000,

@@ -13,6 +13,7 @@ mod layers;
 mod limits;
 mod lines;
 mod mirrored;
+mod noted;
 mod numbers;
 mod plain_text;
 mod polylines;

@@ -9,6 +9,7 @@ use pathbuild_dxf::{Drawing, Entity, Geometry, Options, Units, read};
 pub(crate) fn options() -> Options<'static> {
     Options {
         keep_layer: &|_| true,
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 100_000,

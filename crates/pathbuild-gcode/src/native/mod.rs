@@ -18,8 +18,8 @@ pub use number::f3;
 pub(crate) use number::push_exact;
 pub use probing::{probe_name, probing_program, values_file};
 pub use program::{
-    Header, WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, path_of_title, plain_title,
-    program, program_within, title, too_large,
+    Header, WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, left_out_lines,
+    path_of_title, plain_title, program, program_within, title, too_large,
 };
 pub use read_back::{is_read_back, read_back, read_probing_back};
 pub(crate) use statistics::{kind_of_label, stated_length};

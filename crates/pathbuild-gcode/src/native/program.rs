@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, Move, Program, Step, Xy};
+use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, LeftOut, Move, Program, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
 use super::comment::{Charset, Remarks};
@@ -51,6 +51,20 @@ impl WriteOptions {
 /// acts on comments that begin with certain words.
 pub fn title(drawing: &str, path: &str) -> String {
     format!("{PATH}{path}{OF_DRAWING}{drawing}")
+}
+
+/// The comments that say what a program lacks though it is drawn on the layers of its paths (PB111). `PathDxf2GCode` has none.
+pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
+    let left_out = program.left_out.iter().filter(|_| !program.compatible);
+    let line = |left_out: &LeftOut| {
+        let entities = left_out.entities.iter().map(|(kind, count)| format!("{count} {}", kind.name()));
+        let (entities, path) = (entities.collect::<Vec<_>>().join(", "), &left_out.path);
+        match lang {
+            Lang::En => format!("Not milled: {entities} of path {path}"),
+            Lang::De => format!("Nicht gefräst: {entities} von Pfad {path}"),
+        }
+    };
+    left_out.map(line).collect()
 }
 
 /// The drawing of a [`title`].
@@ -176,6 +190,9 @@ impl Writer<'_> {
 
     fn header(&mut self, header: &Header) {
         for line in header.lines(self.program) {
+            self.comment(&line);
+        }
+        for line in left_out_lines(self.program, self.options.lang) {
             self.comment(&line);
         }
         for (index, probe) in self.program.probes.iter().enumerate() {

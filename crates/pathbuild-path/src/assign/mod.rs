@@ -8,6 +8,7 @@ use std::cell::Cell;
 
 use pathbuild_diagnostic::ElementId;
 
+use crate::approx::above;
 use crate::element::Shape;
 use crate::geometry::Curve;
 use crate::read::Owner;
@@ -49,6 +50,8 @@ pub(crate) struct Found {
     pub(crate) candidate: usize,
     /// The next one of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
+    /// The nearest one of another kind, where that is nearer, and by how much in mm.
+    pub(crate) nearer: Option<(usize, f64)>,
 }
 
 /// How many candidates are still looked at. Where each of thousands of texts overlaps each of thousands of elements there would be no end.
@@ -84,6 +87,7 @@ pub(crate) fn find(
     }
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
     let mut second: Option<(OverlapKind, f64, usize)> = None;
+    let mut closest: Option<(f64, usize)> = None;
     let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
         let group = candidates[other].group;
         group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
@@ -95,6 +99,9 @@ pub(crate) fn find(
         }
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
         let found = (kind, distance, index);
+        if closest.is_none_or(|closest| (distance, index) < closest) {
+            closest = Some((distance, index));
+        }
         if nearest.is_none_or(|nearest| found < nearest) {
             if !is_same_group(nearest, index) {
                 second = nearest;
@@ -107,6 +114,9 @@ pub(crate) fn find(
     nearest.filter(|_| !looks.are_over()).map(|(kind, distance, candidate)| Found {
         candidate,
         rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
+        nearer: closest
+            .filter(|(closest, other)| above(distance, *closest) && !is_same_group(nearest, *other))
+            .map(|(closest, other)| (other, distance - closest)),
     })
 }
 

@@ -65,6 +65,7 @@ impl Binder<'_> {
 
     fn helix(&mut self, scope: &Scope<'_>, cut: Cut, centre: Xy, radius: f64, tool: f64) -> Helix {
         self.check_size(scope, radius);
+        self.check_margin(scope, radius, tool);
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
         let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
         let bars = (cut == Cut::Support).then(|| self.bars(scope, length, Some(tool))).flatten();
@@ -81,6 +82,20 @@ impl Binder<'_> {
             infeed: infeed.unwrap_or_default(),
             comment: scope.values.text(Letter::Q).map(Into::into),
         }
+    }
+
+    /// PB118 where a hole was probably meant to be drilled.
+    fn check_margin(&mut self, scope: &Scope<'_>, radius: f64, tool: f64) {
+        let difference = 2.0 * radius - tool;
+        if above(difference, self.language.doubts.hole_margin) {
+            return;
+        }
+        let problem = Diagnostic::new(&drawing::NEARLY_DRILLED)
+            .with("diameter", 2.0 * radius)
+            .with("difference", difference)
+            .with("tool", tool)
+            .with("radius", difference / 2.0);
+        self.report(scope.at, problem);
     }
 
     fn check_size(&mut self, scope: &Scope<'_>, radius: f64) {

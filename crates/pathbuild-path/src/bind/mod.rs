@@ -3,6 +3,7 @@
 
 mod circles;
 mod cuts;
+mod habits;
 mod segments;
 
 use std::collections::HashMap;
@@ -141,6 +142,7 @@ impl<'a> Binder<'a> {
         // Rounded corners stand between sides that have gaps. Where nothing has one, U is doubtful.
         let gapless = self.gapless.take().filter(|_| !self.has_gap);
         self.problems.extend(gapless);
+        self.check_habits();
         let turns = self.raw.turns.iter();
         let start = self.marker(self.raw.start.as_ref())?;
         let end = self.marker(self.raw.end.as_ref())?;

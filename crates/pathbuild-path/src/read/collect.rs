@@ -34,7 +34,7 @@ pub(crate) struct Collected<'d> {
     pub(crate) given: ParameterTexts,
     pub(crate) map: SourceMap,
     pub(crate) texts: Texts<'d>,
-    left_out: Vec<(EntityKind, Point)>,
+    left_out: Vec<(EntityKind, Option<Point>)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     has_broken_circle: bool,
     pub(super) faults: DrawingFaults,
@@ -94,7 +94,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
     }
     for left_out in &drawing.left_out {
         if let Some(Membership { path, .. }) = layers.membership(left_out.layer) {
-            paths[path].left_out.extend(left_out.point.map(|point| (left_out.kind, point)));
+            paths[path].left_out.push((left_out.kind, left_out.point));
             paths[path].add_located(&left_out.diagnostic);
         }
     }

@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
-use pathbuild_diagnostic::{Diagnostic, Place, Value};
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use smol_str::SmolStr;
 
+use super::at_entity;
 use super::found_text::AnyText;
 use super::meaning::{plane_arc, xy};
 use super::rings::{Part, Ring, rings};
@@ -236,16 +237,7 @@ impl Reading<'_> {
 
     /// A problem at an entity.
     fn at(&self, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
-        let (kind, origin) = (self.drawing.entities[entity].kind, self.drawing.origins[entity]);
-        let place = Place {
-            line: Some(origin.line),
-            handle: origin.handle,
-            entity: Some(kind),
-            layer: Some(self.layer.name.clone()),
-            point: Some(shown(point)),
-            ..Place::default()
-        };
-        Diagnostic { place, ..problem }
+        at_entity(self.drawing, entity, point, problem)
     }
 }
 

@@ -11,13 +11,16 @@ mod meaning;
 mod parameters;
 mod proxies;
 mod rings;
+mod stray;
 mod texts;
 
 use std::collections::BTreeMap;
 
+use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_dxf::Drawing;
 
-use crate::element::Origin;
+use crate::element::{Origin, shown};
+use crate::geometry::Xy;
 use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::{Language, RawFile};
@@ -25,10 +28,12 @@ use crate::raw::{Language, RawFile};
 use collect::Collected;
 
 pub(crate) use collect::Owner;
+pub(crate) use rings::{Part, Ring, rings};
 
 pub use keep_outs::keep_outs;
 pub use listing::{AssignedElement, AssignedText, assigned_texts};
 pub use proxies::{ProxyLine, proxy_lines};
+pub use stray::{NearNames, may_be_stray_text, stray_findings};
 
 /// Finds the paths of a drawing. A drawing with errors of its own has none.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
@@ -43,6 +48,21 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     }
     let starts = starts(&collected);
     RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }
+}
+
+/// A problem at an entity of a drawing.
+fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
+    let (kind, origin) = (drawing.entities[entity].kind, drawing.origins[entity]);
+    let layer = &drawing.layers[drawing.entities[entity].layer as usize];
+    let place = Place {
+        line: Some(origin.line),
+        handle: origin.handle,
+        entity: Some(kind),
+        layer: Some(layer.name.clone()),
+        point: Some(shown(point)),
+        ..Place::default()
+    };
+    Diagnostic { place, ..problem }
 }
 
 /// The start texts of all paths, to which @ can refer; none where nobody does.

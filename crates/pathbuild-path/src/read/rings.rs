@@ -8,16 +8,16 @@ use crate::geometry::{Arc, Curve, Xy};
 
 /// A curve that may be a part of a ring.
 #[derive(Clone, Copy)]
-pub(super) struct Part {
-    pub(super) curve: Curve,
+pub(crate) struct Part {
+    pub(crate) curve: Curve,
     /// Parts of one polyline follow each other and have the same number.
-    pub(super) group: Option<u32>,
+    pub(crate) group: Option<u32>,
     /// Which entity it is.
-    pub(super) entity: usize,
+    pub(crate) entity: usize,
 }
 
 /// What curves make.
-pub(super) enum Ring {
+pub(crate) enum Ring {
     /// Curves that meet, end to start, all around.
     Closed(Vec<Part>),
     /// Curves that meet, but not all around; both ends.
@@ -27,7 +27,7 @@ pub(super) enum Ring {
 }
 
 /// The rings that curves make: polylines that are closed by themselves, and what else closes.
-pub(super) fn rings(parts: &[Part]) -> Vec<Ring> {
+pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
     let (mut rings, mut loose) = (Vec::new(), Vec::new());
     for polyline in parts.chunk_by(|one, other| one.group.is_some() && one.group == other.group) {
         if is_closed(polyline) {

@@ -132,6 +132,26 @@ impl<'d> Texts<'d> {
         matched
     }
 
+    /// Makes all layers ready to be asked for takers.
+    pub(crate) fn prepare(&mut self) {
+        for layer in &mut self.layers {
+            layer.boxes = Boxes::new(&layer.candidates);
+        }
+    }
+
+    /// The candidates without a text that would get one with this circle, each with the name of its layer.
+    pub(super) fn takers<'t>(
+        &'t self,
+        circle: &'t TextCircle,
+        looks: &'t Looks,
+    ) -> impl Iterator<Item = (&'t str, &'t Candidate)> {
+        let taker = |layer: &'t LayerTexts<'d>| {
+            let found = find(circle, &layer.candidates, &layer.boxes, looks)?;
+            Some((&*layer.name, &layer.candidates[found.candidate]))
+        };
+        self.layers.iter().take(MOST_ASKED).filter_map(taker)
+    }
+
     /// Gives each text to its element; what finds none is PB107.
     /// `margin`: by how much it must be nearer to it than to another, in mm, else PB116.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
@@ -147,9 +167,7 @@ impl<'d> Texts<'d> {
         if self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
         }
-        for layer in &mut self.layers {
-            layer.boxes = Boxes::new(&layer.candidates);
-        }
+        self.prepare();
         let looks = Looks::new(MOST_LOOKS_FOR_HINTS);
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
@@ -241,7 +259,7 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// PB116 where another element of the same kind is as near as the one that was found, or nearly. Not where the text would be an error
+    /// PB116 where another element of the same kind is as near as the one that was found, or nearly, or one of another kind is nearer. Not where the text would be an error
     /// there: between markers and elements, and where the other element knows one of its letters not.
     fn doubt(
         &self,
@@ -250,16 +268,27 @@ impl<'d> LayerTexts<'d> {
         margin: f64,
         elements: &[Element],
     ) -> Option<Diagnostic> {
-        let (rival, farther) = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0))?;
-        let [element, other] = [found.candidate, rival].map(|index| &self.candidates[index]);
-        let string = without_percent_codes(text.string());
-        let texts = ParameterTexts::from(&*string);
-        let refuses = |text: ParameterText<'_>| refuses(other.owner, text, elements);
-        if discriminant(&element.owner) != discriminant(&other.owner) || texts.first().is_some_and(refuses) {
+        if found.rival.is_none() && found.nearer.is_none() {
             return None;
         }
-        let message =
-            if near(farther, 0.0) { &messages::FIRST_OF_EQUALS } else { &messages::NEARLY_OTHER_ELEMENT };
+        let rival = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0));
+        let rival = rival.map(|(rival, farther)| {
+            let is_equal = near(farther, 0.0);
+            let message = if is_equal { &messages::FIRST_OF_EQUALS } else { &messages::NEARLY_OTHER_ELEMENT };
+            (message, rival, farther)
+        });
+        let nearer = found.nearer.map(|(other, nearer)| (&messages::NEARER_OF_OTHER_KIND, other, nearer));
+        let doubts = rival.into_iter().chain(nearer);
+        let element = &self.candidates[found.candidate];
+        let string = without_percent_codes(text.string());
+        let texts = ParameterTexts::from(&*string);
+        let is_possible = |other: &Candidate| {
+            let refuses = |text: ParameterText<'_>| refuses(other.owner, text, elements);
+            discriminant(&element.owner) == discriminant(&other.owner) && !texts.first().is_some_and(refuses)
+        };
+        let (message, other, farther) = doubts
+            .map(|(message, other, farther)| (message, &self.candidates[other], farther))
+            .find(|(_, other, _)| is_possible(other))?;
         let mut doubt = Diagnostic::new(message)
             .with("text", string.replace('\n', " "))
             .with("element", candidate_word(element))

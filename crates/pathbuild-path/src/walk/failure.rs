@@ -131,9 +131,10 @@ impl Walk<'_> {
             .path
             .left_out
             .iter()
+            .filter_map(|(kind, begin)| Some((kind, (*begin)?)))
             .reduce(|best, other| if distance(&other.1) < distance(&best.1) { other } else { best });
         let Some((kind, begin)) = nearest else { return problem };
-        problem.note(&messages::LEFT_OUT_HERE, vec![("kind", kind.name().into()), ("point", (*begin).into())])
+        problem.note(&messages::LEFT_OUT_HERE, vec![("kind", kind.name().into()), ("point", begin.into())])
     }
 
     fn word(&self, segment: usize) -> &'static Word {

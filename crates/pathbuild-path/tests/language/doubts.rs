@@ -22,8 +22,7 @@ fn line(start: &str, text: &str) -> Vec<String> {
     said(&path(start, &format!("mill 0,0 40,0{text}\nend 40,0")), MACHINE)
 }
 
-const MACHINE: Doubts =
-    Doubts { below_plate: 0.5, infeed: 1.0, mark_depth: 0.5, maximum_feed: Some(1500.0), text_margin: 0.1 };
+const MACHINE: Doubts = Doubts { maximum_feed: Some(1500.0), ..Doubts::DEFAULT };
 
 #[test]
 fn the_bottom_is_not_far_below_the_plate() {
@@ -155,4 +154,112 @@ fn an_element_that_does_not_know_the_letters_is_no_rival() {
 fn a_tilde_layer_settles_it() {
     let lines = "mill 0,0 40,0\nlayer 1234.1P~A\nmill 0,3 40,3";
     assert_eq!(texts(&format!("{lines}\n{}", text(1.5)), 0.1), [""; 0]);
+}
+
+#[test]
+fn a_depth_that_was_meant_from_the_surface_is_named() {
+    let messages = |bottom: &str| {
+        let language = Language { doubts: MACHINE, ..language() };
+        let drawing = path("T4 O2 I1 B0", &format!("mill 0,0 40,0 \"{bottom}\"\nend 40,0"));
+        let (raw, _) = read_as(&drawing, &language).paths.into_iter().next().expect("there is a path");
+        let compiled = compile_raw(&raw, &Bindings::default(), &language);
+        let help = |found: &pathbuild_diagnostic::Diagnostic| found.help(pathbuild_diagnostic::Lang::En);
+        compiled.found.iter().filter_map(help).collect::<String>()
+    };
+    assert!(
+        messages("B-2").starts_with("heights are measured from the plate upwards: 2 mm deep in T4 is B2")
+    );
+    assert!(messages("B-3.99").contains("is B0.01"));
+    assert!(messages("B-4").starts_with("check B"));
+    assert_eq!(messages("B-0.5"), "");
+}
+
+#[test]
+fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
+    let circle = |diameter: &str, doubts: Doubts| {
+        said(&path("T5 O3 I1 B0 D2", &format!("circle 0,0 d {diameter}\nmill 0,0 40,0\nend 40,0")), doubts)
+    };
+    // Up to 0.001 mm it is drilled.
+    for (diameter, is_doubtful) in
+        [("3", false), ("3.001", false), ("3.002", true), ("3.05", true), ("3.051", false)]
+    {
+        assert_eq!(circle(diameter, MACHINE).len(), usize::from(is_doubtful), "{diameter}");
+    }
+    assert_eq!(circle("3.05", MACHINE), ["PB118 "]);
+    assert_eq!(circle("3.05", Doubts { hole_margin: 0.04, ..MACHINE }), [""; 0]);
+    assert_eq!(circle("3.002", Doubts { hole_margin: 0.0, ..MACHINE }), [""; 0]);
+}
+
+/// A ring of lines, of which each statement may be changed.
+fn ring(start: &str, change: (&str, &str)) -> Vec<String> {
+    let ring = "mill 0,0 40,0\nmill 40,0 40,30\nmill 40,30 0,30\nmill 0,30 0,0\nend 0,0";
+    said(&path(start, &ring.replacen(change.0, change.1, 1)), MACHINE)
+}
+
+#[test]
+fn an_outline_that_has_lost_its_bars_is_doubtful() {
+    const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15";
+    let unchanged = ("mill", "mill");
+    assert_eq!(ring(BARS, unchanged), ["PB212 "]);
+    assert_eq!(ring("T5 O2 I1 B0 D2 P3", unchanged), ["PB212 "]);
+    assert_eq!(ring("T5 O2 I1 B0 D2 U15", unchanged), ["PB212 "]);
+    for (start, change) in [
+        ("T5 O2 I1 B-0.3 D2", unchanged),
+        ("T5 O2 I1 B0.1 D2 P3 U15", unchanged),
+        (BARS, ("mill", "bars")),
+        (BARS, ("mill 0,0 40,0", "mill 0,0 40,0 \"B0.5\"")),
+        (BARS, ("mill 0,0 40,0", "mark 0,0 40,0 \"D4.8\"")),
+        (BARS, ("mill 0,0 40,0", "sweep 0,0 40,0")),
+        (BARS, ("mill 0,30 0,0\nend 0,0", "mill 0,30 0,0.1\nend 0,0.1")),
+    ] {
+        let found = ring(start, change);
+        assert!(!found.contains(&"PB212 ".to_owned()), "{start} {change:?}: {found:?}");
+    }
+}
+
+#[test]
+fn the_first_depth_lies_in_the_material_of_the_chain() {
+    for (first, is_doubtful) in [("W5", false), ("W5.01", true), ("W1", false), ("W0.99", true)] {
+        let codes = line(&format!("T5 O2 I1 B1 {first}"), "");
+        assert_eq!(codes.len(), usize::from(is_doubtful), "{first}: {codes:?}");
+    }
+    assert_eq!(line("T5 O2 I1 B1", "W6"), ["PB211 W6"]);
+    // It counts in the first segment, and the deepest bottom is that of the chain.
+    let deeper = path("T5 O2 I1 B3 W1", "mill 0,0 20,0\nmill 20,0 40,0 \"B1\"\nend 40,0");
+    assert_eq!(said(&deeper, MACHINE), [""; 0]);
+    let chains = "mill 0,0 10,0\nsweep 10,0 20,0\nmill 20,0 30,0\nend 30,0";
+    assert_eq!(said(&path("T5 O2 I1 B1 W9", chains), MACHINE), ["PB211 "], "the path's is said once");
+}
+
+#[test]
+fn a_first_depth_without_a_chain_has_no_effect() {
+    let codes = |statements: &str| {
+        let compiled = crate::support::compile(&path("T5 O2 I1 B0 P3 W4", statements));
+        compiled.found.iter().map(|found| found.code().to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes("circle 0,0 d 2\nsweep 0,0 20,0\ncircle 20,0 d 2\nend 20,0"), ["PB210"]);
+    assert_eq!(codes("circle 0,0 d 2\nmill 0,0 20,0\nend 20,0"), [""; 0]);
+}
+
+#[test]
+fn a_nearer_element_of_another_kind_is_a_rival() {
+    // The circle counts from its centre: 3.7 mm; the line is 0 to 3.8 mm away.
+    let ring = "mill 0,0 17,0\ncircle 20,0 d 6";
+    let at = |y: f64, string: &str| {
+        texts(&format!("{ring}\ntext 16.3,{y} \"{string}\" height 1 align centre middle"), 0.1)
+    };
+    assert_eq!(at(0.0, "B3"), ["PB116"]);
+    assert_eq!(at(0.5, "B3"), ["PB116"]);
+    // A line that does not know the letter, that has a text, or that is too far away to have this one.
+    let sweep = ring.replace("mill", "sweep");
+    let text = "text 16.3,0 \"B3\" height 1 align centre middle";
+    assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);
+    assert_eq!(
+        texts(&format!("{}\n{text}", format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle")), 0.1),
+        [""; 0]
+    );
+    assert_eq!(texts(&format!("{}\n{text}", ring.replace("mill 0,0 17,0", "mill 0,3 17,3")), 0.1), [""; 0]);
+    // The ring is nearer.
+    let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";
+    assert_eq!(texts(&format!("mill 0,0 30,0\ncircle 20,0.2 d 6\n{inside}"), 0.1), [""; 0]);
 }

@@ -17,6 +17,7 @@ fn arc(blocks: &str, entities: &str) -> Arc {
     let language = language();
     let options = Options {
         keep_layer: &|layer| language.path_pattern.is_layer(layer),
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 100,

@@ -14,6 +14,7 @@ fn clamps_of(drawing: &str) -> KeepOuts {
     let language = Language { keep_out: KeepOutPattern::new("clamps?|2000[.]1P").ok(), ..language() };
     let options = Options {
         keep_layer: &|layer| language.is_keep_out(layer),
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 10_000,

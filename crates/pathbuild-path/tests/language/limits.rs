@@ -81,7 +81,7 @@ fn an_elements_values_are_greater_than_0() {
     let parameters = "T5 O3 I1 B0 D2 P1 U4 Mx";
     let table = [
         ("mill 0,0 40,0 \"#\"", "FICW"),
-        ("mark 0,0 40,0 \"#\"", "FICW"),
+        ("mark 0,0 40,0 \"D0 #\"", "FICW"),
         ("bars 0,0 40,0 \"#\"", "FICWP"),
         ("sweep 0,0 40,0\ncircle 40,0 d 3 \"#\"", "FC"),
         ("sweep 0,0 40,0\ncircle 40,0 d 8 \"#\"", "FI"),

@@ -22,6 +22,7 @@ mod parameters;
 mod placement;
 mod range_table;
 mod stars;
+mod stray;
 mod text_circle;
 mod texts;
 mod turns;

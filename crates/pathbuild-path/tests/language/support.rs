@@ -34,6 +34,7 @@ const NO_DOUBTS: Doubts = Doubts {
     mark_depth: f64::INFINITY,
     maximum_feed: None,
     text_margin: 0.0,
+    hole_margin: 0.0,
 };
 
 pub(crate) fn language() -> Language {
@@ -56,6 +57,7 @@ pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
     let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
     let options = Options {
         keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 10_000,

@@ -18,7 +18,7 @@ use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
     Bindings, Examined, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
-    PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file,
+    PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file, stray_findings,
 };
 
 pub use finding::{Finding, differences};
@@ -142,7 +142,8 @@ impl Model {
 
 impl Drawing {
     fn read(path: &str, bytes: &[u8], language: &Language) -> Self {
-        let content = raw_file(&drawn(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
+        let mut content = raw_file(&drawn(bytes, &|layer| language.path_pattern.is_layer(layer)), language);
+        content.diagnostics.extend(stray_findings(&drawn(bytes, &|_| true), language));
         let KeepOuts { all: clamps, problems: clamp_problems } =
             keep_outs(&drawn(bytes, &|layer| language.is_keep_out(layer)), language);
         let has_unclear_clamps = clamp_problems.iter().any(Diagnostic::is_error);
@@ -178,6 +179,7 @@ impl Drawing {
 fn drawn(bytes: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> pathbuild_dxf::Drawing {
     let options = Options {
         keep_layer,
+        note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 2_000_000,

@@ -12,6 +12,7 @@ pub(crate) fn drawing(bytes: &[u8]) -> Drawing {
         bytes,
         &Options {
             keep_layer: &|_| true,
+            note_text: None,
             units: Units::Header,
             approximate_curves: 0.0,
             max_entities: 100_000,

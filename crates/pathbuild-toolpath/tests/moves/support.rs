@@ -65,6 +65,7 @@ fn drawn(drawing: &str) -> Drawn {
         join_tolerance: 0.0,
     };
     let reading = Options {
+        note_text: None,
         keep_layer: &|layer| language.path_pattern.layer(layer).is_some(),
         units: pathbuild_dxf::Units::Header,
         approximate_curves: 0.0,

@@ -7,7 +7,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_diagnostic::{Diagnostic, Note, Point, Severity, Value};
+use pathbuild_diagnostic::{Diagnostic, Lang, Note, Point, Severity, Value};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
 use pathbuild_gcode::read::LONGEST_LINE;
@@ -328,7 +328,8 @@ fn outputs(
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
     match (means.poster, programs) {
         (Some(poster), programs) => {
-            posted(job, programs, provenance, poster, at, delivered).map(|output| vec![output])
+            posted(job, programs, provenance, poster, means.writing.options.lang, at, delivered)
+                .map(|output| vec![output])
         }
         (None, [program]) => {
             native(job, program, provenance, means, at, delivered).map_err(|problem| vec![*problem])
@@ -389,6 +390,7 @@ fn posted(
     programs: &[Arc<Program>],
     provenance: &str,
     poster: &PostProcessor,
+    lang: Lang,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut Delivered,
 ) -> Result<Output, Vec<Diagnostic>> {
@@ -397,6 +399,8 @@ fn posted(
     let (mut program, warnings) =
         PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
+    let left_out = programs.iter().flat_map(|program| native::left_out_lines(program, lang));
+    program.remarks.extend(left_out.map(Into::into));
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path), &mut delivered.inserted);
     let output =

@@ -210,6 +210,7 @@ fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<
         minutes: Some(total.minutes()).filter(|minutes| minutes.is_finite()),
         rapid: Some(means.writing.options.rapid).filter(|rapid| *rapid > 0.0),
         probes: programs.iter().flat_map(|program| probes(program)).collect(),
+        left_out: programs.iter().flat_map(|it| native::left_out_lines(it, means.sheets.lang)).collect(),
         scene,
     }))
 }

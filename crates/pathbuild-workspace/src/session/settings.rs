@@ -66,6 +66,7 @@ fn doubts(settings: &crate::config::Settings) -> Doubts {
         mark_depth: warnings.mark_depth.value,
         maximum_feed: settings.machine.max_feed.value,
         text_margin: warnings.text_margin.value,
+        hole_margin: warnings.hole_margin.value,
     }
 }
 

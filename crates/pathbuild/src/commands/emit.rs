@@ -1,7 +1,9 @@
 //! `pathbuild emit`: the files of one or more paths. (book: reference/commands, book: program/gcode)
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, Lang, Note};
+use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang, Note};
 use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, run_post_build};
 
@@ -84,6 +86,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
         }
     }
     diagnostics.extend(post_builds(&delivered));
+    let left_out = left_out(&diagnostics);
     for path in removed {
         let removed = context.choose("stale, removed", "veraltet, entfernt");
         context.printer.status(format_args!("{path}: {removed}"));
@@ -93,7 +96,27 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if matches!(task, Task::Compare { .. }) {
         count_current(context, &delivered, outdated.len());
     }
+    if !left_out.is_empty() {
+        let label = context.choose("not milled", "nicht gefräst");
+        context.printer.status(format_args!("{label}: {}", left_out.join("; ")));
+    }
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// What is drawn on the layers of paths and no part of programs: types and numbers of entities, path by path.
+fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
+    let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
+    let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();
+    let mut counts: BTreeMap<_, BTreeMap<&str, usize>> = BTreeMap::new();
+    for (path, file, place) in curves {
+        let name = path.as_deref().or_else(|| file.as_ref().and_then(|file| file.file_name()));
+        let kind = place.entity.map_or("", EntityKind::name);
+        *counts.entry(name.unwrap_or_default()).or_default().entry(kind).or_default() += 1;
+    }
+    let entities = |kinds: &BTreeMap<&str, usize>| {
+        kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect::<Vec<_>>().join(", ")
+    };
+    counts.iter().map(|(path, kinds)| format!("{} ({path})", entities(kinds))).collect()
 }
 
 /// Says what became of all files, and what posts note; whether all files are as they should be.

@@ -38,6 +38,9 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
             .either("Air run is done, with Z0 set higher", "Luftfahrt ist gemacht, mit höher gesetztem Z0")
             .into(),
     );
+    checks.extend(sheet.left_out.iter().map(|line| {
+        words.either(format!("{line}: that is intended"), format!("{line}: das ist so gewollt"))
+    }));
     let heading = Block::Heading(words.either("Before the start", "Vor dem Start").into());
     std::iter::once(heading).chain(checks.into_iter().map(Block::Check)).collect()
 }

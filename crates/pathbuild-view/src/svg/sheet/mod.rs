@@ -54,6 +54,8 @@ pub struct Sheet {
     pub rapid: Option<f64>,
     /// Z-probes in the order in which they are measured.
     pub probes: Vec<SheetProbe>,
+    /// What is drawn on the paths' layers and no part of the programs, in the sheet's language.
+    pub left_out: Vec<String>,
 }
 
 /// A cutter.

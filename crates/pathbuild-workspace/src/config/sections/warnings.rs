@@ -18,4 +18,6 @@ section! {
     mark_depth: f64 = "mark-depth", NOT_NEGATIVE, 0.5, "0.5", Check;
     /// mm: by how much a text must be nearer to its element than to another (PB116)
     text_margin: f64 = "text-margin", NOT_NEGATIVE, 0.1, "0.1", Check;
+    /// mm: by how much a circle may be larger than the cutter and look like a hole to be drilled (PB118)
+    hole_margin: f64 = "hole-margin", NOT_NEGATIVE, 0.05, "0.05", Check;
 }

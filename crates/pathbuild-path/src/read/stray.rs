@@ -1,0 +1,198 @@
+//! What is drawn for a path and does not reach it: parameter texts on layers that are no path's (PB119), and layers whose names are
+//! nearly those of paths (PB120). (book: language/layers-and-names, book: language/parameter-texts)
+
+use std::collections::{BTreeMap, HashMap};
+
+use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_dxf::{Drawing, Entity, Geometry};
+
+use super::collect::{self, Collected, candidate_word};
+use super::found_text::AnyText;
+use super::layers::PathLayers;
+use super::meaning::{plane_arc, xy};
+use super::{Owner, at_entity};
+use crate::assign::{Candidate, Looks};
+use crate::element::shown;
+use crate::geometry::Xy;
+use crate::letter::{Letter, Letters};
+use crate::name::PathName;
+use crate::raw::Language;
+use crate::text::{ParameterText, ParameterTexts, Written};
+
+/// The letters of which a stray text has at least one: those that spoil a part when they are missing.
+const WEIGHTY: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
+
+/// Largest number of candidates examined for the stray texts of a drawing.
+const MOST_LOOKS: usize = 1_000_000;
+
+/// Largest number of characters behind a path's name that may be a slip of the pen.
+const LONGEST_SLIP: usize = 2;
+
+/// Whether the bytes of a text, not yet decoded, may be a parameter text of which [`stray_findings`] speaks: `false` is certain.
+pub fn may_be_stray_text(text: &[u8]) -> bool {
+    let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W');
+    let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
+    // A backslash begins a format of MTEXT, as in `\\W0.8;`, or a new line: `\\P`.
+    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'\\';
+    let is_begin = |before: &[u8]| !before.last().is_some_and(is_inside) || before.ends_with(b"\\P");
+    let mut pairs = text.windows(2).enumerate();
+    pairs.any(|(at, pair)| is_weighty(pair[0]) && is_value(pair[1]) && is_begin(&text[..at]))
+}
+
+/// Names of paths for comparison with those of other layers.
+pub struct NearNames {
+    by_folded: HashMap<String, PathName>,
+}
+
+impl NearNames {
+    /// The names of a drawing's paths.
+    pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
+        Self { by_folded: paths.map(|path| (folded(path.as_str()), path.clone())).collect() }
+    }
+
+    /// The path whose name a layer's is nearly, where the layer is no path's: the name with a tilde and anything behind it, or with at
+    /// most two more characters, blanks and case aside.
+    pub fn path(&self, layer: &str) -> Option<&PathName> {
+        let layer = folded(layer);
+        let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
+        let ends = layer.char_indices().rev().map(|(at, _)| at);
+        let ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
+        before_tilde.or_else(|| ends.filter_map(|end| self.by_folded.get(&layer[..end])).next())
+    }
+}
+
+/// A name without blanks, in upper case, with points for `_` and `,`, and `~` for the signs that look like it.
+fn folded(name: &str) -> String {
+    let visible = name.chars().filter(|letter| !letter.is_whitespace());
+    let letters = visible.flat_map(char::to_uppercase).map(|letter| match letter {
+        '_' | ',' => '.',
+        '\u{2dc}' | '\u{223c}' | '\u{ff5e}' => '~',
+        letter => letter,
+    });
+    letters.collect()
+}
+
+/// PB119 and PB120 for a drawing of which all layers were read.
+pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
+    let layers = PathLayers::find(drawing, &language.path_pattern);
+    let mut paths = collect::paths(drawing, language);
+    paths.retain(Collected::has_elements);
+    for path in &mut paths {
+        path.assign_texts(language);
+        path.texts.prepare();
+    }
+    let names = NearNames::new(paths.iter().map(|path| &path.name));
+    let near_layers: Vec<Option<&PathName>> = (0_u32..)
+        .zip(&drawing.layers)
+        .map(|(number, layer)| {
+            let is_other = layers.membership(number).is_none();
+            let is_other = is_other && !layer.hidden && !language.is_keep_out(&layer.name);
+            is_other.then(|| names.path(&layer.name)).flatten()
+        })
+        .collect();
+    let looks = Looks::new(MOST_LOOKS);
+    let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    let mut findings = Vec::new();
+    for (number, entity) in drawing.entities.iter().enumerate() {
+        let layer = &drawing.layers[entity.layer as usize];
+        if near_layers[entity.layer as usize].is_some() {
+            on_near_layers.entry(entity.layer).or_default().push(number);
+        } else if let Some(text) = AnyText::of(&entity.geometry)
+            && layers.membership(entity.layer).is_none()
+            && !layer.hidden
+            && !language.is_keep_out(&layer.name)
+        {
+            findings.extend(stray_text(drawing, number, text, &paths, &looks));
+        }
+    }
+    findings.extend(
+        on_near_layers.into_iter().filter_map(|(layer, entities)| {
+            near_layer(drawing, near_layers[layer as usize]?, layer, &entities)
+        }),
+    );
+    findings
+}
+
+/// PB119 where a text would have an effect on a path's layer.
+fn stray_text(
+    drawing: &Drawing,
+    entity: usize,
+    text: AnyText<'_>,
+    paths: &[Collected<'_>],
+    looks: &Looks,
+) -> Option<Diagnostic> {
+    let mut texts = ParameterTexts::default();
+    let id = texts.push_drawn(text.string());
+    let read = texts.get(id).filter(|read| is_weighty(*read))?;
+    let circle = text.circle();
+    let (path, (layer, candidate)) = paths.iter().find_map(|path| {
+        let taker = path.texts.takers(&circle, looks).find(|(_, taker)| path.would_heed(read, taker))?;
+        Some((path, taker))
+    })?;
+    let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
+        .with("text", read.as_str().replace('\n', " "))
+        .with("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
+        .with("path_layer", layer)
+        .with("element", candidate_word(candidate))
+        .with("point", shown(candidate.shape.point()))
+        .with_text(read.whole());
+    Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
+}
+
+/// Whether a text consists of letters with numbers, among them one that spoils a part when it is missing. Variables count as numbers.
+fn is_weighty(text: ParameterText<'_>) -> bool {
+    let is_number = |written: Written| matches!(written, Written::Number(_) | Written::Reference);
+    text.letters.has_any(WEIGHTY)
+        && text
+            .pieces()
+            .iter()
+            .all(|piece| piece.letter.is_some_and(|letter| !letter.is_text()) && is_number(piece.written))
+}
+
+impl Collected<'_> {
+    /// Whether all letters of a text would have an effect on an element that has no text.
+    fn would_heed(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
+        let Owner::Element(element) = candidate.owner else { return false };
+        let element = &self.elements[element];
+        let class = element.class(self.tool());
+        let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
+        element.text.is_none() && letters.all(|letter| class.use_of(letter).counts())
+    }
+
+    /// The cutter's diameter, where the start text gives it.
+    fn tool(&self) -> Option<f64> {
+        let text = self.given.get(self.start.as_ref()?.text?)?;
+        match text.piece(Letter::O)?.written {
+            Written::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+}
+
+/// PB120 for a layer with these entities.
+fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
+    let first = *entities.first()?;
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for entity in entities {
+        *counts.entry(drawing.entities[*entity].kind.name()).or_default() += 1;
+    }
+    let elements: Value = counts.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    let problem = Diagnostic::new(&messages::NEARLY_PATH_LAYER)
+        .with("layer", &*drawing.layers[layer as usize].name)
+        .with("path", path.as_str())
+        .with("elements", elements)
+        .in_path(path.as_str());
+    Some(at_entity(drawing, first, begin(&drawing.entities[first]), problem))
+}
+
+/// Where an entity begins, or has its centre or anchor.
+fn begin(entity: &Entity) -> Xy {
+    match &entity.geometry {
+        Geometry::Line(line) => xy(line.start),
+        Geometry::Arc(arc) => plane_arc(arc).start,
+        Geometry::Circle(circle) => xy(circle.centre),
+        Geometry::Text(text) => xy(text.anchor),
+        Geometry::MText(text) => xy(text.anchor),
+    }
+}

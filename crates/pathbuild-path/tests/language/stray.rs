@@ -1,0 +1,109 @@
+//! What is drawn for a path and does not reach it: PB119 and PB120.
+
+use pathbuild_dxf::{Drawing, Options, Units};
+use pathbuild_path::{KeepOutPattern, Language, may_be_stray_text, stray_findings};
+use pathbuild_testkit::sheet;
+
+use crate::support::{codes, language};
+
+fn drawn(drawing: &str) -> Drawing {
+    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let options = Options {
+        keep_layer: &|_| true,
+        note_text: None,
+        units: Units::Header,
+        approximate_curves: 0.0,
+        max_entities: 10_000,
+        max_text: 65_536,
+        compatible: false,
+    };
+    pathbuild_dxf::read(&sheet.to_dxf(), &options)
+}
+
+/// The codes of a path with a groove and a hole, and of something on other layers.
+fn strays(others: &str) -> Vec<String> {
+    strays_with("mill 0,0 40,0\nsweep 40,0 60,0\nmark 60,0 80,0 \"D4\"\nend 80,0", others)
+}
+
+fn strays_with(path: &str, others: &str) -> Vec<String> {
+    let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 D4\"\n{path}\n{others}");
+    let language = Language { keep_out: KeepOutPattern::new("Clamps.*").ok(), ..language() };
+    codes(&stray_findings(&drawn(&drawing), &language))
+}
+
+fn text(layer: &str, string: &str, at: &str) -> String {
+    format!("layer \"{layer}\"\ntext {at} \"{string}\" height 2 align centre middle")
+}
+
+#[test]
+fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
+    for string in ["B2", "F120 B-0.3", "B2,5", "I0.5", "W4", "N1 B2", "B=D", " B2 "] {
+        assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
+    }
+    for string in
+        ["R5", "M6", "Maßstab", "B", "Bohrung", "b2", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "B 2", "T5"]
+    {
+        assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
+    }
+}
+
+#[test]
+fn only_an_element_without_a_text_that_would_get_it_counts() {
+    let note = |at: &str| strays(&text("Notes", "F50", at));
+    assert_eq!(note("20,0"), ["PB119"]);
+    assert_eq!(note("20,1.5"), ["PB119"]);
+    assert_eq!(note("20,3"), [""; 0], "it overlaps nothing");
+    assert_eq!(note("50,0"), [""; 0], "a sweep knows no F");
+    assert_eq!(note("70,0"), [""; 0], "the mark has its text");
+}
+
+#[test]
+fn clamps_hidden_layers_and_layers_of_paths_are_excepted() {
+    assert_eq!(strays(&text("Clamps 2", "B2", "20,0")), [""; 0]);
+    assert_eq!(strays(&text("1234.1P", "B2", "20,0")), [""; 0]);
+}
+
+#[test]
+fn texts_of_several_lines_count_as_well() {
+    let mtext = |string: &str| format!("layer Notes\nmtext 20,0 \"{string}\" height 2 align middle centre");
+    assert_eq!(strays(&mtext("B2")), ["PB119"]);
+    assert_eq!(strays(&mtext("Deckel")), [""; 0]);
+}
+
+#[test]
+fn a_layer_that_is_nearly_a_path_s_is_named() {
+    let circle = |layer: &str| strays(&format!("layer \"{layer}\"\ncircle 20,40 d 2"));
+    for layer in [
+        "1234.1P~A1",
+        "1234.1P ~a",
+        "1234.1PP",
+        "1234.1p-2",
+        "1234_1P~A1",
+        "1234,1P",
+        "1234.1P A",
+        "1234.1P~Aß1",
+        "12 34.1P",
+    ] {
+        assert_eq!(circle(layer), ["PB120"], "{layer}");
+    }
+    for layer in ["1234.1", "1234.1P alt", "1234.1PXYZ", "Kontur", "1235.1Q~A", "0", "1234.1P~A"] {
+        assert_eq!(circle(layer), [""; 0], "{layer}");
+    }
+}
+
+#[test]
+fn a_layer_is_named_once_however_much_is_on_it() {
+    let other = "layer \"1234.1P~A1\"\ncircle 20,40 d 2\nmill 0,40 20,40\ntext 20,0 \"B2\" height 2";
+    assert_eq!(strays(other), ["PB120"]);
+}
+
+/// What the first reading must not miss.
+#[test]
+fn the_first_look_at_bytes_is_certain() {
+    for text in ["B2", "F120 B-0.3", " B2", "B=D", "N1 B.5", "{\\fArial|b0|i0;B2}", "N1\\PB2"] {
+        assert!(may_be_stray_text(text.as_bytes()), "{text}");
+    }
+    for text in ["R5", "M6", "Maßstab 1:1", "AB2", "\\W0.8;Text", "Bohrung", ""] {
+        assert!(!may_be_stray_text(text.as_bytes()), "{text}");
+    }
+}
