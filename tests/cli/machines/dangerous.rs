@@ -26,7 +26,7 @@ use super::say;
 use crate::support::{self, Place};
 
 /// So many changes are tried where nobody says another number.
-const CHANGES: usize = 400;
+const CHANGES: usize = 300;
 
 /// So many programs are verified by one process.
 const AT_ONCE: usize = 100;
@@ -404,10 +404,9 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     for Step { action, .. } in interpret(text, dialect, &Options::default()).steps {
         match action {
             Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.path == interpret::Path::Line => {}
+            Action::Move(it) if it.pace == Pace::Rapid && it.to.z().min(it.from.z()) >= LOW => {}
             Action::Move(it) if it.pace == Pace::Rapid => {
-                if it.to.z().min(it.from.z()) < LOW {
-                    effects.push(Effect { kind: 0, numbers: it.to.at.to_vec(), state: String::new() });
-                }
+                effects.push(Effect { kind: 0, numbers: it.to.at.to_vec(), state: String::new() });
             }
             Action::Move(it) => {
                 let (kind, mut numbers, mut way) = (1, it.to.at.to_vec(), String::new());

@@ -34,10 +34,10 @@ enum ProbeHeight {
 /// Why a formula has no value.
 enum NoValue {
     /// The program states nothing about this probe.
-    NotStated(u32),
+    UnknownProbe(u32),
     /// The program does not state the measured height of this probe.
-    NotMeasured(u32),
-    NotFinite,
+    Unmeasured(u32),
+    Infinite,
 }
 
 impl StatedProbes {
@@ -46,7 +46,7 @@ impl StatedProbes {
         stack.clear();
         let value = self.run(code, height, &mut stack);
         self.stack = stack;
-        value.and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoValue::NotFinite) })
+        value.and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoValue::Infinite) })
     }
 
     fn run(&self, code: &[Op], height: ProbeHeight, stack: &mut Vec<f64>) -> Result<f64, NoValue> {
@@ -87,12 +87,12 @@ impl StatedProbes {
     fn probe(&self, number: u32, height: ProbeHeight, behind: &[Op]) -> Result<f64, NoValue> {
         match (self.probes.get(&number), height) {
             (Some(probe), ProbeHeight::Drawn) => Ok(probe.height),
-            (Some(probe), ProbeHeight::Measured) => probe.measured.ok_or(NoValue::NotMeasured(number)),
+            (Some(probe), ProbeHeight::Measured) => probe.measured.ok_or(NoValue::Unmeasured(number)),
             (None, ProbeHeight::Drawn) if !self.is_ours => match behind {
                 [Op::Number(drawn), Op::Binary(Binary::Minus), ..] => Ok(*drawn),
-                _ => Err(NoValue::NotStated(number)),
+                _ => Err(NoValue::UnknownProbe(number)),
             },
-            (None, _) => Err(NoValue::NotStated(number)),
+            (None, _) => Err(NoValue::UnknownProbe(number)),
         }
     }
 
@@ -147,7 +147,7 @@ impl Interpreter<'_> {
                 self.compare(block, formula, number, value);
                 value - drawn
             }
-            Err(NoValue::NotStated(_)) if !self.stated.is_ours => {
+            Err(NoValue::UnknownProbe(_)) if !self.stated.is_ours => {
                 // Another program wrote it, which states no measured heights: `verify` says so.
                 number - drawn
             }
@@ -157,9 +157,9 @@ impl Interpreter<'_> {
 
     fn no_value(&mut self, block: &Block<'_>, formula: &Formula, fault: &NoValue) -> f64 {
         let (message, probe) = match fault {
-            NoValue::NotStated(probe) => (&say::PROBE_NOT_STATED, *probe),
-            NoValue::NotMeasured(probe) => (&say::HEIGHT_NOT_MEASURED, *probe),
-            NoValue::NotFinite => (&say::FORMULA_WITHOUT_VALUE, 0),
+            NoValue::UnknownProbe(probe) => (&say::PROBE_NOT_STATED, *probe),
+            NoValue::Unmeasured(probe) => (&say::HEIGHT_NOT_MEASURED, *probe),
+            NoValue::Infinite => (&say::FORMULA_WITHOUT_VALUE, 0),
         };
         self.report(block, message, formula.span, |d| d.with("probe", u64::from(probe)));
         0.0

@@ -151,10 +151,10 @@ impl Against {
             return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
         }
         let correction = writing(context).options.correction;
-        let mut found = match is_probing {
-            true => Vec::new(),
-            false => native::formula_differences(&program.text, &self.drawn, correction),
-        };
+        let mut found = Vec::new();
+        if !is_probing {
+            found = native::formula_differences(&program.text, &self.drawn, correction);
+        }
         let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
         let now = Provenances::new(&context.settings, None).of(&[&*self.drawn]);
         // A program of ours whose first line was removed or damaged still has its title.
