@@ -84,7 +84,7 @@ impl TextCircle {
     }
 
     /// How far its rim is from the nearest point of a curve, for help: 0 where they touch.
-    pub(crate) fn gap_to(&self, curve: &Curve) -> f64 {
+    pub fn gap_to(&self, curve: &Curve) -> f64 {
         let beside = match curve {
             Curve::Line(line) => self.distance_to_line(line),
             Curve::Arc(arc) => self.distance_to_arc(arc),

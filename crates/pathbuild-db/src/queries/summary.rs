@@ -31,16 +31,17 @@ impl PathSummary {
     /// Binds and walks a path.
     pub(super) fn new(db: &dyn Db, raw: &RawPath, bindings: &Bindings, ends: &LayerEnds<'_>) -> Self {
         let language = Settings::get(db).language(db);
-        let BoundPath { path, diagnostics: mut problems } = examine(raw, bindings, language);
+        let with_hint = |found: Diagnostic| ends.with_hint(&raw.name, language, found);
+        let BoundPath { path, diagnostics } = examine(raw, bindings, language);
+        let mut problems: Vec<Diagnostic> = diagnostics.into_iter().map(with_hint).collect();
         let Some(path) = path else { return Self { problems, ..Self::default() } };
         let walked = walk(db, &path, language);
         if let Some(end) = walked.open_end {
             say_where_it_ends(&mut problems, end);
         }
-        let with_hint =
-            |found: &Diagnostic| ends.with_hint(&path.name, &language.path_pattern, found.clone());
         let signature = PathSignature::of(&path);
-        let walk_problems = walked.diagnostics.iter().map(with_hint).collect();
+        let moves = if path.has_faults() { 0 } else { own_moves(&path, &walked) };
+        let walk_problems = walked.diagnostics.into_iter().map(with_hint).collect();
         if path.has_faults() {
             let faulty_signature = Some(Box::new(signature));
             return Self { problems, walk_problems, faulty_signature, ..Self::default() };
@@ -49,7 +50,7 @@ impl PathSummary {
             problems,
             sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
             walk_problems,
-            moves: own_moves(&path, &walked),
+            moves,
             signature: Some(signature),
             faulty_signature: None,
         }

@@ -8,6 +8,16 @@ messages! {
         help_en: "draw a PHANTOM circle of 1 mm diameter on layer {layer}, with the path's parameters as text (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 1 mm Durchmesser zeichnen, mit den Parametern des Pfads als Text (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
+    /// Note: a start marker on a layer of no path.
+    START_ON_OTHER_LAYER: MissingStart {
+        en: "on layer {layer}, which is no path layer, there is a start marker at {point}: is it on the wrong layer?",
+        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Startmarke: liegt sie auf dem falschen Layer?",
+    }
+    /// Note: an end marker on a layer of no path.
+    END_MARKER_ON_OTHER_LAYER: MissingEnd {
+        en: "on layer {layer}, which is no path layer, there is an end marker at {point}: is it on the wrong layer?",
+        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
+    }
     /// Note: a circle with the path's text.
     MEANT_AS_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
@@ -106,6 +116,11 @@ messages! {
     NEAREST_ELEMENT: TextWithoutElement {
         en: "nearest is {element} at {point}, {distance} mm away from the text's circle",
         de: "am nächsten liegt {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
+    }
+    /// Note: an element beside it on another layer.
+    NEAR_ON_OTHER_LAYER: TextWithoutElement {
+        en: "on layer {layer} {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
+        de: "auf Layer {layer} liegt {element} {distance} mm vom Kreis des Textes entfernt: liegen beide versehentlich auf verschiedenen Layern?",
     }
     /// Note: it would be found on another layer.
     ELEMENT_ON_OTHER_LAYER: TextWithoutElement {

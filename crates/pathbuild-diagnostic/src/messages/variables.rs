@@ -29,6 +29,13 @@ messages! {
         help_en: "it is defined as {definition}; embed the path in a project that sets it: :{variable}VALUE",
         help_de: "sie ist als {definition} festgelegt; den Pfad in ein Projekt einbetten, das sie setzt: :{variable}WERT",
     }
+    /// A subpath that does not set a variable of its path.
+    MISSING_VALUE_HERE: MissingVariableValue {
+        en: "variable \"{variable}\" of path {name} has no value",
+        de: "Variable \"{variable}\" des Pfads {name} hat keinen Wert",
+        help_en: "add it here, for example :{variable}{example}; the path defines it as {definition}",
+        help_de: "hier hinzufügen, zum Beispiel :{variable}{example}; der Pfad legt sie als {definition} fest",
+    }
     /// A subpath text sets what the path does not define.
     VALUE_WITHOUT_DEFINITION: UnknownVariable {
         en: "path {name} has no variable \"{variable}\"",

@@ -15,6 +15,13 @@ messages! {
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
+    /// There and back over what is drawn twice.
+    DRAWN_TWICE: NothingContinues {
+        en: "{element} at {point} is drawn twice: the path runs back along the second one and breaks off; segments not reached: {left}",
+        de: "{element} bei {point} ist doppelt gezeichnet: der Pfad läuft auf dem zweiten Segment zurück und bricht ab; nicht erreichte Segmente: {left}",
+        help_en: "delete one of the two",
+        help_de: "eines der beiden löschen",
+    }
     /// A turn marker from where nothing is found.
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
@@ -48,6 +55,13 @@ messages! {
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
+    }
+    /// What is left is drawn twice.
+    UNREACHED_TWICE: UnreachedSegments {
+        en: "{element} at {point} is drawn twice, and the path runs along one of the two only; segments not reached: {left}",
+        de: "{element} bei {point} ist doppelt gezeichnet, der Pfad läuft aber nur über eines der beiden Segmente; nicht erreichte Segmente: {left}",
+        help_en: "delete one of the two",
+        help_de: "eines der beiden löschen",
     }
     /// Something left lies along a segment, where that has no end.
     NO_END_THERE: UnreachedSegments {

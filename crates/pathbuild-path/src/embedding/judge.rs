@@ -136,7 +136,10 @@ impl<'a> Judge<'a> {
         let is_given = |known: &Definition| values.iter().any(|given| given.variable == Some(known.name));
         let missing = inner.definitions.iter().filter(|known| !is_given(known));
         let missing = missing.map(|definition| {
-            let problem = Diagnostic::new(&variables::MISSING_VALUE).with("variable", definition.name);
+            let problem = Diagnostic::new(&variables::MISSING_VALUE_HERE)
+                .with("variable", definition.name)
+                .with("example", definition.check_value(0).as_str())
+                .with("name", inner.name.as_str());
             self.at_name(call, problem.with("definition", definition.to_string()))
         });
         wrong.chain(missing).collect()

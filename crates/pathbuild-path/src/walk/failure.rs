@@ -20,6 +20,13 @@ impl Walk<'_> {
     }
 
     pub(super) fn nothing_continues(&self) -> Diagnostic {
+        if let Some(segment) = self.last.filter(|last| self.is_drawn_twice(*last)) {
+            let problem = Diagnostic::new(&messages::DRAWN_TWICE)
+                .with("element", self.word(segment))
+                .with("point", shown(self.ends.of(segment)[0]))
+                .with("left", self.left);
+            return self.path.origin(&self.path.segments[segment]).at(problem);
+        }
         let message = if self.is_dead_end() { &messages::DEAD_END } else { &messages::NOTHING_CONTINUES };
         let problem = Diagnostic::new(message).with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
@@ -45,12 +52,16 @@ impl Walk<'_> {
         let one = self.open().next().map(|segment| (segment, self.ends.of(segment)[0]));
         let mut problem = Diagnostic::new(&messages::UNREACHED);
         if let Some((segment, start)) = one {
-            if let Some(other) = self.passing_by(start) {
+            if self.is_drawn_twice(segment) {
+                problem = Diagnostic::new(&messages::UNREACHED_TWICE);
+            } else if let Some(other) = self.passing_by(start) {
                 problem = Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other));
             }
             problem = problem.with("element", self.word(segment)).with("point", shown(start));
         }
-        self.with_duplicate(self.path.end_origin.at(problem.with("left", self.left)))
+        let is_told = problem.message == &messages::UNREACHED_TWICE;
+        let problem = self.path.end_origin.at(problem.with("left", self.left));
+        if is_told { problem } else { self.with_duplicate(problem) }
     }
 
     /// A segment on which a point lies, where it has no end.
@@ -107,6 +118,12 @@ impl Walk<'_> {
                 ("element", self.word(segment).into()),
             ],
         )
+    }
+
+    /// Whether a segment runs as a traversed one does.
+    fn is_drawn_twice(&self, segment: usize) -> bool {
+        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
+        Curves::new(self.path, &self.ends, traversed).have_another(segment)
     }
 
     /// A segment that is drawn twice, as one that was traversed. It is left over, or the walk went there and back.

@@ -4,6 +4,7 @@
 
 mod assignment;
 mod chains;
+mod at_once;
 mod circles;
 mod crowded;
 mod default_patterns;

@@ -128,7 +128,7 @@ fn a_dead_end_wants_a_turn_marker() {
     );
     // A line drawn twice leads back to where it began.
     let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 40,0\nmill 40,0 60,0 \"N9999\"\nend 60,0";
-    assert_one(&found(twice), "PB401 the path breaks off here;", "the path's layer");
+    assert_one(&found(twice), "PB401 a milling segment at (20, 0) is drawn twice", "delete one of the two");
 }
 
 #[test]

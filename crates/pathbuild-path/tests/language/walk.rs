@@ -69,12 +69,11 @@ fn nothing_continues_names_the_nearest_open_end() {
 
 #[test]
 fn a_duplicate_is_named() {
-    let (codes, notes) = found("mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 0,0\nend 40,0");
-    assert_eq!(codes, ["PB402"]);
-    assert_eq!(
-        notes,
-        ["a milling segment at (20, 0) lies on one that was already traversed: it is drawn twice"]
-    );
+    let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 0,0\nend 40,0";
+    let (codes, notes) = found(twice);
+    assert_eq!((codes, notes), (vec!["PB402".to_owned()], Vec::<String>::new()));
+    let [problem] = &compile(&path("T5 O3 I1 B0", twice)).found[..] else { panic!() };
+    assert!(problem.text(Lang::En).starts_with("a milling segment at (20, 0) is drawn twice"));
     // An arc between the same points is another way.
     let (codes, notes) =
         found("mill 0,0 20,0\nmill 20,0 40,0\nmill arc 40,0 60,0 r 10\nmill 60,0 80,0\nend 40,0");

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use pathbuild_db::{Database, SourceFile, drawn_path, file_index, in_force};
 use pathbuild_diagnostic::{Point, shown};
 use pathbuild_path::{InForce, Parameter, PathName, Position, Provider};
+use pathbuild_workspace::config::Origin;
 use serde_json::{Value as Json, json};
 
 use super::{Shown, handle, named};
@@ -53,9 +54,25 @@ fn table<'a>(
 fn source(context: &Context, from: &Provider) -> String {
     let word = context.choose(from.word().en, from.word().de);
     match from {
-        Provider::Option(name) => format!("{word} --{name}"),
+        Provider::Option(name) => option(context, name),
         Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
         _ => word.to_owned(),
+    }
+}
+
+/// The configuration or the option that gives a value.
+fn option(context: &Context, name: &str) -> String {
+    let general = &context.settings.general;
+    let origin = match name {
+        "feed" => general.feed.origin,
+        "sweep-height" => general.sweep_height.origin,
+        _ => general.probe_feed.origin,
+    };
+    match origin {
+        Origin::File(line) => context.choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
+            .replace("{name}", name)
+            .replace("{line}", &line.to_string()),
+        Origin::Default | Origin::CommandLine(_) => format!("Option --{name}"),
     }
 }
 
