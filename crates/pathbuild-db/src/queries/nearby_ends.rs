@@ -40,12 +40,9 @@ impl<'a> LayerEnds<'a> {
         };
         if let Some((note, distance)) = hint {
             // What is farther away on the path's own layer was hardly meant.
-            let is_nearer = |other: &Note| match other.arguments.iter().find(|(name, _)| *name == "distance") {
-                Some((_, Value::Number(Number(other)))) => *other <= distance,
-                _ => true,
-            };
-            problem.notes.retain(is_nearer);
-            problem.notes.insert(0, note);
+            problem.notes.retain(|other| distance_of(other).is_none_or(|other| other <= distance));
+            let nearer = problem.notes.iter().take_while(|other| distance_of(other).is_some()).count();
+            problem.notes.insert(nearer, note);
         }
         problem
     }
@@ -119,6 +116,14 @@ impl<'a> LayerEnds<'a> {
             ("distance", gap.into()),
         ];
         (gap <= WORTH_NAMING).then(|| (Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
+    }
+}
+
+/// The distance that a note names, in mm.
+fn distance_of(note: &Note) -> Option<f64> {
+    match note.arguments.iter().find(|(name, _)| *name == "distance")? {
+        (_, Value::Number(Number(distance))) => Some(*distance),
+        _ => None,
     }
 }
 
