@@ -30,9 +30,16 @@ impl<'a> LayerEnds<'a> {
     }
 
     /// Adds what is drawn on another layer and was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element.
-    pub(super) fn with_hint(&self, path: &PathName, language: &Language, mut problem: Diagnostic) -> Diagnostic {
+    pub(super) fn with_hint(
+        &self,
+        path: &PathName,
+        language: &Language,
+        mut problem: Diagnostic,
+    ) -> Diagnostic {
         let hint = match problem.code() {
-            Code::NothingContinues if problem.message != &walk::DRAWN_TWICE => self.end(path, language, &problem),
+            Code::NothingContinues if problem.message != &walk::DRAWN_TWICE => {
+                self.end(path, language, &problem)
+            }
             Code::MissingStart => self.marker(language, &problem, START, &drawing::START_ON_OTHER_LAYER),
             Code::MissingEnd => self.marker(language, &problem, END, &drawing::END_MARKER_ON_OTHER_LAYER),
             Code::TextWithoutElement => self.element(&problem),
@@ -56,9 +63,8 @@ impl<'a> LayerEnds<'a> {
     fn end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let point = problem.place.point?;
         let ends = all_ends(self.all.get_or_init(self.read));
-        let is_other = |end: &&LayerEnd| {
-            language.path_pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path)
-        };
+        let is_other =
+            |end: &&LayerEnd| language.path_pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path);
         let distances = ends.iter().filter(is_other).map(|end| (end, distance(end.point, point)));
         let (end, distance) = distances.reduce(|best, other| if other.1 < best.1 { other } else { best })?;
         let arguments = vec![
@@ -85,7 +91,8 @@ impl<'a> LayerEnds<'a> {
         }
         let (layer, centre) = self.entities().find_map(|(layer, entity)| match &entity.geometry {
             Geometry::Circle(circle) if (circle.radius - radius).abs() < SAME_RADIUS => {
-                let is_phantom = LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom);
+                let is_phantom =
+                    LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom);
                 let is_of_path = language.path_pattern.layer(layer).is_some();
                 (is_phantom && !is_of_path).then_some((layer, Point::new(circle.centre.x, circle.centre.y)))
             }
@@ -96,7 +103,8 @@ impl<'a> LayerEnds<'a> {
 
     /// The element on another layer that is nearest to a text.
     fn element(&self, problem: &Diagnostic) -> Option<(Note, f64)> {
-        let argument = |wanted| problem.arguments.iter().find(|(name, _)| *name == wanted).map(|(_, value)| value);
+        let argument =
+            |wanted| problem.arguments.iter().find(|(name, _)| *name == wanted).map(|(_, value)| value);
         let (Some(Value::Point(centre)), Some(Value::Number(Number(diameter)))) =
             (argument("centre"), argument("diameter"))
         else {
@@ -108,13 +116,12 @@ impl<'a> LayerEnds<'a> {
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
         let others = self.entities().filter(|(layer, _)| Some(*layer) != own);
-        let distances = others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
-        let (layer, entity, gap) = distances.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
-        let arguments = vec![
-            ("layer", layer.into()),
-            ("element", entity.kind.name().into()),
-            ("distance", gap.into()),
-        ];
+        let distances =
+            others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
+        let (layer, entity, gap) =
+            distances.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
+        let arguments =
+            vec![("layer", layer.into()), ("element", entity.kind.name().into()), ("distance", gap.into())];
         (gap <= WORTH_NAMING).then(|| (Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
     }
 }

@@ -27,7 +27,11 @@ const MISTAKES: [Mistake; 14] = [
     Mistake { name: "gap", make: |it| it.groove = it.groove.replace("20,20", "20.5,20"), code: "PB401" },
     Mistake { name: "hole too small", make: |it| it.hole = "circle CONTINUOUS 10,10 d 2.9", code: "PB109" },
     Mistake { name: "twice in a text", make: |it| it.link = "sweep 40,20 60,20 \"S9 S9\"", code: "PB204 S" },
-    Mistake { name: "unknown line type", make: |it| it.outline = "line \"ZIGZAG\" 60,20 60,60", code: "PB106" },
+    Mistake {
+        name: "unknown line type",
+        make: |it| it.outline = "line \"ZIGZAG\" 60,20 60,60",
+        code: "PB106",
+    },
     Mistake { name: "no end", make: |it| it.end = "", code: "PB102" },
     Mistake { name: "end elsewhere", make: |it| it.end = "end 90,90", code: "PB403" },
     Mistake { name: "second end", make: |it| it.more.push("end 0,90"), code: "PB104" },
@@ -80,9 +84,8 @@ fn drawing(mistakes: &[&Mistake]) -> String {
 }
 
 fn expected(pair: [&Mistake; 2]) -> Vec<&'static str> {
-    let is_pair = |names: &[&str; 2]| {
-        *names == [pair[0].name, pair[1].name] || *names == [pair[1].name, pair[0].name]
-    };
+    let is_pair =
+        |names: &[&str; 2]| *names == [pair[0].name, pair[1].name] || *names == [pair[1].name, pair[0].name];
     let together = TOGETHER.iter().find(|(names, _)| is_pair(names));
     together.map_or_else(|| pair.map(|mistake| mistake.code).to_vec(), |(_, codes)| codes.to_vec())
 }

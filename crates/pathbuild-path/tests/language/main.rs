@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
 
 mod assignment;
-mod chains;
 mod at_once;
+mod chains;
 mod circles;
 mod crowded;
 mod default_patterns;

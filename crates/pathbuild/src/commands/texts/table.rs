@@ -69,7 +69,8 @@ fn option(context: &Context, name: &str) -> String {
         _ => general.probe_feed.origin,
     };
     match origin {
-        Origin::File(line) => context.choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
+        Origin::File(line) => context
+            .choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
             .replace("{name}", name)
             .replace("{line}", &line.to_string()),
         Origin::Default | Origin::CommandLine(_) => format!("Option --{name}"),
