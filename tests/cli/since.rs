@@ -56,6 +56,20 @@ fn what_depends_on_a_change_is_checked_and_nothing_else() {
     }
 }
 
+/// A hook runs before the first commit too.
+#[test]
+fn before_the_first_commit_everything_has_changed() {
+    let place = library();
+    fs::remove_dir_all(place.path().join(".git")).unwrap();
+    git(&place, &["init", "-q"]);
+    assert_eq!(checked(&place, "check --changed-since HEAD"), "5 paths in 5 drawings");
+    assert_eq!(place.run("check --changed-since HEAD~1").status, Some(2));
+    assert_eq!(place.run("check --changed-since main").status, Some(2));
+    git(&place, &["add", "-A"]);
+    git(&place, &["commit", "-q", "-m", "all"]);
+    assert_eq!(checked(&place, "check --changed-since HEAD"), "0 paths in 0 drawings");
+}
+
 #[test]
 fn files_that_came_or_went_concern_what_looked_for_them() {
     let place = library();

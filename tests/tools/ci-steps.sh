@@ -24,6 +24,7 @@ fail() { echo "ci-steps: $*" >&2; exit 1; }
 repository="$place/repository"
 mkdir "$repository"
 cp -r "$root/fixtures/library" "$repository/library"
+cp -r "$root/fixtures/library" "$repository/other"
 cd "$repository"
 git init -q -b main
 git add -A
@@ -47,8 +48,9 @@ github() { # a step of the action by its name, as GitHub runs it
 import sys, yaml
 steps = yaml.safe_load(open(sys.argv[1]))["runs"]["steps"]
 print(next(step["run"] for step in steps if step["name"] == sys.argv[2]))' "$root/action.yml" "$1" > "$place/step.sh"
-  rm -f "$place/summary.md"
-  DIRECTORY=library URL="https://example.invalid/artifact" BASE="$base" SARIF="$repository/pathbuild.sarif" RUNNER_TEMP="$place/temp" GITHUB_STEP_SUMMARY="$place/summary.md" \
+  rm -f "$place/summary.md" "$place/output"
+  : > "$place/output"
+  DIRECTORY=${directory:-library} INSTALL=${install-} GITHUB_OUTPUT="$place/output" URL="https://example.invalid/artifact" BASE="$base" SARIF="$repository/pathbuild.sarif" RUNNER_TEMP="$place/temp" GITHUB_STEP_SUMMARY="$place/summary.md" \
     PATHBUILD_CACHE_DIR="$place/cache" bash --noprofile --norc -eo pipefail "$place/step.sh"
 }
 status=0; github Check > "$place/annotations" 2> "$place/log" || status=$?
@@ -70,8 +72,8 @@ python3 -c 'import json, sys; assert any(i["location"]["path"] == "library/compo
 python3 -c 'import sys, xml.etree.ElementTree as x; assert x.parse(sys.argv[1]).getroot().findall(".//failure")' "$repository/junit.xml"
 
 hook() { (cd library && eval "$(step "$root/.pre-commit-hooks.yaml" "$1" entry)"); }
-hook 0 > /dev/null 2>&1 || fail "the hook finds an error though nothing changed since the last commit"
 git checkout -q main
+hook 0 > /dev/null 2>&1 || fail "the hook finds an error in a sound library"
 git checkout -q change -- library/components/2050.1P.dxf
 if hook 0 > /dev/null 2>&1; then fail "the hook passes a component that is broken"; fi
 git reset -q --hard main
@@ -82,11 +84,27 @@ sed -i 's/B-0.2/B-0.1/' library/components/2050.1P.dxf
 git commit -qam "Raise the bottom"
 github Moves > /dev/null 2> "$place/log" || fail "the comparison ended with an error: $(cat "$place/log")"
 grep -q '^| ` 8001.1P ` | ` projects/8001.1P.dxf ` | 0.1 mm higher' "$place/summary.md" || fail "no comparison: $(cat "$place/summary.md")"
-grep -q '<html' "$place/temp/pathbuild-moves.html" || fail "no pictures"
+page() { sed -n 's/^page=//p' "$place/output"; }
+grep -q '<html' "$(page)" || fail "no pictures"
 github "Link to the pictures"
 grep -q '^\[Pictures of the changes\](https://example.invalid/artifact)' "$place/summary.md" || fail "no link to the pictures"
-rm "$place/temp/pathbuild-moves.html"
+# The action once more in the same job, for a directory in which nothing changed: it must not upload what the first use made.
+directory=other github Moves > /dev/null 2> "$place/log" || fail "the second use ended with an error: $(cat "$place/log")"
+[ -z "$(page)" ] || fail "the second use has pictures: $(page)"
+directory=other github Check > /dev/null 2> "$place/log" || fail "the second use finds errors: $(cat "$place/log")"
 git checkout -q main
+
+# Install obeys no file of the checkout: rustup would run any program as cargo.
+mkdir -p "$place/toolchain/bin"
+printf '#!/bin/sh\ntouch "%s"\n' "$place/obeyed" > "$place/toolchain/bin/cargo"
+chmod +x "$place/toolchain/bin/cargo"
+cp "$place/toolchain/bin/cargo" "$place/toolchain/bin/rustc"
+printf '[toolchain]\npath = "%s"\n' "$place/toolchain" > rust-toolchain.toml
+install="pwd > '$place/where'; cargo --version > '$place/version'" github Install > /dev/null 2> "$place/log" || fail "Install ended with an error: $(cat "$place/log")"
+case $(cat "$place/where") in "$repository"*) fail "Install runs in the checkout" ;; esac
+[ ! -f "$place/obeyed" ] || fail "Install obeys the checkout's rust-toolchain.toml"
+if install='false; true' github Install > /dev/null 2>&1; then fail "an installation that fails is passed over"; fi
+rm rust-toolchain.toml
 
 # A pull request that breaks nothing.
 git checkout -qb harmless
@@ -97,7 +115,7 @@ github Check > "$place/annotations" 2> "$place/log" || fail "a harmless change i
 [ ! -s "$place/annotations" ] || fail "annotations of a harmless change"
 github Moves > /dev/null 2> "$place/log" || fail "the comparison ended with an error: $(cat "$place/log")"
 grep -q '0 of [0-9]* paths changed' "$place/summary.md" || fail "no comparison of a harmless change: $(cat "$place/summary.md")"
-[ ! -f "$place/temp/pathbuild-moves.html" ] || fail "pictures of nothing"
+[ -z "$(page)" ] || fail "pictures of nothing"
 base=0000000000000000000000000000000000000000 github Moves > /dev/null 2>&1 || fail "an unknown base ends the comparison with an error"
 gitlab 2> "$place/log" || fail "the template refuses a harmless change: $(cat "$place/log")"
 
@@ -108,4 +126,45 @@ github Programs > "$place/out" 2>&1 || fail "programs just written are not curre
 hook 1 > /dev/null 2>&1 || fail "the hook finds current programs not current"
 sed -i 's/X40.000/X41.000/' library/gcode/8001.1P_Milling.gcode
 if hook 1 > /dev/null 2>&1; then fail "a program changed by hand is current"; fi
+
+# The real pre-commit: before the first commit, over a broken commit, and where the library is a directory of the repository.
+if ! command -v pre-commit > /dev/null; then
+  echo "ci-steps: pre-commit is missing: its hooks were run without it"
+  echo "ci-steps: all other steps did what they should"
+  exit
+fi
+export PRE_COMMIT_HOME="$place/pre-commit" GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0='*'
+hooks="$place/hooks"
+mkdir "$hooks"
+cp "$root/.pre-commit-hooks.yaml" "$hooks"
+git -C "$hooks" init -q -b main
+git -C "$hooks" add -A
+git -C "$hooks" commit -qm "Hooks"
+configured() { # the configuration of a repository whose library is in a directory
+  printf 'repos:\n- repo: file://%s\n  rev: %s\n  hooks:\n  - id: pathbuild-check\n' "$hooks" "$(git -C "$hooks" rev-parse HEAD)"
+  [ "$1" = . ] || printf '    args: [--config, %s/pathbuild.toml]\n' "$1"
+}
+for directory in . library; do
+  rm -rf "$place/new"
+  mkdir "$place/new"
+  cd "$place/new"
+  git init -q -b main
+  mkdir -p "$directory"
+  cp -r "$root/fixtures/library/." "$directory"
+  chmod -R u+w .
+  configured "$directory" > .pre-commit-config.yaml
+  git add -A
+  pre-commit run > "$place/log" 2>&1 || fail "the hook refuses the first commit ($directory): $(cat "$place/log")"
+  grep -q 'pathbuild check.*Passed' "$place/log" || fail "the hook was not run ($directory): $(cat "$place/log")"
+  git commit -qnm "The library"
+  sed -i 's/\bO2\b/O0/' "$directory/components/2050.1P.dxf"
+  git add -A
+  if pre-commit run > "$place/log" 2>&1; then fail "the hook passes a broken component ($directory)"; fi
+  grep -q '2050.1P.dxf:.*error\[PB' "$place/log" || fail "the hook shows no finding ($directory): $(cat "$place/log")"
+  git commit -qnm "Break a component"
+  if pre-commit run --all-files > "$place/log" 2>&1; then fail "--all-files passes a broken commit ($directory)"; fi
+  if pre-commit run --from-ref HEAD~1 --to-ref HEAD > "$place/log" 2>&1; then fail "--from-ref passes a broken commit ($directory)"; fi
+  git revert --no-edit HEAD > /dev/null
+  pre-commit run --all-files > "$place/log" 2>&1 || fail "the hook refuses what is mended ($directory): $(cat "$place/log")"
+done
 echo "ci-steps: all steps did what they should"

@@ -130,6 +130,16 @@ impl<'a> Repository<'a> {
         Ok(String::from_utf8_lossy(&id).trim().to_owned())
     }
 
+    /// Whether a revision is the branch that is checked out, and that branch has no commit yet.
+    pub(super) fn is_unborn(&self, revision: &str) -> bool {
+        let refs = |name: &[u8]| {
+            let name = String::from_utf8_lossy(name).trim().to_owned();
+            self.run(&["for-each-ref", "--count=1", "--format=%(refname)", &name]).ok()
+        };
+        let branch = || self.run(&["symbolic-ref", "--quiet", "HEAD"]).ok();
+        matches!(revision, "HEAD" | "@") && branch().and_then(|name| refs(&name)).is_some_and(|it| it.is_empty())
+    }
+
     /// Every file in a tree.
     ///
     /// # Errors

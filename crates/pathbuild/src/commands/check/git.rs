@@ -34,9 +34,12 @@ impl<'a> Since<'a> {
     pub(super) fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
         let revision = git::revision(context, revision)?;
         let repository = Repository::of(context, &place(context, inputs))?;
-        let tree = repository.tree(revision);
-        let tree = tree.map_err(|reason| repository.too_shallow(revision).unwrap_or(reason))?;
-        let entries = repository.entries(&tree)?;
+        let entries = match repository.tree(revision) {
+            Ok(tree) => repository.entries(&tree)?,
+            // Before the first commit everything is new.
+            Err(_) if repository.is_unborn(revision) => Vec::new(),
+            Err(reason) => return Err(repository.too_shallow(revision).unwrap_or(reason)),
+        };
         let (files, links, drawings) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
         let mut since = Self { context, repository, files, links, drawings };
         for entry in entries.into_iter().filter(git::Entry::is_plain) {
