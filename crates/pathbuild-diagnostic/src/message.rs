@@ -89,6 +89,16 @@ pub struct Word {
     pub de: &'static str,
 }
 
+impl Word {
+    /// The word in a language.
+    pub fn in_lang(&self, lang: Lang) -> &'static str {
+        match lang {
+            Lang::En => self.en,
+            Lang::De => self.de,
+        }
+    }
+}
+
 impl Value {
     /// The value as it is put into a message: on one line, and all that acts in it escaped.
     pub fn render(&self, lang: Lang) -> String {

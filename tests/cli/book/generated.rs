@@ -33,9 +33,39 @@ fn table(name: &str, lang: Lang) -> String {
         "commands" => commands(lang),
         "diagnostics" => diagnostics(lang),
         "configuration" => configuration(),
-        _ => panic!("no table is called {name}"),
+        _ => posts(name, lang),
     }
 }
+
+/// A table of the languages of post-processor definitions. The page has its head.
+fn posts(name: &str, lang: Lang) -> String {
+    let rows = pathbuild_post::reference_table(name, lang);
+    let rows = rows.unwrap_or_else(|| panic!("no table is called {name}"));
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let head = POST_HEADS
+        .iter()
+        .find(|(table, ..)| *table == name)
+        .map(|(_, en, de)| if lang == Lang::De { de } else { en });
+    let head = head.unwrap_or_else(|| panic!("the table {name} has no head"));
+    let rule = "--- | ".repeat(head.split(" | ").count());
+    format!("| {head} |\n| {}\n{}", rule.trim_end(), rows.iter().map(line).collect::<String>())
+}
+
+const POST_HEADS: [(&str, &str, &str); 10] = [
+    ("post-keys", "key | takes | sets", "Schlüssel | nimmt | setzt"),
+    ("control-texts", "text | called", "Text | wird gerufen"),
+    ("control-variables", "variable | holds | has a value", "Variable | enthält | hat einen Wert"),
+    ("control-statements", "statement | result", "Anweisung | Ergebnis"),
+    ("control-operators", "operators", "Operatoren"),
+    ("control-functions", "function | value", "Funktion | Wert"),
+    ("cambam-sections", "element | | without it", "Element | | ohne es"),
+    ("cambam-options", "element | takes | without it | sets", "Element | nimmt | ohne es | setzt"),
+    ("cambam-macros", "macro | stands for", "Makro | steht für"),
+    ("cambam-calls", "macro | takes", "Makro | nimmt"),
+];
 
 /// The columns of the table of letters, as machinists look for them.
 const COLUMNS: &str = "OTSIFBDPUWCNQAHMZL>:ER@";

@@ -1,11 +1,13 @@
 //! The control texts of a definition: which there are, and when each is called. (section 1.6)
 
+use pathbuild_diagnostic::Word;
+
 macro_rules! kinds {
-    ($($(#[$doc:meta])* $variant:ident $name:literal;)*) => {
+    ($($variant:ident $name:literal $en:literal $de:literal;)*) => {
         /// When a control text is called.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum ControlTextKind {
-            $($(#[$doc])* $variant,)*
+            $(#[doc = $en] $variant,)*
         }
 
         impl ControlTextKind {
@@ -18,49 +20,37 @@ macro_rules! kinds {
                     $(Self::$variant => $name,)*
                 }
             }
+
+            /// When it is called, for the book.
+            pub(super) fn when(self) -> Word {
+                match self {
+                    $(Self::$variant => Word { en: $en, de: $de },)*
+                }
+            }
         }
     };
 }
 
 kinds! {
-    /// Once, first.
-    ProgramStart "program-start";
-    /// Once, last.
-    ProgramEnd "program-end";
-    /// Before an object whose tool differs from the one before, and before the first.
-    ToolChange "tool-change";
-    /// At the start of each contour.
-    ContourStart "contour-start";
-    /// At its end.
-    ContourEnd "contour-end";
-    /// A straight element.
-    Line "line";
-    /// A circular one.
-    Arc "arc";
-    /// A curve; no program has any.
-    Bezier "bezier";
-    /// A hole, where there is such a text.
-    Cycle "cycle";
-    /// A hole otherwise.
-    Point "point";
-    /// In front of each line.
-    LineNumber "line-number";
-    /// After the last object.
-    PrimaryRun "primary-run";
-    /// After all that.
-    BeforeRepeat "before-repeat";
-    /// Around subprograms; no program has any.
-    SubprogramStart "subprogram-start";
-    /// Likewise.
-    SubprogramEnd "subprogram-end";
-    /// pathbuild's own: every rapid move. With it, contours have no start and end, and every move is written as it is.
-    Rapid "rapid";
-    /// pathbuild's own: waiting for a person.
-    Stop "stop";
-    /// pathbuild's own: standing still.
-    Dwell "dwell";
-    /// pathbuild's own: a remark.
-    Comment "comment";
+    ProgramStart "program-start" "once, first" "einmal, zuerst";
+    ProgramEnd "program-end" "once, last" "einmal, zuletzt";
+    ToolChange "tool-change" "before the first object, and before each whose tool differs from the one before" "vor dem ersten Objekt und vor jedem mit anderem Werkzeug als das vorige";
+    ContourStart "contour-start" "at the start of each contour, at the height of rapid moves: over its first point, down by rapid to `~ZWorking~`, by feed to `~Z1~`" "am Anfang jeder Kontur, in Eilganghöhe: über ihren ersten Punkt, im Eilgang abwärts bis `~ZWorking~`, mit Vorschub bis `~Z1~`";
+    ContourEnd "contour-end" "at the end of each contour: by rapid up to `~ZClearance~`" "am Ende jeder Kontur: im Eilgang aufwärts bis `~ZClearance~`";
+    Line "line" "for each straight element" "bei jedem geraden Element";
+    Arc "arc" "for each arc" "bei jedem Bogen";
+    Bezier "bezier" "never: no program has curves" "nie: Kein Programm hat Kurven";
+    Cycle "cycle" "for each hole, if there is such a text" "bei jeder Bohrung, wenn es diesen Text gibt";
+    Point "point" "for each hole, if there is no `cycle`" "bei jeder Bohrung, wenn es kein `cycle` gibt";
+    LineNumber "line-number" "in front of each line, with `number-lines`; without such a text it is `N{#~LineNumber~}` in steps of 10" "vor jeder Zeile, mit `number-lines`; ohne diesen Text gilt `N{#~LineNumber~}` in Schritten von 10";
+    PrimaryRun "primary-run" "once, after the last object" "einmal, nach dem letzten Objekt";
+    BeforeRepeat "before-repeat" "once, after `primary-run`" "einmal, nach `primary-run`";
+    SubprogramStart "subprogram-start" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
+    SubprogramEnd "subprogram-end" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
+    Rapid "rapid" "pathbuild's own: for each rapid move. With it, `contour-start` and `contour-end` are not called, and every move is written as it is" "Zusatz von pathbuild: bei jedem Eilgang. Damit werden `contour-start` und `contour-end` nicht gerufen, und jede Bewegung steht für sich";
+    Stop "stop" "pathbuild's own: where the machine waits for the operator" "Zusatz von pathbuild: wo die Maschine auf den Bediener wartet";
+    Dwell "dwell" "pathbuild's own: where the tool stands still for `~DwellTime~` seconds" "Zusatz von pathbuild: wo das Werkzeug `~DwellTime~` Sekunden steht";
+    Comment "comment" "pathbuild's own: for each remark, `~CommentText~`" "Zusatz von pathbuild: bei jeder Bemerkung, `~CommentText~`";
 }
 
 /// A control text as its file has it.

@@ -221,9 +221,9 @@ impl ControlTextReader<'_> {
     }
 
     fn settings(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
-        let names: Vec<&'static str> = SETTINGS.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&'static str> = SETTINGS.iter().map(|setting| setting.name).collect();
         self.each(table, "post.", &names, |reader, key, value| {
-            let Some((_, setting)) = SETTINGS.iter().find(|(name, _)| *name == key) else { return };
+            let Some(setting) = SETTINGS.iter().find(|setting| setting.name == key) else { return };
             if (setting.set)(settings, value.get_ref()).is_none() {
                 reader.refuse(key, value, setting.expected);
             } else if key == "decimals" && settings.decimals < usize::from(FEWEST_DECIMALS) {
@@ -277,7 +277,7 @@ impl ControlTextReader<'_> {
 
     fn lint_alias(&mut self, own: &Spanned<Cow<'_, str>>) {
         let name = own.get_ref().as_ref();
-        if !super::variables::KNOWN.contains(&name) && !super::variables::is_parameter(name) {
+        if super::variables::Variable::named(name).is_none() && !super::variables::is_parameter(name) {
             self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).with("name", name), own.span());
         }
     }

@@ -8,6 +8,7 @@ use super::expand::{Expanded, is_name};
 use super::fault::{Evaluated, Fault};
 use super::marks::{UNDEFINED, char_of, is_mark};
 use super::numbers::{CForm, Form};
+use super::statements::{STATEMENTS, StatementKind};
 use super::term::{Doubt, evaluate};
 use super::variables::Variables;
 use crate::PostFiles;
@@ -170,19 +171,20 @@ impl<'a> Evaluator<'a> {
         let start = self.at;
         self.at += 1;
         self.skip_marks();
-        let kind = self.rest().chars().next();
-        if let Some(kind) = kind.filter(|kind| "=?!\"$*§".contains(*kind)) {
-            self.at += kind.len_utf8();
-        }
-        match kind {
-            Some('=') => self.assignment()?,
-            Some('?') => self.conditional()?,
-            Some('!') => self.non_existence()?,
-            Some('"') => self.comparison()?,
-            Some('$') => self.text(true)?,
-            Some('*') => self.at = self.closing_brace(start)?,
-            Some('§') => return Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..self.at)),
-            _ => self.number(start)?,
+        let first = self.rest().chars().next();
+        let form = STATEMENTS.iter().find(|form| Some(form.sign) == first);
+        self.at += form.map_or(0, |form| form.sign.len_utf8());
+        match form.map(|form| form.kind) {
+            Some(StatementKind::Assignment) => self.assignment()?,
+            Some(StatementKind::Condition) => self.conditional()?,
+            Some(StatementKind::NonExistence) => self.non_existence()?,
+            Some(StatementKind::Comparison) => self.comparison()?,
+            Some(StatementKind::Text) => self.text(true)?,
+            Some(StatementKind::Remark) => self.at = self.closing_brace(start)?,
+            Some(StatementKind::VariableName) => {
+                return Err(Fault::new(&posts::STATEMENT_UNKNOWN, start..self.at));
+            }
+            None => self.number(start)?,
         }
         self.close(start)?;
         self.depth -= 1;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use pathbuild_diagnostic::Word;
 use pathbuild_diagnostic::messages::posts;
 
 use super::fault::Fault;
@@ -23,35 +24,119 @@ impl Wrong {
     }
 }
 
-/// The value of a function.
-pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, Wrong> {
-    match (name, arguments) {
-        ("min", [_, ..]) => Ok(arguments.iter().copied().fold(f64::INFINITY, f64::min)),
-        ("max", [_, ..]) => Ok(arguments.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
-        ("mod", &[a, b]) => Ok(a - b * (a / b).floor()),
-        ("atan2", &[y, x]) => Ok(libm::atan2(y, x).to_degrees()),
-        ("min" | "max" | "mod" | "atan2", _) => Err(Wrong::Arguments),
-        _ => of_one(name).and_then(|function| match arguments {
-            &[x] => Ok(function(x)),
-            _ => Err(Wrong::Arguments),
-        }),
-    }
+/// How a function is computed.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rule {
+    /// From one argument.
+    One(fn(f64) -> f64),
+    /// From two.
+    Two(fn(f64, f64) -> f64),
+    /// From any number of them, but one at least.
+    Any(fn(&[f64]) -> f64),
 }
 
-fn of_one(name: &str) -> Result<fn(f64) -> f64, Wrong> {
-    Ok(match name {
-        "abs" => f64::abs,
-        "sqrt" => f64::sqrt,
-        "int" => f64::trunc,
-        "round" => f64::round,
-        "floor" => f64::floor,
-        "ceil" => f64::ceil,
-        "sin" => |x| libm::sin(x.to_radians()),
-        "cos" => |x| libm::cos(x.to_radians()),
-        "tan" => |x| libm::tan(x.to_radians()),
-        "asin" => |x| libm::asin(x).to_degrees(),
-        "acos" => |x| libm::acos(x).to_degrees(),
-        "atan" => |x| libm::atan(x).to_degrees(),
-        _ => return Err(Wrong::Name),
-    })
+/// A function that terms may call.
+#[derive(Debug)]
+pub(super) struct Function {
+    pub(super) name: &'static str,
+    pub(super) rule: Rule,
+    /// What it returns, for the book.
+    pub(super) about: Word,
+}
+
+/// The functions, in the order in which they are documented.
+pub(super) static FUNCTIONS: &[Function] = &[
+    Function { name: "abs", rule: Rule::One(f64::abs), about: Word { en: "absolute value", de: "Betrag" } },
+    Function {
+        name: "sqrt",
+        rule: Rule::One(f64::sqrt),
+        about: Word { en: "square root", de: "Quadratwurzel" },
+    },
+    Function {
+        name: "int",
+        rule: Rule::One(f64::trunc),
+        about: Word { en: "without decimals", de: "ohne Nachkommastellen" },
+    },
+    Function {
+        name: "round",
+        rule: Rule::One(f64::round),
+        about: Word {
+            en: "nearest whole number, halves away from 0",
+            de: "nächste ganze Zahl, Hälften von 0 weg",
+        },
+    },
+    Function {
+        name: "floor",
+        rule: Rule::One(f64::floor),
+        about: Word { en: "next smaller whole number", de: "nächstkleinere ganze Zahl" },
+    },
+    Function {
+        name: "ceil",
+        rule: Rule::One(f64::ceil),
+        about: Word { en: "next larger whole number", de: "nächstgrößere ganze Zahl" },
+    },
+    Function {
+        name: "sin",
+        rule: Rule::One(|x| libm::sin(x.to_radians())),
+        about: Word { en: "sine", de: "Sinus" },
+    },
+    Function {
+        name: "cos",
+        rule: Rule::One(|x| libm::cos(x.to_radians())),
+        about: Word { en: "cosine", de: "Kosinus" },
+    },
+    Function {
+        name: "tan",
+        rule: Rule::One(|x| libm::tan(x.to_radians())),
+        about: Word { en: "tangent", de: "Tangens" },
+    },
+    Function {
+        name: "asin",
+        rule: Rule::One(|x| libm::asin(x).to_degrees()),
+        about: Word { en: "arc sine", de: "Arkussinus" },
+    },
+    Function {
+        name: "acos",
+        rule: Rule::One(|x| libm::acos(x).to_degrees()),
+        about: Word { en: "arc cosine", de: "Arkuskosinus" },
+    },
+    Function {
+        name: "atan",
+        rule: Rule::One(|x| libm::atan(x).to_degrees()),
+        about: Word { en: "arc tangent", de: "Arkustangens" },
+    },
+    Function {
+        name: "atan2",
+        rule: Rule::Two(|y, x| libm::atan2(y, x).to_degrees()),
+        about: Word { en: "angle of the point (second, first)", de: "Winkel des Punktes (zweites, erstes)" },
+    },
+    Function {
+        name: "mod",
+        rule: Rule::Two(|a, b| a - b * (a / b).floor()),
+        about: Word {
+            en: "remainder, with the sign of the second",
+            de: "Rest, mit dem Vorzeichen des zweiten",
+        },
+    },
+    Function {
+        name: "min",
+        rule: Rule::Any(|all| all.iter().copied().fold(f64::INFINITY, f64::min)),
+        about: Word { en: "the smallest", de: "das Kleinste" },
+    },
+    Function {
+        name: "max",
+        rule: Rule::Any(|all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        about: Word { en: "the largest", de: "das Größte" },
+    },
+];
+
+/// The value of a function.
+pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, Wrong> {
+    let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(Wrong::Name)?;
+    match (function.rule, arguments) {
+        (Rule::One(value), &[x]) => Ok(value(x)),
+        (Rule::Two(value), &[x, y]) => Ok(value(x, y)),
+        (Rule::Any(value), [_, ..]) => Ok(value(arguments)),
+        _ => Err(Wrong::Arguments),
+    }
 }

@@ -9,7 +9,7 @@ use super::control_text::{ControlText, ControlTextKind};
 use super::definition::{Definition, Uncalled};
 use super::expand::next_variable;
 use super::report::locate;
-use super::variables::{KNOWN, TEXTS};
+use super::variables::Variable;
 use crate::findings::MOST_FINDINGS;
 
 /// The doubts about a definition, and the texts in it that no program calls: what they switch would never be switched.
@@ -49,7 +49,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
 }
 
 fn is_number(name: &str) -> bool {
-    KNOWN.contains(&name) && !TEXTS.contains(&name)
+    Variable::named(name).is_some_and(|variable| !variable.is_text)
 }
 
 /// The statements that are open at a place of a text, and what those that are over assigned.

@@ -18,6 +18,7 @@ mod lints;
 mod marks;
 mod numbers;
 mod program;
+pub(super) mod reference;
 mod report;
 mod runner;
 mod settings;

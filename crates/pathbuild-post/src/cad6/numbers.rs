@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+use pathbuild_diagnostic::Word;
+
 use super::term::bits;
 use crate::number::NumberFormat;
 
@@ -38,21 +40,35 @@ pub(super) struct CForm {
     letter: char,
 }
 
+/// The characters that choose a form, and what they do, for the book.
+pub(super) static FORMS: [(char, Form, Word); 7] = [
+    (
+        '\'',
+        Form::Money,
+        Word { en: "two decimals, thousands apart", de: "zwei Dezimalen, Tausender getrennt" },
+    ),
+    ('%', Form::Rounded, Word { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
+    ('.', Form::Rounded, Word { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
+    (',', Form::Comma, Word { en: "rounded, with a decimal comma", de: "gerundet, mit Dezimalkomma" }),
+    ('+', Form::Signed, Word { en: "rounded, always with a sign", de: "gerundet, immer mit Vorzeichen" }),
+    (
+        '&',
+        Form::SignedComma,
+        Word {
+            en: "rounded, always with a sign, with a decimal comma",
+            de: "gerundet, immer mit Vorzeichen, mit Dezimalkomma",
+        },
+    ),
+    ('#', Form::Whole, Word { en: "whole", de: "ganze Zahl" }),
+];
+
 /// Wider numbers are a slip of the pen.
 const WIDEST: usize = 64;
 
 impl Form {
     /// The form that a character chooses.
     pub(super) fn of(character: char) -> Option<Self> {
-        Some(match character {
-            '\'' => Self::Money,
-            '%' | '.' => Self::Rounded,
-            ',' => Self::Comma,
-            '+' => Self::Signed,
-            '&' => Self::SignedComma,
-            '#' => Self::Whole,
-            _ => return None,
-        })
+        FORMS.iter().find(|(sign, ..)| *sign == character).map(|(_, form, _)| *form)
     }
 
     /// A finite number as text, rounded to `decimals` where the form says so; `None` where it has no such form (bits of a fraction).

@@ -14,7 +14,7 @@ use super::fault::Fault;
 use super::marks::byte_of;
 use super::report::locate;
 use super::term::Doubt;
-use super::variables::{KNOWN, Variables, reason};
+use super::variables::{VARIABLES, Variables, reason};
 use crate::PostFiles;
 use crate::guard::Guard;
 use crate::origin::LineOrigin;
@@ -187,10 +187,9 @@ impl<'a> Runner<'a> {
         if diagnostic.message == &posts::VARIABLE_UNDEFINED {
             let name =
                 diagnostic.arguments.first().map(|(_, value)| value.render(pathbuild_diagnostic::Lang::En));
-            if let Some(nearest) = name
-                .as_deref()
-                .and_then(|name| nearest(name, KNOWN.iter().copied().filter(|known| *known != name)))
-            {
+            if let Some(nearest) = name.as_deref().and_then(|name| {
+                nearest(name, VARIABLES.iter().map(|known| known.name).filter(|known| *known != name))
+            }) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_NEAREST;
                 diagnostic = diagnostic.with("nearest", nearest);
             }

@@ -1,5 +1,6 @@
 //! What a definition sets beside its texts.
 
+use pathbuild_diagnostic::Word;
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use crate::Units;
@@ -43,44 +44,119 @@ impl Default for Settings {
     }
 }
 
-/// How a key is read.
+/// A key of `[post]`.
 pub(super) struct Setting {
+    /// The key.
+    pub(super) name: &'static str,
     /// What it takes.
     pub(super) expected: &'static str,
     /// Sets it; nothing where the value is no such thing.
     pub(super) set: fn(&mut Settings, &DeValue<'_>) -> Option<()>,
+    /// What it sets, and what holds without it, for the book.
+    pub(super) about: Word,
 }
 
 /// The keys of `[post]`.
-pub(super) static SETTINGS: [(&str, Setting); 12] = [
-    ("name", Setting { expected: "a text", set: |s, v| put(&mut s.name, text(v)) }),
-    // For who reads the file.
-    ("description", Setting { expected: "a text", set: |_, v| v.as_str().map(drop) }),
-    (
-        "extension",
-        Setting { expected: "a file name's extension", set: |s, v| put(&mut s.extension, extension(v)) },
-    ),
-    ("end-of-line", Setting { expected: "lf or crlf", set: |s, v| put(&mut s.end_of_line, end_of_line(v)) }),
-    (
-        "decimals",
-        Setting { expected: "a whole number up to 9", set: |s, v| put(&mut s.decimals, decimals(v)) },
-    ),
-    ("units", Setting { expected: "mm or inch", set: |s, v| put(&mut s.units, units(v).map(Some)) }),
-    (
-        "number-lines",
-        Setting { expected: "true or false", set: |s, v| put(&mut s.number_lines, v.as_bool()) },
-    ),
-    ("trim", Setting { expected: "true or false", set: |s, v| put(&mut s.trim, v.as_bool()) }),
-    ("dialect", Setting { expected: "a text", set: |s, v| put(&mut s.dialect, text(v).map(Some)) }),
-    ("arc-tolerance", Setting { expected: "mm above 0", set: |s, v| put(&mut s.arc_tolerance, positive(v)) }),
-    (
-        "arc-sweep",
-        Setting { expected: "degrees from 10 to 360", set: |s, v| put(&mut s.arc_sweep, sweep(v)) },
-    ),
-    (
-        "lift-between-passes",
-        Setting { expected: "true or false", set: |s, v| put(&mut s.lift_between_passes, v.as_bool()) },
-    ),
+pub(super) static SETTINGS: &[Setting] = &[
+    Setting {
+        name: "name",
+        expected: "a text",
+        set: |s, v| put(&mut s.name, text(v)),
+        about: Word { en: "name of the post", de: "Name des Postprozessors" },
+    },
+    Setting {
+        name: "description",
+        expected: "a text",
+        set: |_, v| v.as_str().map(drop),
+        about: Word { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+    },
+    Setting {
+        name: "extension",
+        expected: "a file name's extension",
+        set: |s, v| put(&mut s.extension, extension(v)),
+        about: Word {
+            en: "extension of the files that are written; `nc` without it",
+            de: "Endung der geschriebenen Dateien; sonst `nc`",
+        },
+    },
+    Setting {
+        name: "end-of-line",
+        expected: "lf or crlf",
+        set: |s, v| put(&mut s.end_of_line, end_of_line(v)),
+        about: Word { en: "line ends; `lf` without it", de: "Zeilenenden; sonst `lf`" },
+    },
+    Setting {
+        name: "decimals",
+        expected: "a whole number up to 9",
+        set: |s, v| put(&mut s.decimals, decimals(v)),
+        about: Word {
+            en: "decimals of rounded numbers; 3 without it",
+            de: "Dezimalen gerundeter Zahlen; sonst 3",
+        },
+    },
+    Setting {
+        name: "units",
+        expected: "mm or inch",
+        set: |s, v| put(&mut s.units, units(v).map(Some)),
+        about: Word {
+            en: "unit of all lengths; that of the program without it",
+            de: "Einheit aller Längen; sonst die des Programms",
+        },
+    },
+    Setting {
+        name: "number-lines",
+        expected: "true or false",
+        set: |s, v| put(&mut s.number_lines, v.as_bool()),
+        about: Word {
+            en: "whether `line-number` is called; `true` without it",
+            de: "ob `line-number` gerufen wird; sonst `true`",
+        },
+    },
+    Setting {
+        name: "trim",
+        expected: "true or false",
+        set: |s, v| put(&mut s.trim, v.as_bool()),
+        about: Word {
+            en: "whether blanks at line ends are taken away; `true` without it",
+            de: "ob Leerzeichen am Zeilenende entfallen; sonst `true`",
+        },
+    },
+    Setting {
+        name: "dialect",
+        expected: "a text",
+        set: |s, v| put(&mut s.dialect, text(v).map(Some)),
+        about: Word {
+            en: "the dialect in which the output is read back",
+            de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
+        },
+    },
+    Setting {
+        name: "arc-tolerance",
+        expected: "mm above 0",
+        set: |s, v| put(&mut s.arc_tolerance, positive(v)),
+        about: Word {
+            en: "greatest distance of a line from the arc that it stands for; 0.01 without it",
+            de: "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01",
+        },
+    },
+    Setting {
+        name: "arc-sweep",
+        expected: "degrees from 10 to 360",
+        set: |s, v| put(&mut s.arc_sweep, sweep(v)),
+        about: Word {
+            en: "widest angle of an arc, wider ones are divided; 360 without it",
+            de: "größter Winkel eines Bogens, größere werden geteilt; sonst 360",
+        },
+    },
+    Setting {
+        name: "lift-between-passes",
+        expected: "true or false",
+        set: |s, v| put(&mut s.lift_between_passes, v.as_bool()),
+        about: Word {
+            en: "whether the tool may be lifted out between two passes instead of going down in the cut; `false` without it",
+            de: "ob das Werkzeug zwischen zwei Zustellungen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`",
+        },
+    },
 ];
 
 fn put<T>(setting: &mut T, value: Option<T>) -> Option<()> {

@@ -1,9 +1,94 @@
 //! Statements that hold other statements: assignments, conditions, comparisons.
 
+use pathbuild_diagnostic::Word;
 use pathbuild_diagnostic::messages::posts;
 
 use super::evaluate::Evaluator;
 use super::fault::{Evaluated, Fault};
+
+/// What a statement is, by the character behind its brace. Any other character begins a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StatementKind {
+    Assignment,
+    Condition,
+    Comparison,
+    NonExistence,
+    Text,
+    Remark,
+    VariableName,
+}
+
+/// A statement that is no number.
+#[derive(Debug)]
+pub(super) struct StatementForm {
+    pub(super) sign: char,
+    pub(super) kind: StatementKind,
+    /// How it is spelt, for the book.
+    pub(super) form: &'static str,
+    /// What it gives, for the book.
+    pub(super) about: Word,
+}
+
+/// The statements that are no numbers.
+pub(super) static STATEMENTS: &[StatementForm] = &[
+    StatementForm {
+        sign: '=',
+        kind: StatementKind::Assignment,
+        form: "{=Name {…}}",
+        about: Word {
+            en: "gives a variable the result of a statement; later calls see it",
+            de: "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es",
+        },
+    },
+    StatementForm {
+        sign: '?',
+        kind: StatementKind::Condition,
+        form: "{?Term {…}{…}}",
+        about: Word {
+            en: "the first statement if the term is not 0, else the second, which may be missing",
+            de: "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '"',
+        kind: StatementKind::Comparison,
+        form: "{\"{…}{…} {…}{…}}",
+        about: Word {
+            en: "the third statement if the first two give the same text, else the fourth, which may be missing",
+            de: "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '!',
+        kind: StatementKind::NonExistence,
+        form: "{!Name {…}{…}}",
+        about: Word {
+            en: "the first statement if the variable has no value, else the second, which may be missing",
+            de: "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '$',
+        kind: StatementKind::Text,
+        form: "{$…}",
+        about: Word { en: "the text, with statements in it", de: "der Text, mit Anweisungen darin" },
+    },
+    StatementForm {
+        sign: '*',
+        kind: StatementKind::Remark,
+        form: "{*…}",
+        about: Word { en: "nothing: a remark", de: "nichts: eine Bemerkung" },
+    },
+    StatementForm {
+        sign: '§',
+        kind: StatementKind::VariableName,
+        form: "{§…}",
+        about: Word {
+            en: "refused: its meaning is not known",
+            de: "abgelehnt: Die Bedeutung ist nicht bekannt",
+        },
+    },
+];
 
 impl Evaluator<'_> {
     pub(super) fn assignment(&mut self) -> Evaluated<()> {

@@ -45,7 +45,7 @@ pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
 }
 
 /// The operators from loosest to tightest; of two that begin alike the longer one comes first.
-const LEVELS: [&[&str]; 6] =
+pub(super) const LEVELS: [&[&str]; 6] =
     [&["||"], &["&&"], &["<=", ">=", "==", "!=", "<", ">", "&", "|", "^"], &["+", "-"], &["*", "/"], &["^^"]];
 
 struct Parser<'a> {

@@ -7,67 +7,221 @@ use pathbuild_diagnostic::Word;
 
 use super::marks::{MOST_TEXTS, char_of_text, is_private, text_of};
 
-/// The names that pathbuild sets, in the order in which they are documented.
-pub(super) const KNOWN: &[&str] = &[
-    "X1",
-    "Y1",
-    "Z1",
-    "PrevX",
-    "PrevY",
-    "PrevZ",
-    "XIncr",
-    "YIncr",
-    "ZIncr",
-    "ZClearance",
-    "ZWorking",
-    "LoweringVel",
-    "MovingVel",
-    "MachineToolNo",
-    "MillingSpindleRate",
-    "MillingSpindleDir",
-    "ToolControl1",
-    "ToolControl2",
-    "FirstContourElement",
-    "LastContourElement",
-    "UpdateXYPosition",
-    "UseAuxPoint",
-    "UpdateCutterRotationOnly",
-    "LineNumber",
-    "PrgName",
-    "Units",
-    "ToolChangeCommands",
-    "MachinePosX",
-    "MachinePosY",
-    "XC",
-    "YC",
-    "IRel",
-    "JRel",
-    "Radius",
-    "StartAngle",
-    "EndAngle",
-    "SweepAngle",
-    "ArcDir",
-    "XB1",
-    "YB1",
-    "XB2",
-    "YB2",
-    "ElementNo",
-    "ContourNo",
-    "ToolChanged",
-    "ToolDiameter",
-    "PathName",
-    "SourceFile",
-    "ToolName",
-    "Decimals",
-    "Date",
-    "PeckDepth",
-    "DwellTime",
-    "CommentText",
-    "SpinUpTime",
-];
+/// A variable that pathbuild sets.
+#[derive(Debug)]
+pub(super) struct Variable {
+    /// Its name without tildes.
+    pub(super) name: &'static str,
+    /// Whether it holds no number.
+    pub(super) is_text: bool,
+    /// Where it has a value.
+    pub(super) presence: Presence,
+    /// What it holds.
+    pub(super) about: Word,
+}
 
-/// Those whose text is no number.
-pub(super) const TEXTS: &[&str] = &["PrgName", "PathName", "SourceFile", "ToolName", "Date", "CommentText"];
+/// Where a variable has a value. (book: reference/post-definitions)
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Presence {
+    Always,
+    FirstMove,
+    Feed,
+    ToolNumber,
+    Speed,
+    Contours,
+    Elements,
+    Arcs,
+    Holes,
+    Waits,
+    Comments,
+    Dated,
+    Never,
+}
+
+impl Presence {
+    /// What the book says of it.
+    pub(super) fn word(self) -> Word {
+        let word = |en, de| Word { en, de };
+        match self {
+            Self::Always => word("everywhere", "überall"),
+            Self::FirstMove => word("from the first move on", "ab der ersten Bewegung"),
+            Self::Feed => word("where a feed is given", "wo ein Vorschub vorliegt"),
+            Self::ToolNumber => word("where the tool has a number", "wo das Werkzeug eine Nummer hat"),
+            Self::Speed => word("where a speed is given", "wo eine Drehzahl vorliegt"),
+            Self::Contours => word("from the first contour on", "ab der ersten Kontur"),
+            Self::Elements => {
+                word("from the first element of a contour on", "ab dem ersten Element einer Kontur")
+            }
+            Self::Arcs => word("in `arc` only", "nur in `arc`"),
+            Self::Holes => word("from the first hole on", "ab der ersten Bohrung"),
+            Self::Waits => {
+                word("from the first hole or `dwell` on", "ab der ersten Bohrung oder dem ersten `dwell`")
+            }
+            Self::Comments => word("from the first remark on", "ab der ersten Bemerkung"),
+            Self::Dated => word("with `--date`", "mit `--date`"),
+            Self::Never => word("never: no program has curves", "nie: Kein Programm hat Kurven"),
+        }
+    }
+}
+
+impl Variable {
+    const fn number(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
+        Self { name, is_text: false, presence, about: Word { en, de } }
+    }
+
+    const fn text(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
+        Self { name, is_text: true, presence, about: Word { en, de } }
+    }
+
+    /// The variable of a name.
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        VARIABLES.iter().find(|variable| variable.name == name)
+    }
+}
+
+/// The variables that pathbuild sets, in the order in which they are documented.
+pub(super) static VARIABLES: &[Variable] = &[
+    Variable::number(
+        "X1",
+        Presence::FirstMove,
+        "where the move or hole ends",
+        "wo die Bewegung endet oder die Bohrung liegt",
+    ),
+    Variable::number("Y1", Presence::FirstMove, "likewise", "ebenso"),
+    Variable::number(
+        "Z1",
+        Presence::FirstMove,
+        "likewise; of a hole its bottom",
+        "ebenso; bei Bohrungen der Grund",
+    ),
+    Variable::number(
+        "PrevX",
+        Presence::FirstMove,
+        "where the tool is before",
+        "wo das Werkzeug vorher steht",
+    ),
+    Variable::number("PrevY", Presence::FirstMove, "likewise", "ebenso"),
+    Variable::number("PrevZ", Presence::FirstMove, "likewise", "ebenso"),
+    Variable::number("XIncr", Presence::FirstMove, "the text `(~X1~-~PrevX~)`", "der Text `(~X1~-~PrevX~)`"),
+    Variable::number("YIncr", Presence::FirstMove, "the text `(~Y1~-~PrevY~)`", "der Text `(~Y1~-~PrevY~)`"),
+    Variable::number("ZIncr", Presence::FirstMove, "the text `(~Z1~-~PrevZ~)`", "der Text `(~Z1~-~PrevZ~)`"),
+    Variable::number(
+        "ZClearance",
+        Presence::Always,
+        "the height of rapid moves in the plane",
+        "die Höhe der Eilgänge in der Ebene",
+    ),
+    Variable::number(
+        "ZWorking",
+        Presence::Always,
+        "the height at which a rapid move down ends",
+        "die Höhe, in der der Eilgang abwärts endet",
+    ),
+    Variable::number("LoweringVel", Presence::Feed, "the feed down", "der Vorschub abwärts"),
+    Variable::number("MovingVel", Presence::Feed, "the feed of the element", "der Vorschub des Elements"),
+    Variable::number("MachineToolNo", Presence::ToolNumber, "the tool's number", "die Nummer des Werkzeugs"),
+    Variable::number("MillingSpindleRate", Presence::Speed, "revolutions a minute", "Umdrehungen je Minute"),
+    Variable::number(
+        "MillingSpindleDir",
+        Presence::Always,
+        "0 clockwise, 1 counter-clockwise",
+        "0 im Uhrzeigersinn, 1 gegen ihn",
+    ),
+    Variable::number("ToolControl1", Presence::Always, "1 with flood or mist", "1 mit Kühlmittel oder Nebel"),
+    Variable::number("ToolControl2", Presence::Always, "1 with mist", "1 mit Nebel"),
+    Variable::number(
+        "FirstContourElement",
+        Presence::Elements,
+        "1 for the first element of a contour, and where its feed changes",
+        "1 beim ersten Element einer Kontur und wo ihr Vorschub wechselt",
+    ),
+    Variable::number(
+        "LastContourElement",
+        Presence::Elements,
+        "1 for the last element of a contour",
+        "1 beim letzten Element einer Kontur",
+    ),
+    Variable::number("UpdateXYPosition", Presence::Contours, "1", "1"),
+    Variable::number("UseAuxPoint", Presence::Contours, "0", "0"),
+    Variable::number("UpdateCutterRotationOnly", Presence::Contours, "0", "0"),
+    Variable::number(
+        "LineNumber",
+        Presence::Always,
+        "begins at 10; the text `line-number` raises it",
+        "beginnt bei 10; der Text `line-number` erhöht sie",
+    ),
+    Variable::text("PrgName", Presence::Always, "the program's name", "der Name des Programms"),
+    Variable::number("Units", Presence::Always, "0 millimetres, 2 inches", "0 Millimeter, 2 Zoll"),
+    Variable::number("ToolChangeCommands", Presence::Always, "1", "1"),
+    Variable::number("MachinePosX", Presence::Always, "0", "0"),
+    Variable::number("MachinePosY", Presence::Always, "0", "0"),
+    Variable::number("XC", Presence::Arcs, "the arc's centre", "der Mittelpunkt des Bogens"),
+    Variable::number("YC", Presence::Arcs, "likewise", "ebenso"),
+    Variable::number(
+        "IRel",
+        Presence::Arcs,
+        "from the arc's start to its centre",
+        "vom Anfang des Bogens zum Mittelpunkt",
+    ),
+    Variable::number("JRel", Presence::Arcs, "likewise", "ebenso"),
+    Variable::number("Radius", Presence::Arcs, "the arc's radius", "der Radius des Bogens"),
+    Variable::number("StartAngle", Presence::Arcs, "degrees from 0 to 360", "Grad von 0 bis 360"),
+    Variable::number("EndAngle", Presence::Arcs, "likewise", "ebenso"),
+    Variable::number(
+        "SweepAngle",
+        Presence::Arcs,
+        "degrees, clockwise negative",
+        "Grad, im Uhrzeigersinn negativ",
+    ),
+    Variable::number(
+        "ArcDir",
+        Presence::Arcs,
+        "0 clockwise, 1 counter-clockwise",
+        "0 im Uhrzeigersinn, 1 gegen ihn",
+    ),
+    Variable::number("XB1", Presence::Never, "a curve's control point", "ein Kontrollpunkt einer Kurve"),
+    Variable::number("YB1", Presence::Never, "likewise", "ebenso"),
+    Variable::number("XB2", Presence::Never, "likewise", "ebenso"),
+    Variable::number("YB2", Presence::Never, "likewise", "ebenso"),
+    Variable::number(
+        "ElementNo",
+        Presence::Elements,
+        "number of the element in its contour, from 1",
+        "Nummer des Elements in seiner Kontur, ab 1",
+    ),
+    Variable::number(
+        "ContourNo",
+        Presence::Contours,
+        "number of the contour, from 1",
+        "Nummer der Kontur, ab 1",
+    ),
+    Variable::number(
+        "ToolChanged",
+        Presence::FirstMove,
+        "1 in the first call after a change of tools",
+        "1 beim ersten Aufruf nach einem Werkzeugwechsel",
+    ),
+    Variable::number("ToolDiameter", Presence::Always, "O", "O"),
+    Variable::text("PathName", Presence::Always, "the path", "der Pfad"),
+    Variable::text("SourceFile", Presence::Always, "the drawing", "die Zeichnung"),
+    Variable::text("ToolName", Presence::Always, "the tool's name", "der Name des Werkzeugs"),
+    Variable::number("Decimals", Presence::Always, "`[post] decimals`", "`[post] decimals`"),
+    Variable::text("Date", Presence::Dated, "the date", "das Datum"),
+    Variable::number(
+        "PeckDepth",
+        Presence::Holes,
+        "depth of each plunge, 0 without chip breaking",
+        "Tiefe je Stich, 0 ohne Spanbruch",
+    ),
+    Variable::number("DwellTime", Presence::Waits, "seconds", "Sekunden"),
+    Variable::text("CommentText", Presence::Comments, "the remark", "die Bemerkung"),
+    Variable::number(
+        "SpinUpTime",
+        Presence::Always,
+        "seconds until the spindle turns (`spin-up`)",
+        "Sekunden, bis die Spindel dreht (`spin-up`)",
+    ),
+];
 
 /// Why a variable that pathbuild sets has no value at some places; `None` if it sets no variable of that name.
 pub(super) fn reason(name: &str) -> Option<&'static Word> {
@@ -93,7 +247,7 @@ pub(super) fn reason(name: &str) -> Option<&'static Word> {
             &Word { en: "only cycle, point and dwell have it", de: "nur cycle, point und dwell haben sie" }
         }
         "CommentText" => &Word { en: "only the text comment has it", de: "nur der Text comment hat sie" },
-        _ if KNOWN.contains(&name) => {
+        _ if Variable::named(name).is_some() => {
             &Word { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
         }
         _ => return None,

@@ -1,5 +1,7 @@
 //! What the macros of CamBam definitions stand for.
 
+use pathbuild_diagnostic::Word;
+
 use super::registers::{Code, Form, Register};
 use super::section::Section;
 
@@ -123,6 +125,170 @@ impl Value {
                 | Self::ToolComment
                 | Self::ToolVeeAngle
         )
+    }
+}
+
+impl Value {
+    /// What it stands for, for the book.
+    pub(super) fn word(self) -> Word {
+        let word = |en, de| Word { en, de };
+        match self {
+            Self::FileName => word("the program's name", "der Name des Programms"),
+            Self::ProgramNumber => word(
+                "`program-number`, else the first number in the name",
+                "`program-number`, sonst die erste Zahl im Namen",
+            ),
+            Self::Date => {
+                word("`--date`, else left out with its line", "`--date`, sonst entfällt es mit seiner Zeile")
+            }
+            Self::OutFile => word("the file that is written", "die geschriebene Datei"),
+            Self::PartName => word("the path that was asked for", "der verlangte Pfad"),
+            Self::MopName => {
+                word("the operation: the path that is embedded", "der Vorgang: der eingebettete Pfad")
+            }
+            Self::MopTag => {
+                word("where the operation's path is drawn", "wo der Pfad des Vorgangs gezeichnet ist")
+            }
+            Self::MopClearancePlane => {
+                word("the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene")
+            }
+            Self::MopRetractHeight => word(
+                "the height at which a rapid move down ends",
+                "die Höhe, in der der Eilgang abwärts endet",
+            ),
+            Self::MopPlungeFeedrate => {
+                word("the feed down, where one is given", "der Vorschub abwärts, wo einer vorliegt")
+            }
+            Self::MopCutFeedrate => word("the feed, where one is given", "der Vorschub, wo einer vorliegt"),
+            Self::MopDepthIncrement => word("I, else 0", "I, sonst 0"),
+            Self::MopDwell => word(
+                "seconds of the first hole that waits, else 0",
+                "Sekunden der ersten Bohrung, die verweilt, sonst 0",
+            ),
+            Self::MopHoleDiameter => word("O", "O"),
+            Self::MopPeckDistance => word(
+                "depth of a plunge of the first hole with chip breaking, else 0",
+                "Tiefe je Stich der ersten Bohrung mit Spanbruch, sonst 0",
+            ),
+            Self::MopStockSurface => word("T", "T"),
+            Self::MopTargetDepth => {
+                word("the lowest Z that is cut, else T", "das tiefste gefräste Z, sonst T")
+            }
+            Self::MopFirst(_) => word(
+                "where the operation begins, if that is known",
+                "wo der Vorgang beginnt, wenn das bekannt ist",
+            ),
+            Self::ToolIndex => word("the tool's number", "die Nummer des Werkzeugs"),
+            Self::ToolDiameter => word("O", "O"),
+            Self::ToolName => word("the tool's name", "der Name des Werkzeugs"),
+            Self::ToolRadius => word("half of O", "die Hälfte von O"),
+            Self::ToolLength => word("length in the table of tools", "Länge in der Werkzeugtabelle"),
+            Self::ToolProfile => word("profile in the table of tools", "Form in der Werkzeugtabelle"),
+            Self::ToolComment => word("remark in the table of tools", "Bemerkung in der Werkzeugtabelle"),
+            Self::ToolVeeAngle => word("angle in the table of tools", "Winkel in der Werkzeugtabelle"),
+            Self::MoveAxis(_) => word("the number of the present move", "die Zahl der laufenden Bewegung"),
+            Self::ArcOffset(_) => word("of the present arc", "des laufenden Bogens"),
+            Self::ArcRadius => word("of the present arc", "des laufenden Bogens"),
+            Self::ArcStart => word("degrees, of the present arc", "Grad, des laufenden Bogens"),
+            Self::ArcEnd => word("degrees, of the present arc", "Grad, des laufenden Bogens"),
+            Self::ArcSweep => word(
+                "degrees, clockwise positive, of the present arc",
+                "Grad, im Uhrzeigersinn positiv, des laufenden Bogens",
+            ),
+            Self::StockSize(_) => word(
+                "size of the stock, if the program says it",
+                "Maß des Rohteils, wenn das Programm es nennt",
+            ),
+            Self::StockCorner(_) => word(
+                "corner of the stock, if the program says it",
+                "Ecke des Rohteils, wenn das Programm sie nennt",
+            ),
+            Self::StockCornerReversed(_) => {
+                word("the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen")
+            }
+        }
+    }
+}
+
+impl Block {
+    /// What it stands for, for the book.
+    pub(super) fn word(self) -> Word {
+        let word = |en, de| Word { en, de };
+        match self {
+            Self::Mops => {
+                word("each operation through the section `MOP`", "jeden Vorgang durch den Abschnitt `MOP`")
+            }
+            Self::Blocks => word("the moves of the operation", "die Bewegungen des Vorgangs"),
+            Self::ToolTable => word("`ToolTableItem` for each tool", "`ToolTableItem` für jedes Werkzeug"),
+            Self::ToolChange => word(
+                "the section `ToolChange`, unless the tool is in",
+                "den Abschnitt `ToolChange`, wenn das Werkzeug nicht steckt",
+            ),
+            Self::FirstToolChange => word(
+                "the same for the first operation's tool",
+                "dasselbe für das Werkzeug des ersten Vorgangs",
+            ),
+            Self::Clearance => word(
+                "a rapid move up to the clearance plane, unless the tool is there",
+                "einen Eilgang zur Sicherheitsebene, wenn das Werkzeug nicht dort ist",
+            ),
+            Self::FileHeader => word(
+                "custom text before the program; drawings have none",
+                "eigener Text vor dem Programm; Zeichnungen haben keinen",
+            ),
+            Self::FileFooter => word(
+                "custom text after the program; drawings have none",
+                "eigener Text nach dem Programm; Zeichnungen haben keinen",
+            ),
+            Self::MopHeader => word(
+                "custom text before the operation; drawings have none",
+                "eigener Text vor dem Vorgang; Zeichnungen haben keinen",
+            ),
+            Self::MopFooter => word(
+                "custom text after the operation; drawings have none",
+                "eigener Text nach dem Vorgang; Zeichnungen haben keinen",
+            ),
+        }
+    }
+}
+
+impl State {
+    /// What it stands for, for the book.
+    pub(super) fn word(self) -> Word {
+        let word = |en, de| Word { en, de };
+        match self {
+            Self::Velocity => word(
+                "`VelocityMode...` that the operation wants, where it changes",
+                "`VelocityMode...`, das der Vorgang verlangt, wo es wechselt",
+            ),
+            Self::WorkPlane => word("`WorkPlane...`, where it changes", "`WorkPlane...`, wo sie wechselt"),
+            Self::Spindle => word(
+                "`SpindleCW`, `SpindleCCW` or `SpindleOff`, where it changes",
+                "`SpindleCW`, `SpindleCCW` oder `SpindleOff`, wo sich etwas ändert",
+            ),
+            Self::Coolant => word(
+                "`CoolantFlood`, `CoolantMist` or `CoolantOff`, where it changes",
+                "`CoolantFlood`, `CoolantMist` oder `CoolantOff`, wo sich etwas ändert",
+            ),
+        }
+    }
+}
+
+impl Choice {
+    /// What it stands for, for the book.
+    pub(super) fn word(self) -> Word {
+        let word = |en, de| Word { en, de };
+        match self {
+            Self::Units => word(
+                "`UnitsMM` or `UnitsInches`, by the program",
+                "`UnitsMM` oder `UnitsInches`, nach dem Programm",
+            ),
+            Self::ArcCentre => word(
+                "`ArcCenterAbsolute` or `ArcCenterIncremental`, by the element `ArcCenterMode`",
+                "`ArcCenterAbsolute` oder `ArcCenterIncremental`, nach dem Element `ArcCenterMode`",
+            ),
+            Self::LatheX => word("`XModeRadius`", "`XModeRadius`"),
+        }
     }
 }
 

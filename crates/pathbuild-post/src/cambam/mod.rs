@@ -17,6 +17,7 @@ mod moves;
 mod names;
 mod options;
 mod plan;
+pub(super) mod reference;
 mod registers;
 mod section;
 mod states;

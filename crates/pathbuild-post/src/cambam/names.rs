@@ -79,9 +79,9 @@ fn register(name: &str) -> Option<Macro> {
 }
 
 /// A macro that takes arguments.
-struct With {
-    name: &'static str,
-    expected: &'static str,
+pub(super) struct With {
+    pub(super) name: &'static str,
+    pub(super) expected: &'static str,
     read: fn(Option<&str>) -> Option<Macro>,
 }
 
@@ -89,7 +89,8 @@ fn with_arguments(name: &str) -> Option<&'static With> {
     WITH.iter().find(|with| with.name == name)
 }
 
-static WITH: &[With] = &[
+/// The macros that take arguments.
+pub(super) static WITH: &[With] = &[
     With { name: "cuttercomp", expected: "off, L or R", read: cutter_compensation },
     With { name: "toolchange", expected: "nothing or first", read: tool_change },
     With { name: "spindle", expected: "nothing, up, cw, ccw or off", read: spindle },
@@ -170,7 +171,7 @@ fn finite(text: &str) -> Option<f64> {
 }
 
 /// The macros that take no arguments, but for registers and codes.
-static FIXED: &[(&str, Macro)] = &[
+pub(super) static FIXED: &[(&str, Macro)] = &[
     ("comment", Macro::Section(Section::Comment)),
     ("endcomment", Macro::Section(Section::EndComment)),
     ("header", Macro::Section(Section::Header)),

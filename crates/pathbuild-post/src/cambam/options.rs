@@ -1,5 +1,7 @@
 //! The elements of a CamBam definition that hold a value instead of a template.
 
+use pathbuild_diagnostic::Word;
+
 use crate::number::NumberFormat;
 
 /// Every option, with the value that holds when its element is absent.
@@ -99,49 +101,289 @@ pub(super) enum Refusal {
     Expected(&'static str),
 }
 
+/// An element that holds a value.
+#[derive(Debug)]
+pub(super) struct ElementOption {
+    /// The element's name.
+    pub(super) element: &'static str,
+    set: fn(&mut Options, &str) -> Read<()>,
+    /// What holds when the element is absent, as it would be written.
+    pub(super) default: &'static str,
+    /// Whether CamBam does not know it.
+    pub(super) is_own: bool,
+    /// What it sets, for the book.
+    pub(super) about: Word,
+}
+
+/// The elements that hold values.
+pub(super) static OPTIONS: &[ElementOption] = &[
+    ElementOption {
+        element: "NumberFormat",
+        set: |o, v| put(&mut o.number_format, pattern(v.trim())),
+        default: "0.0###",
+        is_own: false,
+        about: Word { en: "pattern of all numbers", de: "Muster aller Zahlen" },
+    },
+    ElementOption {
+        element: "EndOfLine",
+        set: |o, v| put(&mut o.end_of_line, end_of_line(v)),
+        default: "\\r\\n",
+        is_own: false,
+        about: Word { en: "line ends", de: "Zeilenenden" },
+    },
+    ElementOption {
+        element: "UpperCase",
+        set: |o, v| put(&mut o.upper_case, boolean(v.trim())),
+        default: "false",
+        is_own: false,
+        about: Word { en: "whether lines are written in capitals", de: "ob Zeilen groß geschrieben werden" },
+    },
+    ElementOption {
+        element: "AddLineNumbers",
+        set: |o, v| put(&mut o.add_line_numbers, boolean(v.trim())),
+        default: "false",
+        is_own: false,
+        about: Word { en: "whether lines are numbered", de: "ob Zeilen nummeriert werden" },
+    },
+    ElementOption {
+        element: "LineNumberStart",
+        set: |o, v| put(&mut o.numbering.start, count(v.trim())),
+        default: "1",
+        is_own: false,
+        about: Word { en: "first number", de: "erste Nummer" },
+    },
+    ElementOption {
+        element: "LineNumberIncrement",
+        set: |o, v| put(&mut o.numbering.increment, count(v.trim())),
+        default: "1",
+        is_own: false,
+        about: Word { en: "from one number to the next", de: "von einer Nummer zur nächsten" },
+    },
+    ElementOption {
+        element: "LineNumberPrefix",
+        set: |o, v| put(&mut o.numbering.prefix, Ok(v.trim().into())),
+        default: "N",
+        is_own: false,
+        about: Word { en: "text in front of the number", de: "Text vor der Nummer" },
+    },
+    ElementOption {
+        element: "LineNumberFormat",
+        set: |o, v| put(&mut o.numbering.format, pattern(v.trim())),
+        default: "0",
+        is_own: false,
+        about: Word { en: "pattern of the number", de: "Muster der Nummer" },
+    },
+    ElementOption {
+        element: "LineNumberSpaceAfter",
+        set: |o, v| put(&mut o.numbering.space_after, boolean(v.trim())),
+        default: "true",
+        is_own: false,
+        about: Word { en: "whether a blank follows the number", de: "ob der Nummer ein Leerzeichen folgt" },
+    },
+    ElementOption {
+        element: "LineNumberSkip",
+        set: |o, v| put(&mut o.numbering.skip, Ok(v.trim().into())),
+        default: "%O(:;",
+        is_own: false,
+        about: Word {
+            en: "lines that begin with one of these have no number",
+            de: "Zeilen mit einem dieser Anfänge haben keine Nummer",
+        },
+    },
+    ElementOption {
+        element: "ArcOutput",
+        set: |o, v| put(&mut o.arcs_as_lines, arc_output(v.trim())),
+        default: "Normal",
+        is_own: false,
+        about: Word { en: "whether arcs become lines", de: "ob Bögen zu Strecken werden" },
+    },
+    ElementOption {
+        element: "ArcCenterMode",
+        set: |o, v| put(&mut o.absolute_centres, centre_mode(v.trim())),
+        default: "Incremental",
+        is_own: false,
+        about: Word {
+            en: "whether I and J are places or distances",
+            de: "ob I und J Orte oder Abstände sind",
+        },
+    },
+    ElementOption {
+        element: "ArcToLinesTolerance",
+        set: |o, v| put(&mut o.arc_tolerance, positive(v.trim())),
+        default: "0.01",
+        is_own: false,
+        about: Word {
+            en: "greatest distance of a line from its arc, in the program's unit",
+            de: "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms",
+        },
+    },
+    ElementOption {
+        element: "MinimumArcLength",
+        set: |o, v| put(&mut o.least_arc_length, length(v.trim())),
+        default: "0.0001",
+        is_own: false,
+        about: Word { en: "shorter arcs become lines", de: "kürzere Bögen werden Strecken" },
+    },
+    ElementOption {
+        element: "MaximumArcRadius",
+        set: |o, v| put(&mut o.greatest_arc_radius, positive(v.trim())),
+        default: "1000000",
+        is_own: false,
+        about: Word { en: "larger arcs become lines", de: "größere Bögen werden Strecken" },
+    },
+    ElementOption {
+        element: "ClearancePlaneAxis",
+        set: |_, v| choice(v.trim(), "Z: lathes are not supported", &[("Z", ())]),
+        default: "Z",
+        is_own: false,
+        about: Word {
+            en: "only this value: lathes are not supported",
+            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
+        },
+    },
+    ElementOption {
+        element: "InvertArcs",
+        set: |o, v| put(&mut o.invert_arcs, boolean(v.trim())),
+        default: "false",
+        is_own: false,
+        about: Word {
+            en: "whether arcs in G18 turn the other way",
+            de: "ob Bögen in G18 andersherum drehen",
+        },
+    },
+    ElementOption {
+        element: "RapidDownToClearance",
+        set: |o, v| put(&mut o.rapid_down, boolean(v.trim())),
+        default: "true",
+        is_own: false,
+        about: Word {
+            en: "whether the way down to the clearance plane is a rapid move",
+            de: "ob der Weg abwärts zur Sicherheitsebene ein Eilgang ist",
+        },
+    },
+    ElementOption {
+        element: "SuppressParserErrors",
+        set: |o, v| put(&mut o.suppress_parser_errors, boolean(v.trim())),
+        default: "false",
+        is_own: false,
+        about: Word {
+            en: "whether lines that are no G-code pass without a warning",
+            de: "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben",
+        },
+    },
+    ElementOption {
+        element: "LatheXMode",
+        set: |_, v| choice(v.trim(), "Radius: lathes are not supported", &[("Radius", ())]),
+        default: "Radius",
+        is_own: false,
+        about: Word {
+            en: "only this value: lathes are not supported",
+            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
+        },
+    },
+    ElementOption {
+        element: "LatheToolRadiusOffset",
+        set: |_, v| choice(v.trim(), "false: lathes are not supported", &[("false", ())]),
+        default: "false",
+        is_own: false,
+        about: Word {
+            en: "only this value: lathes are not supported",
+            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
+        },
+    },
+    ElementOption {
+        element: "RotaryWrap",
+        set: |o, v| put(&mut o.rotary.wrap, boolean(v.trim())),
+        default: "false",
+        is_own: false,
+        about: Word {
+            en: "whether paths are wrapped round a cylinder",
+            de: "ob Pfade um einen Zylinder gewickelt werden",
+        },
+    },
+    ElementOption {
+        element: "AxisOfRotation",
+        set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
+        default: "X",
+        is_own: false,
+        about: Word { en: "the axis along the cylinder", de: "die Achse längs des Zylinders" },
+    },
+    ElementOption {
+        element: "AxisOfSpin",
+        set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
+        default: "X",
+        is_own: false,
+        about: Word { en: "the same, as the manual calls it", de: "dasselbe, wie das Handbuch es nennt" },
+    },
+    ElementOption {
+        element: "RotaryAxis",
+        set: |o, v| put(&mut o.rotary.letter, choice(v.trim(), "A, B or C", &[("A", 0), ("B", 1), ("C", 2)])),
+        default: "A",
+        is_own: false,
+        about: Word { en: "the letter of the angle", de: "der Buchstabe des Winkels" },
+    },
+    ElementOption {
+        element: "PostBuildCommand",
+        set: |o, v| put(&mut o.post_build_command, Ok(v.trim().into())),
+        default: "",
+        is_own: false,
+        about: Word {
+            en: "program that is run on the file, with `--run-post-build` alone",
+            de: "Programm, das die Datei bearbeitet, nur mit `--run-post-build`",
+        },
+    },
+    ElementOption {
+        element: "PostBuildCommandArgs",
+        set: |o, v| put(&mut o.post_build_arguments, Ok(v.trim().into())),
+        default: "",
+        is_own: false,
+        about: Word {
+            en: "its arguments; no shell reads them",
+            de: "seine Argumente; keine Shell liest sie",
+        },
+    },
+    ElementOption {
+        element: "Notes",
+        set: |_, _| Ok(()),
+        default: "",
+        is_own: false,
+        about: Word { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+    },
+    ElementOption {
+        element: "Dialect",
+        set: |o, v| put(&mut o.dialect, Ok((!v.trim().is_empty()).then(|| v.trim().into()))),
+        default: "",
+        is_own: true,
+        about: Word {
+            en: "the dialect in which the output is read back",
+            de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
+        },
+    },
+    ElementOption {
+        element: "FileExtension",
+        set: |o, v| put(&mut o.extension, extension(v.trim())),
+        default: "nc",
+        is_own: true,
+        about: Word { en: "extension of the files that are written", de: "Endung der geschriebenen Dateien" },
+    },
+];
+
+impl ElementOption {
+    /// What it takes, if not any text.
+    pub(super) fn expected(&self) -> Option<&'static str> {
+        // No element that takes certain values takes this one.
+        match (self.set)(&mut Options::default(), "\u{1}") {
+            Err(Refusal::Expected(expected)) => Some(expected),
+            Ok(()) | Err(Refusal::Unknown) => None,
+        }
+    }
+}
+
 impl Options {
     /// Sets the option that an element holds. Values may be padded with blanks.
     pub(super) fn set(&mut self, element: &str, text: &str) -> Result<(), Refusal> {
-        let value = text.trim();
-        match element {
-            "NumberFormat" => put(&mut self.number_format, pattern(value)),
-            "EndOfLine" => put(&mut self.end_of_line, end_of_line(text)),
-            "UpperCase" => put(&mut self.upper_case, boolean(value)),
-            "AddLineNumbers" => put(&mut self.add_line_numbers, boolean(value)),
-            "LineNumberStart" => put(&mut self.numbering.start, count(value)),
-            "LineNumberIncrement" => put(&mut self.numbering.increment, count(value)),
-            "LineNumberPrefix" => put(&mut self.numbering.prefix, Ok(value.into())),
-            "LineNumberFormat" => put(&mut self.numbering.format, pattern(value)),
-            "LineNumberSpaceAfter" => put(&mut self.numbering.space_after, boolean(value)),
-            "LineNumberSkip" => put(&mut self.numbering.skip, Ok(value.into())),
-            "ArcOutput" => put(&mut self.arcs_as_lines, arc_output(value)),
-            "ArcCenterMode" => put(&mut self.absolute_centres, centre_mode(value)),
-            "ArcToLinesTolerance" => put(&mut self.arc_tolerance, positive(value)),
-            "MinimumArcLength" => put(&mut self.least_arc_length, length(value)),
-            "MaximumArcRadius" => put(&mut self.greatest_arc_radius, positive(value)),
-            // A lathe's programs would need other moves.
-            "ClearancePlaneAxis" => choice(value, "Z: lathes are not supported", &[("Z", ())]),
-            "InvertArcs" => put(&mut self.invert_arcs, boolean(value)),
-            "RapidDownToClearance" => put(&mut self.rapid_down, boolean(value)),
-            "SuppressParserErrors" => put(&mut self.suppress_parser_errors, boolean(value)),
-            "LatheXMode" => choice(value, "Radius: lathes are not supported", &[("Radius", ())]),
-            "LatheToolRadiusOffset" => choice(value, "false: lathes are not supported", &[("false", ())]),
-            "RotaryWrap" => put(&mut self.rotary.wrap, boolean(value)),
-            // The first is what files have, the second what the manual calls it.
-            "AxisOfRotation" | "AxisOfSpin" => {
-                put(&mut self.rotary.along, choice(value, "X or Y", &[("X", 0), ("Y", 1)]))
-            }
-            "RotaryAxis" => {
-                put(&mut self.rotary.letter, choice(value, "A, B or C", &[("A", 0), ("B", 1), ("C", 2)]))
-            }
-            "PostBuildCommand" => put(&mut self.post_build_command, Ok(value.into())),
-            "PostBuildCommandArgs" => put(&mut self.post_build_arguments, Ok(value.into())),
-            // For who reads the file.
-            "Notes" => Ok(()),
-            "Dialect" => put(&mut self.dialect, Ok((!value.is_empty()).then(|| value.into()))),
-            "FileExtension" => put(&mut self.extension, extension(value)),
-            _ => Err(Refusal::Unknown),
-        }
+        let option = OPTIONS.iter().find(|option| option.element == element).ok_or(Refusal::Unknown)?;
+        (option.set)(self, text)
     }
 }
 
@@ -157,6 +399,10 @@ fn choice<T: Copy>(value: &str, expected: &'static str, choices: &[(&str, T)]) -
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value));
     found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
+}
+
+fn axis(value: &str) -> Read<usize> {
+    choice(value, "X or Y", &[("X", 0), ("Y", 1)])
 }
 
 fn boolean(value: &str) -> Read<bool> {

@@ -126,6 +126,13 @@ const MOP: &str = "{$comment} {$mop.name} {$endcomment}
 {$mop.footer}
 ";
 
+impl Section {
+    /// Whether CamBam does not know the element.
+    pub(super) fn is_own(self) -> bool {
+        matches!(self, Self::CoolantFlood | Self::CoolantMist | Self::CoolantOff | Self::Dwell | Self::Probe)
+    }
+}
+
 /// The section with the words for what the spindle does.
 pub(super) fn spindle_section(spindle: Spindle) -> Section {
     match spindle {

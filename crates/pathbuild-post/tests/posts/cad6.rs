@@ -87,6 +87,14 @@ N120 G00 Z+100 M05 M09
 N130 M30
 ";
     assert_eq!(written(RECTANGLE, &rectangle()), expected);
+    // The books show the same.
+    for lang in ["en", "de"] {
+        let page =
+            format!("{}/../../docs/{lang}/src/reference/post-definitions.md", env!("CARGO_MANIFEST_DIR"));
+        let page = std::fs::read_to_string(page).unwrap();
+        assert!(page.contains(&format!("```toml{RECTANGLE}```")), "{lang}: another definition");
+        assert!(page.contains(&format!("```text\n{expected}```")), "{lang}: another program");
+    }
 }
 
 /// What one text comes to at the start of a program, with variables.

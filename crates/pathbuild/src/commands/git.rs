@@ -137,7 +137,8 @@ impl<'a> Repository<'a> {
             self.run(&["for-each-ref", "--count=1", "--format=%(refname)", &name]).ok()
         };
         let branch = || self.run(&["symbolic-ref", "--quiet", "HEAD"]).ok();
-        matches!(revision, "HEAD" | "@") && branch().and_then(|name| refs(&name)).is_some_and(|it| it.is_empty())
+        matches!(revision, "HEAD" | "@")
+            && branch().and_then(|name| refs(&name)).is_some_and(|it| it.is_empty())
     }
 
     /// Every file in a tree.

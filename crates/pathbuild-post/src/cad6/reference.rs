@@ -1,0 +1,71 @@
+//! The language of control texts as tables for the book. (book: reference/post-definitions)
+
+use pathbuild_diagnostic::{Lang, Word};
+
+use super::control_text::ControlTextKind;
+use super::functions::{FUNCTIONS, Rule};
+use super::numbers::FORMS;
+use super::settings::SETTINGS;
+use super::statements::STATEMENTS;
+use super::term::LEVELS;
+use super::variables::VARIABLES;
+use crate::reference::{Row, code};
+
+/// The keys of `[post]`: name, what it takes, what it sets.
+pub(crate) fn settings(lang: Lang) -> Vec<Row> {
+    let row = |it: &super::settings::Setting| {
+        vec![code(it.name), it.expected.to_owned(), it.about.in_lang(lang).to_owned()]
+    };
+    SETTINGS.iter().map(row).collect()
+}
+
+/// The keys of `[text]`: name, when it is called.
+pub(crate) fn texts(lang: Lang) -> Vec<Row> {
+    let row = |kind: &ControlTextKind| vec![code(kind.name()), kind.when().in_lang(lang).to_owned()];
+    ControlTextKind::ALL.iter().map(row).collect()
+}
+
+/// The variables: name, what it holds, where it has a value.
+pub(crate) fn variables(lang: Lang) -> Vec<Row> {
+    let row = |it: &super::variables::Variable| {
+        let presence = it.presence.word().in_lang(lang).to_owned();
+        vec![code(&format!("~{}~", it.name)), it.about.in_lang(lang).to_owned(), presence]
+    };
+    VARIABLES.iter().map(row).collect()
+}
+
+/// The statements: spelling, result.
+pub(crate) fn statements(lang: Lang) -> Vec<Row> {
+    let others = STATEMENTS.iter().map(|it| vec![code(it.form), it.about.in_lang(lang).to_owned()]);
+    let shortest = vec![code("{Term}"), SHORTEST.in_lang(lang).to_owned()];
+    let numbers = FORMS
+        .iter()
+        .map(|(sign, _, about)| vec![code(&format!("{{{sign}Term}}")), about.in_lang(lang).to_owned()]);
+    let as_in_c = vec![code("{f Term}"), AS_IN_C.in_lang(lang).to_owned()];
+    others.chain([shortest]).chain(numbers).chain([as_in_c]).collect()
+}
+
+/// The operators, from loosest to tightest.
+pub(crate) fn operators() -> Vec<Row> {
+    let level = |level: &&[&str]| level.iter().map(|operator| code(operator)).collect::<Vec<_>>().join(" ");
+    LEVELS.iter().map(|operators| vec![level(operators)]).collect()
+}
+
+/// The functions: spelling, value.
+pub(crate) fn functions(lang: Lang) -> Vec<Row> {
+    let arguments = |rule| match rule {
+        Rule::One(_) => "x",
+        Rule::Two(_) => "x, y",
+        Rule::Any(_) => "x, ...",
+    };
+    let row = |it: &super::functions::Function| {
+        vec![code(&format!("{}({})", it.name, arguments(it.rule))), it.about.in_lang(lang).to_owned()]
+    };
+    FUNCTIONS.iter().map(row).collect()
+}
+
+const SHORTEST: Word = Word { en: "as many decimals as there are", de: "so viele Dezimalen, wie es gibt" };
+const AS_IN_C: Word = Word {
+    en: "as in C, also with `g`, `d`, `x`, `b` or `s`; flags, width and precision stand in front of the letter (pathbuild's own)",
+    de: "wie in C, auch mit `g`, `d`, `x`, `b` oder `s`; Schalter, Breite und Genauigkeit stehen vor dem Buchstaben (Zusatz von pathbuild)",
+};

@@ -1,0 +1,66 @@
+//! The language of CamBam definitions as tables for the book. (book: reference/post-definitions)
+
+use pathbuild_diagnostic::{Lang, Word};
+
+use super::macros::Macro;
+use super::names::{FIXED, WITH};
+use super::options::OPTIONS;
+use super::section::Section;
+use crate::reference::Row;
+
+/// Elements that hold a template: name, whether it is pathbuild's own, what stands in for one that is absent.
+pub(crate) fn sections(lang: Lang) -> Vec<Row> {
+    let own = |section: &Section| if section.is_own() { OWN.in_lang(lang) } else { "" }.to_owned();
+    Section::ALL
+        .iter()
+        .map(|section| vec![code(section.name()), own(section), code(section.default_text())])
+        .collect()
+}
+
+/// Elements that hold a value: name, what it takes, what holds without it, what it sets.
+pub(crate) fn options(lang: Lang) -> Vec<Row> {
+    let row = |option: &super::options::ElementOption| {
+        let own = if option.is_own { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
+        let about = format!("{own}{}", option.about.in_lang(lang));
+        vec![code(option.element), option.expected().unwrap_or("").to_owned(), code(option.default), about]
+    };
+    OPTIONS.iter().map(row).collect()
+}
+
+/// Macros without arguments: name, what it stands for.
+pub(crate) fn macros(lang: Lang) -> Vec<Row> {
+    FIXED.iter().map(|(name, what)| vec![code(&format!("{{${name}}}")), meaning(what, lang)]).collect()
+}
+
+/// Macros with arguments: name, what it takes.
+pub(crate) fn macros_with_arguments() -> Vec<Row> {
+    WITH.iter()
+        .map(|with| vec![code(&format!("{{${}(...)}}", with.name)), with.expected.to_owned()])
+        .collect()
+}
+
+const OWN: Word = Word { en: "pathbuild's own", de: "Zusatz von pathbuild" };
+const TEXT_OF: Word = Word { en: "the text of the element", de: "der Text des Elements" };
+const SPEED: Word =
+    Word { en: "`S` with the speed, where one is given", de: "`S` mit der Drehzahl, wo eine vorliegt" };
+const OPEN: Word = Word { en: "; a user macro may give it", de: "; ein eigenes Makro kann es angeben" };
+
+fn meaning(what: &Macro, lang: Lang) -> String {
+    match what {
+        Macro::Section(section) => format!("{} `{}`", TEXT_OF.in_lang(lang), section.name()),
+        Macro::Value(value) if value.is_open() => {
+            format!("{}{}", value.word().in_lang(lang), OPEN.in_lang(lang))
+        }
+        Macro::Value(value) => value.word().in_lang(lang).to_owned(),
+        Macro::Block(block) => block.word().in_lang(lang).to_owned(),
+        Macro::State(state) => state.word().in_lang(lang).to_owned(),
+        Macro::Choice(choice) => choice.word().in_lang(lang).to_owned(),
+        Macro::Speed => SPEED.in_lang(lang).to_owned(),
+        // The others are no names of their own: they take arguments, or are letters and codes.
+        _ => String::new(),
+    }
+}
+
+fn code(text: &str) -> String {
+    crate::reference::code(text)
+}
