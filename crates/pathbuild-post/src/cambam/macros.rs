@@ -165,7 +165,7 @@ impl Value {
                 "seconds of the first hole that waits, else 0",
                 "Sekunden der ersten Bohrung, die verweilt, sonst 0",
             ),
-            Self::MopHoleDiameter => word("O", "O"),
+            Self::MopHoleDiameter => word("diameter of a hole: O", "Durchmesser einer Bohrung: O"),
             Self::MopPeckDistance => word(
                 "depth of a plunge of the first hole with chip breaking, else 0",
                 "Tiefe je Stich der ersten Bohrung mit Spanbruch, sonst 0",
@@ -187,10 +187,10 @@ impl Value {
             Self::ToolComment => word("remark in the table of tools", "Bemerkung in der Werkzeugtabelle"),
             Self::ToolVeeAngle => word("angle in the table of tools", "Winkel in der Werkzeugtabelle"),
             Self::MoveAxis(_) => word("the number of the present move", "die Zahl der laufenden Bewegung"),
-            Self::ArcOffset(_) => word("of the present arc", "des laufenden Bogens"),
-            Self::ArcRadius => word("of the present arc", "des laufenden Bogens"),
-            Self::ArcStart => word("degrees, of the present arc", "Grad, des laufenden Bogens"),
-            Self::ArcEnd => word("degrees, of the present arc", "Grad, des laufenden Bogens"),
+            Self::ArcOffset(_) => word("from the start of the present arc to its centre", "vom Anfang des laufenden Bogens zum Mittelpunkt"),
+            Self::ArcRadius => word("radius of the present arc", "Radius des laufenden Bogens"),
+            Self::ArcStart => word("where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad"),
+            Self::ArcEnd => word("where the present arc ends, degrees", "Ende des laufenden Bogens in Grad"),
             Self::ArcSweep => word(
                 "degrees, clockwise positive, of the present arc",
                 "Grad, im Uhrzeigersinn positiv, des laufenden Bogens",
