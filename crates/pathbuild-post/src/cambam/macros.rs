@@ -187,9 +187,14 @@ impl Value {
             Self::ToolComment => word("remark in the table of tools", "Bemerkung in der Werkzeugtabelle"),
             Self::ToolVeeAngle => word("angle in the table of tools", "Winkel in der Werkzeugtabelle"),
             Self::MoveAxis(_) => word("the number of the present move", "die Zahl der laufenden Bewegung"),
-            Self::ArcOffset(_) => word("from the start of the present arc to its centre", "vom Anfang des laufenden Bogens zum Mittelpunkt"),
+            Self::ArcOffset(_) => word(
+                "from the start of the present arc to its centre",
+                "vom Anfang des laufenden Bogens zum Mittelpunkt",
+            ),
             Self::ArcRadius => word("radius of the present arc", "Radius des laufenden Bogens"),
-            Self::ArcStart => word("where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad"),
+            Self::ArcStart => {
+                word("where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad")
+            }
             Self::ArcEnd => word("where the present arc ends, degrees", "Ende des laufenden Bogens in Grad"),
             Self::ArcSweep => word(
                 "degrees, clockwise positive, of the present arc",

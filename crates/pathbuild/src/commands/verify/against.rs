@@ -158,8 +158,8 @@ impl Against {
         let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
         let now = Provenances::new(&context.settings, None).of(&[&*self.drawn]);
         // A program of ours whose first line was removed or damaged still has its title.
-        let has_same_options = header
-            .map_or_else(|| native::has_title(&program.text), |header| header.options == now.options);
+        let has_same_options =
+            header.map_or_else(|| native::has_title(&program.text), |header| header.options == now.options);
         if !found.is_empty() || !is_sound || !has_same_options {
             return Ok(found);
         }
