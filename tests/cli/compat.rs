@@ -162,3 +162,18 @@ fn the_path_that_is_called_compat_is_a_path() {
     let run = Place::new().run("-q compat --lang de -v 1000 /k3");
     assert!(run.stderr.contains("unbekannte Option /k3"), "{run}");
 }
+
+#[test]
+fn their_help_is_in_the_language_that_is_named() {
+    let place = Place::new();
+    let is_german = |line: &str| place.run(line).stdout.contains("DATEIEN");
+    for line in
+        ["compat /h /lde", "compat /lde /h", "compat /? /l=de-AT", "compat /h /l de", "compat -h -lDE"]
+    {
+        assert!(is_german(line), "{line}");
+    }
+    for line in ["compat /h", "compat /h /len", "compat /h /lfr", "--lang de compat /h /len"] {
+        assert!(!is_german(line), "{line}");
+    }
+    assert!(is_german("--lang de compat /h"));
+}

@@ -62,3 +62,55 @@ fn the_environment_comes_between_the_option_and_the_configurations() {
         assert!(said(other, "").contains("1 path in 1 drawing"), "{other}");
     }
 }
+
+/// The system's locale is asked last, and only for messages.
+#[test]
+fn the_systems_locale_is_the_last_that_is_asked() {
+    let run = |keys: &str, variables: &[(&str, &str)], arguments: &str| {
+        let place = Place::of(PATH).users(keys);
+        let mut program = program();
+        program.env("LC_ALL", "").env("XDG_CONFIG_HOME", place.configurations());
+        program.envs(variables.iter().copied()).current_dir(place.path());
+        let output = program.args(arguments.split_whitespace()).output().unwrap();
+        let messages = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
+        let written = std::fs::read_to_string(place.path().join(PROGRAM)).unwrap_or_default();
+        (messages, written)
+    };
+    let is_german = |keys: &str, variables: &[(&str, &str)], option: &str| {
+        let (messages, _) = run(keys, variables, &format!("check 1234.1P.dxf {option}"));
+        let (de, en) = (messages.contains("1 Pfad in"), messages.contains("1 path in"));
+        assert_ne!(de, en, "{variables:?}: {messages}");
+        de
+    };
+    for german in ["de", "de_DE.UTF-8", "de_AT@euro", "DE-CH"] {
+        assert!(is_german("", &[("LANG", german)], ""), "{german}");
+    }
+    for other in ["C", "C.UTF-8", "POSIX", "fr_FR.UTF-8", "den_CA", "en_US.UTF-8"] {
+        assert!(!is_german("", &[("LANG", other)], ""), "{other}");
+    }
+    assert!(is_german("", &[("LC_MESSAGES", "de_DE.UTF-8"), ("LANG", "C")], ""));
+    assert!(!is_german("", &[("LC_MESSAGES", "en_GB"), ("LANG", "de_DE.UTF-8")], ""));
+    assert!(is_german("", &[("LC_ALL", "de_DE.UTF-8"), ("LC_MESSAGES", "C"), ("LANG", "C")], ""));
+    assert!(!is_german("", &[("LC_ALL", "C"), ("LANG", "de_DE.UTF-8")], ""));
+    let german = [("LANG", "de_DE.UTF-8")];
+    assert!(!is_german("", &german, "--lang en"));
+    assert!(!is_german("lang = \"en\"\n", &german, ""));
+    assert!(!is_german("", &[("LANG", "de_DE.UTF-8"), ("PATHBUILD_LANG", "en")], ""));
+    for options in ["", "--compatible"] {
+        let (messages, written) = run("", &german, &format!("emit 1234.1P {options}"));
+        assert!(messages.contains("geschrieben"), "{messages}");
+        assert!(written.contains("Milling length"), "{written}");
+    }
+    let (messages, _) = run("", &german, "--help");
+    assert!(messages.contains("Aufruf") || messages.contains("Befehle"), "{messages}");
+}
+
+/// A configuration that chooses a language says so to everybody in that tree.
+#[test]
+fn the_configurations_language_comes_before_the_systems_locale() {
+    let place = Place::of(PATH).file("pathbuild.toml", "lang = \"en\"\nfeed = 100\n");
+    let mut program = program();
+    program.env("LC_ALL", "de_DE.UTF-8").args(["check", "1234.1P.dxf"]).current_dir(place.path());
+    let messages = String::from_utf8(program.output().unwrap().stderr).unwrap();
+    assert!(messages.contains("1 path in 1 drawing"), "{messages}");
+}

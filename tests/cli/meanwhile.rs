@@ -126,6 +126,7 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
         settings,
         system: Arc::<Changing>::clone(&system),
         own_lang: None,
+        system_lang: None,
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,

@@ -42,7 +42,7 @@ fn written() -> Place {
 fn what_is_written_is_right_and_agrees_with_its_drawing() {
     let place = written();
     let run = place.run("check");
-    assert!(run.stderr.starts_with("4 paths in 2 drawings: no errors, no warnings"), "{run}");
+    assert!(run.stderr.starts_with("5 paths in 2 drawings: no errors, no warnings"), "{run}");
 }
 
 #[test]
@@ -56,12 +56,33 @@ fn every_path_is_embedded_as_its_proxy_line_says_else_with_its_own_values() {
             "T6 O2 MPlate",
             ">1234.1P O2 H2 MPlate T5",
             ">1234.2P MPlate2 T6 O2 :B0 :CB",
+            "T4 O3 MPlate",
             ">1234.3P MPlate T4 O3"
         ]
     );
-    for line in ["from (0, 0) to (40, 0)", "from (60, 0) to (60, 0)", "from (80, 0) to (80.4, 0)"] {
+    for line in ["from (0, 0) to (40, 0)", "from (60, 0) to (60, 0)", "from (0, -60) to (0.4, -60)"] {
         assert!(run.stdout.contains(line), "{line}: {run}");
     }
+}
+
+/// A project has one cutter.
+#[test]
+fn it_has_a_path_for_each_cutter() {
+    let place = written();
+    let emitted = ["1234.0Q", "1234.1Q"].map(|path| place.run_with(&["emit", path]).status);
+    assert_eq!(emitted, [Some(0); 2]);
+    let written = |path| place.run_with(&["emit", path, "-o", "-"]).stdout;
+    assert!(written("1234.0Q").contains("START Subpath 1234.2P") && !written("1234.0Q").contains("1234.3P"));
+    assert!(written("1234.1Q").contains("START Subpath 1234.3P") && !written("1234.1Q").contains("1234.2P"));
+    // A name that the drawing has itself is passed over.
+    let place = Place::of(&DRAWING.replace("1234.2P", "1234.1Q"));
+    assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
+    assert_eq!(place.run_with(&["emit", "1234.2Q"]).status, Some(0));
+    let lone = DRAWING.replace("== gear", "path-pattern = \"1234[.][0-3][PQ]\"\n== gear");
+    let place = Place::of(&lone.replace("library = [\".\"]\n", ""));
+    let run = place.run_with(&["q-project", "gear 1234.dxf", "--path-name", "1234.3Q"]);
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("PB004") && run.stderr.contains("1234.3Q"), "{run}");
 }
 
 #[test]
@@ -104,7 +125,7 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = written();
     let found = place.run("emit 1234.0Q");
     assert_eq!(found.status, Some(0), "{found}");
-    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf"));
+    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf").replace("T4 O3", "T4 O2"));
     assert_eq!(place.run("q-project 1234.1-1234.3P.dxf").status, Some(0));
     for (lang, note) in [
         ("en", "note: 1234.1-1234.3P_Q.dxf defines it, though the file's name does not cover it"),

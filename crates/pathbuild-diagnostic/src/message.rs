@@ -3,7 +3,7 @@ use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Code, Number, Point, kept, shown};
+use crate::{Code, Number, Point, in_prose, kept, shown};
 
 /// The languages that pathbuild speaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -100,6 +100,13 @@ impl Word {
 }
 
 impl Value {
+    fn number(&self) -> Option<Number> {
+        match self {
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
     /// The value as it is put into a message: on one line, and all that acts in it escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
@@ -180,11 +187,11 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
         let name = &rest[open + 1..open + length];
         filled.push_str(&rest[..open]);
         match arguments.iter().find(|(argument, _)| *argument == name) {
-            // A number behind a letter is a parameter or a word of G-code: `O2.5`.
-            Some((_, Value::Number(number)))
-                if filled.ends_with(|before: char| before.is_ascii_uppercase()) =>
-            {
-                _ = write!(filled, "{number}");
+            Some((_, Value::Number(number))) => {
+                let text = number.apart_from(arguments.iter().filter_map(|(_, value)| value.number()));
+                // A number behind a letter is a parameter or a word of G-code: `O2.5`.
+                let is_word = filled.ends_with(|before: char| before.is_ascii_uppercase());
+                filled.push_str(&if is_word { text } else { in_prose(text, lang) });
             }
             Some((_, value)) => filled.push_str(&value.render(lang)),
             None => _ = write!(filled, "{{{name}}}"),

@@ -25,10 +25,29 @@ impl From<f64> for Number {
 }
 
 impl Number {
+    /// The number with as many decimals as tell it from other numbers of the same sentence: "8 mm is greater than 8" helps nobody.
+    pub(crate) fn apart_from(self, others: impl Iterator<Item = Self>) -> String {
+        let shown = self.to_string();
+        let equal: Vec<Self> = others.filter(|other| *other != self && other.to_string() == shown).collect();
+        let with = |number: Self, decimals: usize| format!("{:.decimals$}", number.0);
+        let is_apart =
+            |decimals: &usize| equal.iter().all(|other| with(*other, *decimals) != with(self, *decimals));
+        let decimals = (4..=MOST_DECIMALS).find(is_apart).filter(|_| !equal.is_empty());
+        decimals.map_or(shown, |decimals| trimmed(&with(self, decimals)).to_owned())
+    }
+
     /// The number as it stands in a sentence of a language: `0.5`, in German `0,5`.
     pub fn prose(self, lang: Lang) -> String {
         in_prose(self.to_string(), lang)
     }
+}
+
+/// Numbers that differ by less are the same to everybody but to a computer.
+const MOST_DECIMALS: usize = 9;
+
+/// Decimals without the zeros at their end.
+fn trimmed(decimals: &str) -> &str {
+    decimals.trim_end_matches('0').trim_end_matches('.')
 }
 
 /// A number as it stands in a sentence or a table of a language. Coordinates, parameters and G-code, which people type back, keep their point.
@@ -74,7 +93,7 @@ impl fmt::Display for Number {
             return write!(f, "{value:.1e}");
         }
         let text = format!("{value:.3}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
+        let text = trimmed(&text);
         f.write_str(if text == "-0" { "0" } else { text })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::messages;
+use pathbuild_diagnostic::{Diagnostic, Lang, messages};
 
 #[test]
 fn each_message_has_a_key_of_its_own() {
@@ -18,4 +18,18 @@ fn each_message_has_a_key_of_its_own() {
 fn messages_of_one_name_in_two_subjects_are_not_the_same() {
     assert_ne!(messages::files::MISSING, messages::parameters::MISSING);
     assert_ne!(messages::reading::NOT_POSITIVE, messages::parameters::NOT_POSITIVE);
+}
+
+/// Numbers that differ are shown so that they do.
+#[test]
+fn numbers_of_one_message_are_told_apart() {
+    let said = |diameter: f64, limit: f64| {
+        let problem = Diagnostic::new(&messages::walk::HELIX_TOO_LARGE);
+        problem.with("diameter", diameter).with("limit", limit).text(Lang::En)
+    };
+    assert!(said(8.0001, 8.0).contains("diameter 8.0001 mm is greater than A, which is 8"));
+    assert!(said(8.001, 8.0).contains("diameter 8.001 mm is greater than A, which is 8"));
+    assert!(said(8.000_000_01, 8.0).contains("diameter 8.00000001 mm"));
+    assert!(said(8.000_000_000_01, 8.0).contains("diameter 8 mm"), "nobody sees that");
+    assert!(said(8.0, 8.0).contains("diameter 8 mm"));
 }

@@ -16,6 +16,6 @@ pub use draft::{Block, Draft};
 pub use error::DrawError;
 pub use model::{Entity, Layer, Options, Point, Shape, Version};
 pub use place::{TextCircle, text_circle};
-pub use q_project::q_project;
+pub use q_project::{EmbeddingPath, q_project};
 pub use sheet::Sheet;
 pub use write::{LINE_TYPES, Template};

@@ -14,17 +14,39 @@ const CLOSED: f64 = 1e-3;
 /// The radius in mm of the circle that stands for a closed path: a line without length could have no text.
 const CIRCLE: f64 = 5.0;
 
-/// Draws one path that embeds others one after the other, to the right from (0, 0).
-///
-/// `parameters` is the text at its start; a segment is its length in mm and its text.
+/// The way from the start of one path down to that of the next, in mm.
+const ROW: f64 = 60.0;
+
+/// A path that embeds others.
+#[derive(Clone, Debug)]
+pub struct EmbeddingPath<'a> {
+    /// The layer, which is its name.
+    pub layer: &'a str,
+    /// The text at its start.
+    pub parameters: &'a str,
+    /// Its segments: the length in mm, and the text.
+    pub segments: Vec<(f64, &'a str)>,
+}
+
+/// Draws paths that embed others one after the other, each to the right, the first from (0, 0), the next below it.
 ///
 /// # Errors
 /// A segment that is too short for its text.
-pub fn q_project(layer: &str, parameters: &str, segments: &[(f64, &str)]) -> Result<Sheet, Vec<DrawError>> {
+pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Sheet, Vec<DrawError>> {
     let mut draft = Draft::new();
-    draft.layer(layer).add(Entity::start((0.0, 0.0)).note(&escaped(parameters)));
-    let mut at = Point::new(0.0, 0.0);
-    for (index, (length, text)) in segments.iter().enumerate() {
+    let mut start = Point::new(0.0, 0.0);
+    for path in paths {
+        draft.layer(path.layer);
+        draw(&mut draft, path, start);
+        start = start - Point::new(0.0, ROW);
+    }
+    draft.finish()
+}
+
+fn draw(draft: &mut Draft, path: &EmbeddingPath<'_>, start: Point) {
+    draft.add(Entity::start(start).note(&escaped(path.parameters)));
+    let mut at = start;
+    for (index, (length, text)) in path.segments.iter().enumerate() {
         if index > 0 {
             let next = at + Point::new(GAP, 0.0);
             draft.add(Entity::line(at, next).typed("HIDDEN"));
@@ -35,7 +57,6 @@ pub fn q_project(layer: &str, parameters: &str, segments: &[(f64, &str)]) -> Res
         at = end;
     }
     draft.add(Entity::end(at));
-    draft.finish()
 }
 
 /// A segment from a point on, and where it ends. That of a closed path is a whole turn.

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 
 use crate::approx::above;
 use crate::letter::Letter;
-use crate::matrix::ElementClass;
+use crate::matrix::{ElementClass, Use};
 use crate::values::{Given, Values};
 
 /// Letters that must be greater than 0 wherever they stand. (Z is not in the specification's list, but a machine that is to probe at
@@ -21,8 +21,10 @@ pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, class: ElementClass) ->
     let mut limits = Limits { own, path, problems: Vec::new() };
     limits.check_positive(&POSITIVE);
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
-    limits.check_above(Letter::T, Letter::B, &messages::NOT_BELOW);
-    limits.check_above(Letter::T, Letter::D, &messages::NOT_BELOW);
+    // The T of a probe or a subpath is the material there, which the path's depths need not reach.
+    for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != Use::Unknown) {
+        limits.check_above(Letter::T, depth, &messages::NOT_BELOW);
+    }
     if class.has_bars() {
         limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
         limits.check_positive(&POSITIVE_BARS);

@@ -143,6 +143,13 @@ impl PathName {
         if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 
+    /// Whether letters or digits stand directly before or behind the name in a text, so that another name is meant.
+    pub(crate) fn is_part_of_word(&self, text: &str) -> bool {
+        text.split_once(self.as_str()).is_some_and(|(before, behind)| {
+            before.ends_with(char::is_alphanumeric) || behind.starts_with(char::is_alphanumeric)
+        })
+    }
+
     /// Whether a regular expression of E or --restrict is found anywhere in it, with regard to case.
     pub fn is_match(&self, pattern: &Regex) -> bool {
         pattern.is_match(&self.0)

@@ -319,7 +319,7 @@ fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
         .with("element", class.word())
 }
 
-/// Joins what `~` at the end of a line continues: a long value goes on in the next line.
+/// Joins what `~` at the end of a line continues: a long value goes on in the next line. Blanks behind the `~` cannot be seen in a CAD.
 fn joined(text: &str) -> Cow<'_, str> {
     if !text.contains('~') {
         return Cow::Borrowed(text);
@@ -328,16 +328,21 @@ fn joined(text: &str) -> Cow<'_, str> {
     let mut rest = text;
     while let Some(tilde) = rest.find('~') {
         let after = &rest[tilde + 1..];
-        let is_continued = after.starts_with(['\n', '\r']);
+        let line_end = after.trim_start_matches(|it: char| it.is_whitespace() && !is_line_end(it));
+        let is_continued = line_end.starts_with(is_line_end);
         joined.push_str(&rest[..tilde + usize::from(!is_continued)]);
         rest = if is_continued {
-            after.trim_start_matches(|it| u8::try_from(it).is_ok_and(is_blank))
+            line_end.trim_start_matches(|it| u8::try_from(it).is_ok_and(is_blank))
         } else {
             after
         };
     }
     joined.push_str(rest);
     Cow::Owned(joined)
+}
+
+fn is_line_end(character: char) -> bool {
+    matches!(character, '\n' | '\r')
 }
 
 /// What separates pieces: not a non-breaking space.

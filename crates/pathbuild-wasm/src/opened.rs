@@ -45,6 +45,7 @@ impl Opened {
             settings,
             system,
             own_lang: Some(lang.into()),
+            system_lang: None,
             working_directory: Utf8PathBuf::new(),
             // There is one thread.
             jobs: Some(1),

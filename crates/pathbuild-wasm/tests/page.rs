@@ -133,6 +133,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         settings,
         system: OsSystem::shared(),
         own_lang: None,
+        system_lang: None,
         working_directory: Utf8PathBuf::new(),
         jobs: None,
         cache: None,

@@ -6,8 +6,8 @@ use pathbuild_cache::{Home, TreeStore};
 use pathbuild_db::System;
 use pathbuild_diagnostic::Lang;
 
-use crate::config::Settings;
-use crate::reporter::Reporter;
+use crate::config::{Origin, Settings};
+use crate::reporter::{Reporter, Silent};
 use crate::session::relative;
 
 /// What a run works in.
@@ -19,6 +19,8 @@ pub struct Workspace {
     pub system: Arc<dyn System>,
     /// The language of everything that is said, where a person has chosen one for all trees.
     pub own_lang: Option<Lang>,
+    /// The language of the system's locale, for messages where neither a person nor the configuration has chosen one.
+    pub system_lang: Option<Lang>,
     /// The directory that relative names mean.
     pub working_directory: Utf8PathBuf,
     /// With how many threads to work; `None`: as many as there are cores.
@@ -52,9 +54,27 @@ impl Workspace {
         Some(relative(file, &self.working_directory))
     }
 
-    /// The language of everything that is said.
+    /// The same with or without `compatible`. It keeps no results and reports nothing.
+    pub fn in_mode(&self, is_compatible: bool) -> Self {
+        let mut settings = self.settings.clone();
+        settings.general.compatible.value = is_compatible;
+        Self {
+            settings,
+            system: self.system.clone(),
+            own_lang: self.own_lang,
+            system_lang: self.system_lang,
+            working_directory: self.working_directory.clone(),
+            jobs: self.jobs,
+            cache: None,
+            reporter: Rc::new(Silent),
+        }
+    }
+
+    /// The language of messages. Comments in programs have that of [`Settings::comment_lang`].
     pub fn lang(&self) -> Lang {
-        self.own_lang.unwrap_or(self.settings.general.lang.value)
+        let configured = &self.settings.general.lang;
+        let fallback = self.system_lang.filter(|_| configured.origin == Origin::Default);
+        self.own_lang.or(fallback).unwrap_or(configured.value)
     }
 
     /// One of two phrases.

@@ -58,6 +58,7 @@ impl Context {
             system: system_of(&settings),
             settings,
             own_lang: self.own_lang,
+            system_lang: self.system_lang,
             working_directory: self.working_directory.clone(),
             jobs: self.jobs,
             cache: None,

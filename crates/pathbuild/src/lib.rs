@@ -63,7 +63,9 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     let lang = lang_of(arguments);
     let translated = match compat::translate(&args.arguments, lang) {
         Ok(Translated::Commands(translated)) => translated,
-        Ok(Translated::Help) => return print(|printer| usage::help(compat::help(lang), printer)),
+        Ok(Translated::Help(own)) => {
+            return print(|printer| usage::help(compat::help(own.unwrap_or(lang)), printer));
+        }
         Err(reason) => return print(|printer| usage::wrong(&reason, lang, printer)),
     };
     let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shown(command));
@@ -145,6 +147,7 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
         system: context::system_of(&settings),
         settings,
         own_lang: common.lang.map(Lang::from).or_else(surroundings::lang).or(user.lang),
+        system_lang: surroundings::system_lang(),
         jobs: common.jobs,
         cache: if common.no_cache { None } else { cache_home() },
         working_directory,

@@ -29,8 +29,19 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
 
 /// The language that a person has chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
 pub(crate) fn lang() -> Option<Lang> {
-    let name = env::var("PATHBUILD_LANG").ok()?;
-    match name.split(['_', '-', '.']).next()? {
+    named_lang(&env::var("PATHBUILD_LANG").ok()?)
+}
+
+/// The language of the system's locale: by the variables of POSIX on every system, else the user's language on Windows and macOS.
+pub(crate) fn system_lang() -> Option<Lang> {
+    let variables = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter();
+    let named = variables.filter_map(|variable| env::var(variable).ok()).find(|name| !name.is_empty());
+    named_lang(&named.or_else(sys_locale::get_locale)?)
+}
+
+/// The language of a name such as `de`, `de-AT` or `de_DE.UTF-8`, where it is one of ours.
+pub(crate) fn named_lang(name: &str) -> Option<Lang> {
+    match name.split(['_', '-', '.', '@']).next()?.to_ascii_lowercase().as_str() {
         "de" => Some(Lang::De),
         "en" => Some(Lang::En),
         _ => None,

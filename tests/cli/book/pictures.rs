@@ -1,5 +1,6 @@
 //! Pictures: `pictures/FOLDER-PATH.svg` is what `view PATH` draws in the copy of the drawings of that folder; where a drawing has
-//! the name, `view NAME.dxf`. `pictures/sheet-FOLDER-PATH.svg` is what `sheet PATH` makes.
+//! the name, `view NAME.dxf`. `pictures/sheet-FOLDER-PATH.svg` is what `sheet PATH` makes. `pictures/drawn-NAME.svg` is drawn by hand, for
+//! what `view` does not show.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -37,6 +38,9 @@ fn wrong(file: &str) -> Option<String> {
     let lang =
         [Lang::En, Lang::De].into_iter().find(|lang| file.starts_with(&*source(*lang).to_string_lossy()));
     let name = file.rsplit('/').next().unwrap().strip_suffix(".svg");
+    if name.is_some_and(|name| name.starts_with("drawn-")) && project().join(file).exists() {
+        return None;
+    }
     let (Some(lang), Some((folder, path))) = (lang, name.and_then(|name| name.rsplit_once('-'))) else {
         return Some(format!("{file}: not named pictures/FOLDER-PATH.svg"));
     };

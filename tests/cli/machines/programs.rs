@@ -70,6 +70,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         settings,
         system: Arc::new(OsSystem),
         own_lang: None,
+        system_lang: None,
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,

@@ -1,6 +1,6 @@
 //! Programs that are of the drawing as it was: found by their provenance. (book: program/gcode, book: language/probes)
 
-use super::{OPTIONS, drawing, emit, measure, succeed, write};
+use super::{OPTIONS, drawing, emit, measure, plate, succeed, write};
 use crate::support::Place;
 
 const WITHOUT: &str = r#"
@@ -151,4 +151,33 @@ fn adjust_finds_the_drawing_in_the_library() {
     std::fs::write(place.path().join("drawings/8001.dxf"), changed).unwrap();
     let run = place.run("adjust out/8001_Clean.gcode --max-correction 0.9");
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
+}
+
+/// The options are those that the program was written with, all but one. (PB608)
+#[test]
+fn a_program_of_the_other_mode_says_so() {
+    let options = "--feed 150 --rapid 1000 --sweep-height 20";
+    for (written, adjusted, said) in [
+        ("--compatible", "", Some("was written with --compatible")),
+        ("", "--compatible", Some("was written without --compatible")),
+        ("", "", None),
+        ("--compatible", "--compatible", None),
+    ] {
+        let place = plate("");
+        succeed(&place.run(&format!("emit a.dxf {options} {written}")));
+        measure(&place, |_, _| 0.1);
+        let adjust = format!("adjust a.dxf --max-correction 1 {options}");
+        let run = place.run(&format!("{adjust} {adjusted}"));
+        match said {
+            None => succeed(&run),
+            Some(said) => {
+                assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
+                assert!(run.stderr.contains(said) && !run.stderr.contains("sweep-height"), "{run}");
+                // Where the mode is not the only reason, it is none.
+                let run = place
+                    .run(&format!("{adjust} {adjusted} --sweep-height 25").replace(" --sweep-height 20", ""));
+                assert!(run.stderr.contains("PB608") && !run.stderr.contains(said), "{run}");
+            }
+        }
+    }
 }

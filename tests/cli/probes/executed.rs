@@ -200,7 +200,7 @@ fn a_changed_probing_run_is_found() {
     let place = adjusted("");
     let good = place.read("a_Probing.gcode");
     for (from, to) in [
-        ("G38.3 Z0", "G38.3 Z-9"),
+        ("G38.2 Z0", "G38.2 Z-9"),
         ("G04 P4\n", ""),
         ("G00 X150.000", "G00 X151.000"),
         ("F150.000", "F950.000"),

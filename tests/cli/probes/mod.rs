@@ -260,9 +260,68 @@ fn values_that_were_entered_are_kept() {
     assert_eq!((place.read("a_Z.txt"), place.read("a_Clean.gcode").as_str()), (measured.clone(), "old"));
 
     succeed(&place.run(&format!("emit a.dxf --force {OPTIONS}")));
-    assert!(place.read("a_Z.txt").contains("([151.000 100.000]/T=5.000) #"));
+    assert!(place.read("a_Z.txt").contains("([151.000 100.000]/T=5.000 @ [151.000|80.000]) #"));
     assert!(place.read("a_Z.txt").lines().all(|line| line.ends_with('=')), "and no values");
     assert_ne!(place.read("a_Clean.gcode"), before);
+}
+
+/// Files of the original tool and of older versions do not say where probes are in the emitted drawing.
+#[test]
+fn values_without_places_are_kept_and_used() {
+    let place = plate("");
+    succeed(&emit(&place, "a.dxf"));
+    measure(&place, |_, _| 0.1);
+    let with_places = place.read("a_Z.txt");
+    let line =
+        |line: &str| format!("{}){}\n", line.split_once(" @ ").unwrap().0, line.split_once(')').unwrap().1);
+    let without: String = with_places.lines().map(line).collect();
+    assert_ne!(without, with_places);
+    write(&place, "a_Z.txt", &without);
+    succeed(&emit(&place, "a.dxf"));
+    assert_eq!(place.read("a_Z.txt"), without, "the same probes");
+    succeed(&place.run("adjust a.dxf --max-correction 1"));
+    // A place that is another, though the probe is drawn where it was.
+    write(&place, "a_Z.txt", &with_places.replace("@ [150.000|80.000]", "@ [150.000|81.000]"));
+    let run = place.run("adjust a.dxf --max-correction 1");
+    assert!(run.status == Some(1) && run.stderr.contains("PB603"), "{run}");
+}
+
+/// A path that is embedded twice has each of its probes twice, under one name.
+#[test]
+fn a_probe_that_is_embedded_twice_is_told_apart_by_its_place() {
+    let drawings = r#"
+== pathbuild.toml ==
+feed = 150
+rapid = 1000
+sweep-height = 15
+== 1234.1P.dxf ==
+layer 1234.1P
+start 0,0 "T5 O2 I1 B0 MPlate"
+mill 0,0 40,0
+end 40,0
+probe 20,10 "LA"
+== 8901.1P.dxf ==
+layer 8901.1P
+start 0,0 "T5 O2 MPlate"
+subpath 0,0 40,0 ">1234.1P"
+sweep 40,0 100,0
+subpath 100,0 140,0 ">1234.1P"
+end 140,0
+"#;
+    let place = Place::of(drawings);
+    succeed(&place.run("emit 8901.1P"));
+    let values = "([20.000 10.000]/L:A/T=5.000 @ [20.000|10.000]) #51=\n([20.000 10.000]/L:A/T=5.000 @ [120.000|10.000]) #52=\n";
+    assert_eq!(place.read("8901.1P_Z.txt"), values);
+    let probing = place.read("8901.1P_Probing.gcode");
+    assert!(probing.contains("(Probe #52 [20.000 10.000]/L:A/T=5.000 @ [120.000|10.000])"), "{probing}");
+    assert_eq!((probing.matches("\nG38.2 Z0").count(), probing.matches("G38.3").count()), (2, 0));
+
+    let place = Place::of(drawings);
+    succeed(&place.run("emit 8901.1P --compatible"));
+    let values = "([20.000 10.000]/L:A/T=5.000) #51=\n([20.000 10.000]/L:A/T=5.000) #52=\n";
+    assert_eq!(place.read("8901.1P_Z.txt"), values);
+    let probing = place.read("8901.1P_Probing.gcode");
+    assert_eq!((probing.matches("\nG38.3 Z0").count(), probing.matches(" @ ").count()), (2, 0));
 }
 
 #[test]

@@ -147,10 +147,10 @@ pub fn shown(path: &Path) -> String {
     if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
 }
 
-/// The program, in an environment that says nothing.
+/// The program, in an environment that says nothing but that no language is chosen: Windows would name its user's.
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pathbuild"));
-    command.env_clear().stdin(Stdio::null());
+    command.env_clear().env("LC_ALL", "C").stdin(Stdio::null());
     command
 }
 

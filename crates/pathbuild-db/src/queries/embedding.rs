@@ -56,7 +56,12 @@ pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
     let Some(outer) = summary(db, instance).known_signature() else { return Vec::new() };
     let settings = Settings::get(db);
-    let judge = Judge::new(outer, settings.restrictions(db), &settings.language(db).path_pattern);
+    let judge = Judge::new(
+        outer,
+        settings.restrictions(db),
+        &settings.language(db).path_pattern,
+        settings.fold(db).compatible,
+    );
     let embedder = Embedder { db, file: instance.file(db), judge };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
 }

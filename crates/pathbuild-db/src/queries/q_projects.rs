@@ -13,7 +13,7 @@ use crate::settings::Settings;
 
 /// The Q-project of a drawing.
 #[salsa::tracked]
-pub fn q_project(db: &dyn Db, drawing: SourceFile) -> QProject {
+pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
     plan_q_project(&component(db, drawing))
 }
 

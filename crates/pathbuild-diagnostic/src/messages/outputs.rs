@@ -177,6 +177,13 @@ messages! {
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
+    /// The paths of a drawing need several cutters, and no second name can be made of the first.
+    NO_NAME_FOR_CUTTER: CannotWrite {
+        en: "the drawing's paths have several O, and a Q-project has a path for each: no name follows {name}",
+        de: "die Pfade der Zeichnung haben mehrere O, und ein Q-Projekt hat für jedes einen Pfad: auf {name} folgt kein Name",
+        help_en: "give a name whose last number can grow with --path-name",
+        help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl wachsen kann",
+    }
     /// The other moves are those of the table "Compatible".
     SAME_IF_COMPATIBLE: MovesDiffer {
         en: "with --compatible the moves are the same: the program is as PathDxf2GCode writes it",

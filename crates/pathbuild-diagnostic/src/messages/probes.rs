@@ -200,6 +200,20 @@ messages! {
         help_en: "run emit again, then adjust with the same options (--feed, --sweep-height)",
         help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--feed, --sweep-height)",
     }
+    /// The program was written with `--compatible`.
+    COMPATIBLE_PROGRAM: OldProgram {
+        en: "{name} was written with --compatible: without it its drawing gives another program",
+        de: "{name} wurde mit --compatible geschrieben: ohne diese Option ergibt die Zeichnung ein anderes Programm",
+        help_en: "adjust it with --compatible, or run emit again without it",
+        help_de: "adjust mit --compatible aufrufen oder emit noch einmal ohne diese Option",
+    }
+    /// The program was written without `--compatible`.
+    NOT_COMPATIBLE_PROGRAM: OldProgram {
+        en: "{name} was written without --compatible: with it its drawing gives another program",
+        de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
+        help_en: "adjust it without --compatible (`compat` gives that option), or run emit again with it",
+        help_de: "adjust ohne --compatible aufrufen (`compat` setzt diese Option) oder emit noch einmal mit ihr",
+    }
 }
 
 /// For [`ODD`].

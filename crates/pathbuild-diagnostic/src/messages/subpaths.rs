@@ -22,6 +22,13 @@ messages! {
         help_en: "separate parameters from the name by a space",
         help_de: "Parameter durch ein Leerzeichen vom Namen trennen",
     }
+    /// A name that goes on where the pattern of names ends.
+    NAME_GOES_ON: InvalidPathName {
+        en: "\"{value}\" is not a path name: only its part {name} is one",
+        de: "\"{value}\" ist kein Pfadname: nur der Teil {name} ist einer",
+        help_en: "write the name of the path, and a space before what follows",
+        help_de: "den Namen des Pfads schreiben und vor dem, was folgt, ein Leerzeichen",
+    }
     /// Nowhere.
     NOT_FOUND: PathNotFound {
         en: "path {name} is not found",
@@ -59,6 +66,13 @@ messages! {
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
         help_en: "one cutter mills both paths: give both the same O, or embed a component that is drawn for this cutter",
         help_de: "ein Fräser fräst beide Pfade: beiden dasselbe O geben oder ein Bauteil einbetten, das für diesen Fräser gezeichnet ist",
+    }
+    /// The embedding path has another cutter, whatever its segment says.
+    CUTTER_OF_PROJECT: SubpathParameterDiffers {
+        en: "path {name} is drawn for a cutter of {there} mm, but path {outer} has O{here}",
+        de: "Pfad {name} ist für einen Fräser von {there} mm gezeichnet, Pfad {outer} aber hat O{here}",
+        help_en: "a program has one cutter: embed the path in a project with its O, and write both programs into one with --join",
+        help_de: "ein Programm hat einen Fräser: den Pfad in einem Projekt mit seinem O einbetten und beide Programme mit --join zusammen schreiben",
     }
     /// A subpath segment and its path are for material of different thickness.
     THICKNESS_DIFFERS: SubpathParameterDiffers {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_path::Xy;
 use pathbuild_path::approx::above;
 use pathbuild_toolpath::odd_probes;
 
@@ -74,8 +75,11 @@ impl Check<'_, '_> {
         let is_other = |(a, b): (f64, f64)| (a - b).abs() > DIFFERENT;
         let height = line.height.unwrap_or(made.height);
         let pairs = [(line.place[0], made.place[0]), (line.place[1], made.place[1]), (height, made.height)];
-        if pairs.into_iter().any(is_other) {
-            let (here, there) = (described(line.place, height), described(made.place, made.height));
+        let is_moved =
+            line.at.zip(made.at).is_some_and(|(a, b)| is_other((a.x, b.x)) || is_other((a.y, b.y)));
+        if is_moved || pairs.into_iter().any(is_other) {
+            let there = described(made.place, made.height, made.at.filter(|_| line.at.is_some()));
+            let here = described(line.place, height, line.at);
             return Err(Box::new(fault(&messages::OTHER_PROBE).with("here", here).with("there", there)));
         }
         Ok(())
@@ -147,6 +151,7 @@ fn as_stated(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-fn described(place: ProbePoint, height: f64) -> String {
-    format!("[{} {}] T={}", f3(place[0]), f3(place[1]), f3(height))
+fn described(place: ProbePoint, height: f64, at: Option<Xy>) -> String {
+    let at = at.map(|at| format!(" @ [{}|{}]", f3(at.x), f3(at.y))).unwrap_or_default();
+    format!("[{} {}] T={}{at}", f3(place[0]), f3(place[1]), f3(height))
 }

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Message};
-use pathbuild_path::parse_number;
+use pathbuild_path::{Xy, parse_number};
 use regex::bytes::{Captures, Regex};
 
 use super::Source;
@@ -20,6 +20,8 @@ pub(super) struct ProbeLine<'a> {
     /// The number behind #.
     pub(super) probe: u32,
     pub(super) place: ProbePoint,
+    /// Where it is in the emitted drawing; programs of the original tool and older ones of pathbuild do not say it.
+    pub(super) at: Option<Xy>,
     /// th; the older form does not say it.
     pub(super) height: Option<f64>,
     pub(super) value: Entered,
@@ -39,8 +41,9 @@ pub(super) enum Entered {
 /// ASCII may stand among bytes of any code page.
 static LINE: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"\s*(-?[0-9]+(?:[.,][0-9]+)?)\s*";
-    let place = format!(r"\(\s*\[{number}\s{number}\](?:/L:.*)?/T={number}\)");
-    let older = format!(r"@\s*\[{number}\|{number}\]");
+    let at = format!(r"@\s*\[{number}\|{number}\]");
+    let place = format!(r"\(\s*\[{number}\s{number}\](?:/L:.*)?/T={number}(?:{at}\s*)?\)");
+    let older = &at;
     Regex::new(&format!(r"(?-u)^\s*(?:{place}|{older})\s*#([0-9]+)\s*=(.*)$")).expect("a constant pattern")
 });
 
@@ -77,8 +80,8 @@ impl ProbeLine<'_> {
 
 fn probe_line<'a>(line: Line<'a>, parts: &Captures<'_>) -> Option<ProbeLine<'a>> {
     let number = |index: usize| parts.get(index).and_then(|part| parse(part.as_bytes()));
-    let (x, y) = number(1).zip(number(2)).or_else(|| number(4).zip(number(5)))?;
-    let behind = parts.get(7)?;
+    let (x, y) = number(1).zip(number(2)).or_else(|| number(6).zip(number(7)))?;
+    let behind = parts.get(9)?;
     let start = behind.end() - behind.as_bytes().trim_ascii_start().len();
     let entered = behind.as_bytes().trim_ascii();
     let value = match parse(entered) {
@@ -88,8 +91,9 @@ fn probe_line<'a>(line: Line<'a>, parts: &Captures<'_>) -> Option<ProbeLine<'a>>
     };
     Some(ProbeLine {
         line,
-        probe: str::from_utf8(&parts[6]).ok()?.parse().ok()?,
+        probe: str::from_utf8(&parts[8]).ok()?.parse().ok()?,
         place: [x, y],
+        at: number(4).zip(number(5)).map(|(x, y)| Xy::new(x, y)),
         height: number(3),
         value,
         value_at: (line, start..start + entered.len()),

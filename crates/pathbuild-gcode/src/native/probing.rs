@@ -23,13 +23,14 @@ pub fn probing_program(program: &Program, header: &Header, options: &WriteOption
     _ = writeln!(text, "G00 Z{clearance}\nG00 X0.000 Y0.000");
     let mut at = Xy::origin();
     for (index, probe) in program.probes.iter().enumerate() {
-        _ = writeln!(text, "{}", remarks.comment(&format!("Probe {}", label(index, probe))));
+        let name = name_and_place(probe, program);
+        _ = writeln!(text, "{}", remarks.comment(&format!("Probe #{} {name}", FIRST_PARAMETER + index)));
         if !pathbuild_path::approx::is_nothing((probe.at - at).norm()) {
             _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
         }
         at = probe.at;
         _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
-        _ = writeln!(text, "G38.3 Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed));
+        _ = writeln!(text, "{} Z0 F{}\n{DWELL}\nG00 Z{clearance}", code(program), f3(probe.feed));
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
@@ -40,7 +41,8 @@ pub fn values_file(program: &Program, options: &WriteOptions) -> String {
     let remarks = options.remarks(program);
     let mut text = String::new();
     for (index, probe) in program.probes.iter().enumerate() {
-        _ = writeln!(text, "{} #{}=", remarks.comment(&probe_name(probe)), FIRST_PARAMETER + index);
+        let name = name_and_place(probe, program);
+        _ = writeln!(text, "{} #{}=", remarks.comment(&name), FIRST_PARAMETER + index);
     }
     text
 }
@@ -52,6 +54,16 @@ pub fn probe_name(probe: &ProbePoint) -> String {
     format!("[{x} {y}]{label}/T={}", f3(probe.height))
 }
 
-fn label(index: usize, probe: &ProbePoint) -> String {
-    format!("#{} {}", FIRST_PARAMETER + index, probe_name(probe))
+/// The name, and where the probe is in the emitted drawing: a path that is embedded twice has each of its probes twice.
+fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
+    let name = probe_name(probe);
+    if program.compatible {
+        return name;
+    }
+    format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
+}
+
+/// G38.2 is an alarm where the tool meets nothing; after G38.3, which the original tool writes, the machine goes on.
+fn code(program: &Program) -> &'static str {
+    if program.compatible { "G38.3" } else { "G38.2" }
 }

@@ -19,6 +19,8 @@ pub struct Judge<'a> {
     outer: &'a PathSignature,
     pattern: &'a PathPattern,
     rule: Rule<'a>,
+    /// Whether embeddings that `PathDxf2GCode` accepts against its manual are warnings instead of errors.
+    is_compatible: bool,
 }
 
 /// What names of embedded paths must match.
@@ -37,14 +39,19 @@ const CHORD_TOLERANCE: f64 = 0.001;
 
 impl<'a> Judge<'a> {
     /// Judges what a path embeds, by its E, else by these restrictions.
-    pub fn new(outer: &'a PathSignature, restrictions: &'a [Restriction], pattern: &'a PathPattern) -> Self {
+    pub fn new(
+        outer: &'a PathSignature,
+        restrictions: &'a [Restriction],
+        pattern: &'a PathPattern,
+        is_compatible: bool,
+    ) -> Self {
         let restriction = || restrictions.iter().find(|rule| rule.concerns(&outer.name));
         let rule = match &outer.embeds_only {
             Some(own) => Rule::Own(own, Regex::new(own).ok()),
             None if outer.unknown.contains(Letter::E) => Rule::Any,
             None => restriction().map_or(Rule::Any, |rule| Rule::Restriction(rule.child())),
         };
-        Self { outer, pattern, rule }
+        Self { outer, pattern, rule, is_compatible }
     }
 
     /// PB502 as a warning where there is more than a name behind `>`.
@@ -52,10 +59,16 @@ impl<'a> Judge<'a> {
         let SubpathName::Found { name, has_more: Some(value) } = &call.subpath.name else {
             return Vec::new();
         };
+        if self.is_other_name(name, value) {
+            return Vec::new();
+        }
         let warning = Diagnostic::new(&messages::MORE_THAN_NAME).with("value", &**value);
-        let mut warning = self.at_name(call, warning.with("name", name.as_str()));
-        warning.severity = Severity::Warning;
-        vec![warning]
+        vec![as_warning(self.at_name(call, warning.with("name", name.as_str())))]
+    }
+
+    /// Whether the name goes on before or behind the part that is one: then another path is meant.
+    fn is_other_name(&self, name: &PathName, value: &str) -> bool {
+        !self.is_compatible && name.is_part_of_word(value)
     }
 
     /// The path that a segment names.
@@ -70,6 +83,10 @@ impl<'a> Judge<'a> {
             SubpathName::Invalid { value } => {
                 let problem = Diagnostic::new(&messages::INVALID_NAME).with("value", &**value);
                 self.at_name(call, problem.with("pattern", self.pattern.as_str()))
+            }
+            SubpathName::Found { name, has_more: Some(value) } if self.is_other_name(name, value) => {
+                let problem = Diagnostic::new(&messages::NAME_GOES_ON).with("value", &**value);
+                self.at_name(call, problem.with("name", name.as_str()))
             }
             SubpathName::Found { name, .. } => match self.broken_rule(name) {
                 None => return Ok(name),
@@ -180,6 +197,11 @@ impl<'a> Judge<'a> {
                 problems.push(self.differs(call, letter, &here.into(), &there.into(), inner));
             }
         }
+        let differs_here = !subpath.hides(Letter::O) && !near(subpath.tool, inner.tool);
+        let is_known = !self.outer.unknown.and(inner.unknown).contains(Letter::O);
+        if is_known && !differs_here && !near(self.outer.tool, inner.tool) {
+            problems.push(self.other_cutter(call, inner));
+        }
         let is_known = !self.outer.unknown.and(subpath.unknown).contains(Letter::T);
         if is_known && !at_least(self.outer.thickness, subpath.thickness) {
             let problem = Diagnostic::new(&messages::T_BELOW)
@@ -196,6 +218,17 @@ impl<'a> Judge<'a> {
             problems.push(self.at(call, problem, None));
         }
         problems
+    }
+
+    /// A program has one cutter, that of the emitted path, whatever a segment says.
+    fn other_cutter(&self, call: &SubpathCall, inner: &PathSignature) -> Diagnostic {
+        let problem = Diagnostic::new(&messages::CUTTER_OF_PROJECT)
+            .with("outer", self.outer.name.as_str())
+            .with("here", self.outer.tool)
+            .with("name", inner.name.as_str())
+            .with("there", inner.tool);
+        let problem = self.at(call, problem, call.fault(Letter::O));
+        if self.is_compatible { as_warning(problem) } else { problem }
     }
 
     fn material(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
@@ -248,4 +281,9 @@ impl<'a> Judge<'a> {
     fn at_name(&self, call: &SubpathCall, diagnostic: Diagnostic) -> Diagnostic {
         self.at(call, diagnostic, call.fault(Letter::Embed))
     }
+}
+
+fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
+    diagnostic.severity = Severity::Warning;
+    diagnostic
 }

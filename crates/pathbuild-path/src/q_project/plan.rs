@@ -1,13 +1,14 @@
 //! What a Q-project is to embed.
 
 use super::{Component, values};
+use crate::approx::near;
 use crate::letter::Letter;
 use crate::path::Path;
 use crate::raw::RawPath;
 use crate::read::ProxyLine;
 
-/// A Q-project that is to be drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A path of a Q-project that is to be drawn: all that is milled with one cutter.
+#[derive(Clone, Debug, PartialEq)]
 pub struct QProject {
     /// T, O and M of its path: the greatest T of what it embeds.
     pub parameters: String,
@@ -24,11 +25,23 @@ pub struct QProjectLine {
     pub text: String,
 }
 
-/// The Q-project of a component: each path as its first proxy line says, else with its own values. Paths with errors are left out.
-pub fn plan_q_project(component: &Component<'_>) -> QProject {
-    let planned: Vec<(Path, QProjectLine)> =
-        component.paths.iter().filter_map(|raw| line(component, raw)).collect();
-    let Some((first, _)) = planned.first() else { return QProject::default() };
+/// The Q-project of a component: a path for each O, in the order in which they first appear, each embedded path as its first proxy line
+/// says, else with its own values. Paths with errors are left out.
+pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
+    let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
+    for planned in component.paths.iter().filter_map(|raw| line(component, raw)) {
+        let is_same = |group: &&mut Vec<(Path, QProjectLine)>| near(group[0].0.tool, planned.0.tool);
+        match by_cutter.iter_mut().find(is_same) {
+            Some(group) => group.push(planned),
+            None => by_cutter.push(vec![planned]),
+        }
+    }
+    by_cutter.into_iter().map(of_cutter).collect()
+}
+
+/// The path that embeds these, which have the same O.
+fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
+    let first = &planned[0].0;
     let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
     let material = first.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
     let parameters = format!("T{thickness} O{}{material}", first.tool);

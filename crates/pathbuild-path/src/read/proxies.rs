@@ -39,7 +39,7 @@ impl ProxyLine {
     /// The path that it stands for; `None` when there is no path name after `>`.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
-        language.path_pattern.find(value).map(|(name, _)| name)
+        language.path_pattern.find(value).map(|(name, _)| name).filter(|name| !name.is_part_of_word(value))
     }
 
     /// What it says of a letter. A value that refers to variables of whoever copies it says nothing.

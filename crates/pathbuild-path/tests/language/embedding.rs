@@ -1,5 +1,7 @@
 //! Whether a path may stand where a subpath segment names it. (book: language/embedding)
 
+use std::sync::LazyLock;
+
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{
     Judge, PathHeader, PathName, PathPattern, PathSignature, Restriction, SubpathCall, near_names,
@@ -31,7 +33,7 @@ fn judged<R>(
     restrictions: &[Restriction],
     judge: impl FnOnce(Judge<'_>, &SubpathCall) -> R,
 ) -> R {
-    judge(Judge::new(outer, restrictions, &PathPattern::default()), &outer.subpaths[0])
+    judge(Judge::new(outer, restrictions, &COMMON, false), &outer.subpaths[0])
 }
 
 /// What does not fit, with the letters.
@@ -51,6 +53,8 @@ fn restriction(parent: &str, child: &str) -> Restriction {
 }
 
 const RIGHT: [&str; 0] = [];
+
+static COMMON: LazyLock<PathPattern> = LazyLock::new(PathPattern::default);
 
 #[test]
 fn the_segment_is_as_long_as_the_path() {
@@ -73,6 +77,29 @@ fn t_and_o_are_those_of_the_path() {
     assert_eq!(with(""), ["PB506 T"]);
     assert_eq!(with("T5 O3.000003"), RIGHT);
     assert_eq!(with("T5 O3.00001"), ["PB506 O"]);
+}
+
+/// A program has one cutter, whatever a segment's text says.
+#[test]
+fn o_is_that_of_the_embedding_path() {
+    let with = |outer: &str, segment: &str, inner: &str, is_compatible| {
+        let outer = project(&format!("T5 O{outer} I1 B0 Mx"), &format!(">1111.1P {segment}"));
+        let inner = component(&format!("T5 O{inner} I1 B0 Mx"));
+        let judge = Judge::new(&outer, &[], &COMMON, is_compatible);
+        let found = judge.misfits(&outer.subpaths[0], &inner);
+        found.into_iter().map(|problem| (problem.code().to_string(), problem.is_error())).collect::<Vec<_>>()
+    };
+    let error = [("PB506".to_owned(), true)];
+    let warning = [("PB506".to_owned(), false)];
+    assert_eq!(with("3", "O2", "2", false), error);
+    assert_eq!(with("3", "O3.00001", "3.00001", false), error);
+    assert_eq!(with("3", "O3.000003", "3.000003", false), []);
+    assert_eq!(with("3", "", "3", false), []);
+    assert_eq!(with("3", "O2", "2", true), warning);
+    // The segment does not even say what the path says: an error as before, and only one.
+    assert_eq!(with("3", "O2", "3", false), error);
+    assert_eq!(with("3", "O2", "3", true), error);
+    assert_eq!(with("3", "O2", "1", false), error);
 }
 
 /// What is embedded lies in the material of the path that embeds it.
@@ -135,9 +162,29 @@ fn a_segment_names_a_path_and_no_more() {
         codes(&found)
     };
     assert_eq!(named(">1111.1P"), RIGHT);
-    assert_eq!(named(">1111.1Px"), ["PB502"]);
+    assert_eq!(named(">1111.1P,"), ["PB502"]);
     assert_eq!(named(">x"), ["PB502"]);
     assert_eq!(named("Mx"), ["PB501"]);
+}
+
+/// Letters and digits directly at a name belong to it; the original tool leaves them out.
+#[test]
+fn a_name_that_goes_on_is_another() {
+    let named = |segment: &str, is_compatible| {
+        let outer = project("T5 O3 I1 B0 Mx", segment);
+        let (judge, call) = (Judge::new(&outer, &[], &COMMON, is_compatible), &outer.subpaths[0]);
+        let error = judge.name(call).err().map(|problem| problem.code().to_string());
+        (error, codes(&judge.warnings(call)))
+    };
+    let (error, warning) = (Some("PB502".to_owned()), vec!["PB502".to_owned()]);
+    for name in [">1111.1PA", ">1111.1P2", ">1111.1Pä", ">91111.1P", ">A1111.1P"] {
+        assert_eq!(named(name, false), (error.clone(), vec![]), "{name}");
+        assert_eq!(named(name, true), (None, warning.clone()), "{name}");
+    }
+    for name in [">1111.1P,", ">1111.1P(A)", ">'1111.1P'"] {
+        assert_eq!(named(name, false), (None, warning.clone()), "{name}");
+    }
+    assert_eq!(named(">1111.1P Mx", false), (None, vec![]));
 }
 
 #[test]

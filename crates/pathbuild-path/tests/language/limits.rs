@@ -138,18 +138,20 @@ fn letters_without_effect_are_checked_too() {
     assert_eq!(on("mill 0,0 40,0 \"S5\"", "T5 O3 I1 B0"), ["PB203 S"]);
 }
 
-/// A letter that the table does not list for an element is compared all the same, with the value that the path gives.
+/// The T of a probe or a subpath is the material there: it must be below the path's S, and may be below depths that the element does not have.
 #[test]
-fn an_elements_own_t_is_compared_with_the_paths_values() {
+fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     let probe =
         |text: &str, parameters: &str| on(&format!("mill 0,0 40,0\nprobe 20,40 \"{text}\""), parameters);
     assert_eq!(probe("T9.9", "T5 O3 I1 B0 S10"), [""; 0]);
     assert_eq!(probe("T10", "T5 O3 I1 B0 S10"), ["PB203 S"]);
     let subpath =
         |text: &str, parameters: &str| on(&format!("subpath 0,0 40,0 \">1111.1P {text}\""), parameters);
-    assert_eq!(subpath("T1.1", "T5 O3 I1 B1"), [""; 0]);
-    assert_eq!(subpath("T1", "T5 O3 I1 B1"), ["PB203 B"]);
-    assert_eq!(subpath("T2", "T5 O3 I1 B0 D2"), ["PB203 D"]);
+    for parameters in ["T5 O3 I1 B1", "T5 O3 I1 B0 D2", "T5 O3 I1 B1 D4"] {
+        assert_eq!(probe("T0.5", parameters), [""; 0], "{parameters}");
+        assert_eq!(subpath("T0.5", parameters), [""; 0], "{parameters}");
+    }
+    assert_eq!(subpath("T9.9", "T5 O3 I1 B1 S10"), [""; 0]);
     assert_eq!(subpath("T10", "T5 O3 I1 B1 S10"), ["PB203 S"]);
 }
 

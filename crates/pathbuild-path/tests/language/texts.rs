@@ -51,7 +51,21 @@ fn a_tilde_at_a_lines_end_continues_the_value() {
     assert_eq!(pieces("Qone~\ntwo~\nthree"), ["Q=onetwothree"]);
     // Elsewhere a tilde is itself.
     assert_eq!(pieces(":a1~2 Qx~"), [":=a1~2", "Q=x~"]);
-    assert_eq!(pieces("Qlong~ \nB1"), ["Q=long~", "B=1"]);
+    assert_eq!(pieces("Qlong~ B1"), ["Q=long~", "B=1"]);
+}
+
+/// Blanks behind a tilde cannot be seen in a CAD.
+#[test]
+fn a_tilde_and_blanks_at_a_lines_end_continue_the_value() {
+    for blanks in [" ", "  ", "\t", " \t ", "\u{a0}", "\u{2003}"] {
+        assert_eq!(pieces(&format!(":a1,~{blanks}\n 2 B1")), [":=a1,2", "B=1"], "{blanks:?}");
+        assert_eq!(pieces(&format!(":a1,~{blanks}\r\n2")), [":=a1,2"], "{blanks:?}");
+    }
+    assert_eq!(pieces(":a1,~  2"), [":=a1,~", "?="]);
+    assert_eq!(pieces(":a1,~  "), [":=a1,~"]);
+    assert_eq!(pieces("Qa~ ~\nb"), ["Q=a~", "?="]);
+    // What the next line begins with belongs to the value.
+    assert_eq!(pieces("Qa~ \n\u{a0}b"), ["Q=a\u{a0}b"]);
 }
 
 #[test]

@@ -19,7 +19,8 @@ const VARIABLE: usize = 7;
 /// A project that embeds ten paths.
 pub(super) fn drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index);
-    let children: Vec<PathPlan> = (0..EMBEDDINGS).map(|_| any_path(plan, &mut random)).collect();
+    let cutter = any_path(plan, &mut random).signature.cutter;
+    let children: Vec<PathPlan> = (0..EMBEDDINGS).map(|_| path_for(plan, cutter, &mut random)).collect();
     let segment = |child: &PathPlan| (embedding_text(child, &comma(0.1)), child.signature);
     let segments: Vec<(String, Signature)> = children.iter().map(segment).collect();
     project(&project_name(index, 1), &segments, "", &mut random)
@@ -28,6 +29,16 @@ pub(super) fn drawing(plan: &Plan, index: usize) -> (String, Sheet) {
 fn any_path(plan: &Plan, random: &mut Random) -> PathPlan {
     let mut paths = plan.paths(random.below(plan.components()));
     paths.swap_remove(random.below(paths.len()))
+}
+
+/// A path that is drawn for this cutter: a random one, else the next of the components behind it.
+fn path_for(plan: &Plan, cutter: f64, random: &mut Random) -> PathPlan {
+    let first = random.below(plan.components());
+    let paths = (0..plan.components()).map(|offset| plan.paths((first + offset) % plan.components()));
+    let suits = |path: &PathPlan| path.signature.cutter == cutter;
+    let mut suitable = paths.map(|paths| paths.into_iter().filter(suits).collect::<Vec<_>>());
+    let mut suitable = suitable.find(|paths| !paths.is_empty()).unwrap_or_default();
+    suitable.swap_remove(random.below(suitable.len()))
 }
 
 /// A fixture project: its three path names are variables.
@@ -59,7 +70,9 @@ struct Choice {
 }
 
 fn choices(plan: &Plan, random: &mut Random) -> Vec<Choice> {
-    ['X', 'Y', 'Z'].into_iter().map(|variable| Choice { variable, paths: neighbours(plan, random) }).collect()
+    let cutter = neighbours(plan, None, random)[0].signature.cutter;
+    let choice = |variable| Choice { variable, paths: neighbours(plan, Some(cutter), random) };
+    ['X', 'Y', 'Z'].into_iter().map(choice).collect()
 }
 
 fn segments(choices: &[Choice]) -> Vec<(String, Signature)> {
@@ -71,8 +84,8 @@ fn segments(choices: &[Choice]) -> Vec<(String, Signature)> {
     choices.iter().map(segment).collect()
 }
 
-/// Two paths that can stand for each other.
-fn neighbours(plan: &Plan, random: &mut Random) -> [PathPlan; 2] {
+/// Two paths that can stand for each other, of this cutter where one is given.
+fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPlan; 2] {
     let pairs = plan.components() / 2;
     let begin = random.below(pairs);
     let first = |index: usize| plan.paths(index).swap_remove(0);
@@ -80,8 +93,9 @@ fn neighbours(plan: &Plan, random: &mut Random) -> [PathPlan; 2] {
         let even = (begin + offset) % pairs * 2;
         [first(even), first(even + 1)]
     };
-    let is_plain = |pair: &[PathPlan; 2]| pair.iter().all(|path| path.variable.is_none());
-    (0..pairs).map(pair).find(is_plain).unwrap_or_else(|| pair(0))
+    let suits = |path: &PathPlan| cutter.is_none_or(|cutter| path.signature.cutter == cutter);
+    let is_plain = |path: &PathPlan| path.variable.is_none() && suits(path);
+    (0..pairs).map(pair).find(|pair| pair.iter().all(is_plain)).unwrap_or_else(|| pair(0))
 }
 
 /// What embeds this project must agree with.
@@ -89,7 +103,8 @@ fn signature(segments: &[(String, Signature)]) -> Signature {
     let thickness = segments.iter().map(|(_, signature)| signature.thickness).fold(0.0, f64::max);
     let rows = segments.len().div_ceil(5);
     let chord = Point::new(0.0, GRID * rows as f64 + 20.0);
-    Signature { thickness, cutter: 3.0, material: "MProjekt", chord }
+    let cutter = segments.first().map_or(3.0, |(_, signature)| signature.cutter);
+    Signature { thickness, cutter, material: "MProjekt", chord }
 }
 
 fn project(

@@ -78,6 +78,9 @@ impl<'m> Visit<'m> {
         let name = match &subpath.name {
             SubpathName::Missing { .. } => return self.stop(at("PB501", &[])),
             SubpathName::Invalid { value } => return self.stop(at("PB502", &[value])),
+            SubpathName::Found { name, has_more: Some(value) } if is_glued(value, name.as_str()) => {
+                return self.stop(at("PB502", &[value]));
+            }
             SubpathName::Found { name, has_more } => {
                 // A warning.
                 self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
@@ -163,6 +166,13 @@ impl Model {
     }
 }
 
+/// Whether a letter or digit touches the name in what stands behind `>`.
+fn is_glued(value: &str, name: &str) -> bool {
+    let at = value.find(name).unwrap_or_default();
+    let (before, behind) = (value[..at].chars().last(), value[at + name.len()..].chars().next());
+    [before, behind].into_iter().flatten().any(char::is_alphanumeric)
+}
+
 /// Whether a variable may have a value.
 pub(super) fn allows(definition: &Definition, value: &str) -> bool {
     match &definition.values {
@@ -183,6 +193,9 @@ fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, S
         let is_known = Letter::new(letter.chars().next().unwrap_or_default())
             .is_some_and(|letter| !subpath.hides(letter));
         found.extend((is_known && differs(here, there)).then(|| ("PB506", letter.to_owned())));
+    }
+    if !differs(subpath.tool, inner.tool) && differs(path.tool, inner.tool) {
+        found.push(("PB506", "O".to_owned()));
     }
     match (&subpath.material, &inner.material) {
         (Some(here), Some(there)) => found.extend((here != there).then(|| ("PB506", "M".to_owned()))),

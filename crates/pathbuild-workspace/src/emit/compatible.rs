@@ -1,13 +1,10 @@
 //! Whether programs that move otherwise do so because they are as `PathDxf2GCode` writes them. (book: program/compatible)
 
-use std::rc::Rc;
-
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Note;
 use pathbuild_diagnostic::messages::outputs;
 
 use super::{Delivered, Request, State, Task};
-use crate::reporter::Silent;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
@@ -29,17 +26,7 @@ pub(super) fn name(workspace: &Workspace, request: &Request<'_>, delivered: &mut
 
 /// The files that are current with `--compatible`.
 fn current_if_compatible(workspace: &Workspace, request: &Request<'_>) -> Vec<Utf8PathBuf> {
-    let mut settings = workspace.settings.clone();
-    settings.general.compatible.value = true;
-    let workspace = Workspace {
-        settings,
-        system: workspace.system.clone(),
-        own_lang: workspace.own_lang,
-        working_directory: workspace.working_directory.clone(),
-        jobs: workspace.jobs,
-        cache: None,
-        reporter: Rc::new(Silent),
-    };
+    let workspace = workspace.in_mode(true);
     let request = Request { deps: None, removes_stale: false, ..*request };
     let emission = request.run(&mut Session::new(&workspace));
     let delivered = emission.map(|emission| emission.delivered).unwrap_or_default();

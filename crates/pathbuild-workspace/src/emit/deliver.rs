@@ -24,7 +24,7 @@ use crate::config::Settings;
 use crate::config::types::SheetFormat;
 use crate::machine::machine;
 use crate::posting::{Inserted, PostProcessor, tool_table};
-use crate::session::{OutputKind, Writing, hash_output, without_values};
+use crate::session::{OutputKind, Writing, hash_output, without_places, without_values};
 use crate::workspace::Workspace;
 
 /// What is done with the files.
@@ -444,14 +444,20 @@ fn write<'a>(
 /// Whether there are values that somebody measured, for other probes than now.
 fn would_lose_values(system: &dyn System, output: &Output) -> bool {
     let Some(present) = present(system, &output.path) else { return false };
-    let probes = without_values(present.as_bytes());
-    probes != without_values(&output.text) && probes != present.trim_end()
+    let has_values = without_values(present.as_bytes()) != present.trim_end();
+    has_values && !is_for_probes(&present, &output.text)
 }
 
 /// Whether a file of values is there and is for these probes.
 pub(super) fn has_same_probes(system: &dyn System, output: &Output) -> bool {
-    let is_same = |present: String| without_values(present.as_bytes()) == without_values(&output.text);
-    present(system, &output.path).is_some_and(is_same)
+    present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
+}
+
+/// Whether a file of values is for the probes of another. One that does not say where they are in the emitted drawing was written by an
+/// older version or by the original tool.
+fn is_for_probes(present: &str, written: &[u8]) -> bool {
+    let (present, written) = (without_values(present.as_bytes()), without_values(written));
+    present == written || present == without_places(&written)
 }
 
 fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {

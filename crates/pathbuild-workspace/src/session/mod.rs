@@ -40,7 +40,7 @@ pub(crate) use elsewhere::relative;
 pub use found::{Argument, Found};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use library::{by_name, by_place};
-pub use outputs::{OutputKind, Writing, stem_fault, without_values};
+pub use outputs::{OutputKind, Writing, stem_fault, without_places, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{NamesOf, Wanted, WantedPath};
 pub use result_store::{

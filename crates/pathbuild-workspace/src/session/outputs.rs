@@ -146,3 +146,15 @@ pub fn without_values(bytes: &[u8]) -> String {
     let line = |line: &str| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>();
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
+
+/// The lines of a file of values without the places in the emitted drawing.
+pub fn without_places(values: &str) -> String {
+    let line = |line: &str| match line.rsplit_once(PLACE) {
+        Some((before, place)) => format!("{before}{}", place.split_once(']').unwrap_or_default().1),
+        None => line.to_owned(),
+    };
+    values.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// What stands between the name of a probe and its place in the emitted drawing.
+const PLACE: &str = " @ [";

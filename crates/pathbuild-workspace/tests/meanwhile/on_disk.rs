@@ -153,6 +153,7 @@ impl OnDisk {
             settings,
             system,
             own_lang: None,
+            system_lang: None,
             working_directory: Utf8PathBuf::new(),
             jobs: None,
             cache: is_kept.then_some(CacheHome::Named(caches)),

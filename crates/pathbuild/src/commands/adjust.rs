@@ -203,7 +203,12 @@ impl<'a> Adjustment<'a> {
             context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
         let mut session = Session::new(context);
-        match current(&mut session, clean, beside, job.drawing.as_deref()) {
+        let found = current(&mut session, clean, beside, job.drawing.as_deref());
+        let is_other = matches!(found, Current::Other { .. } | Current::Edited { .. } | Current::Wrong(_));
+        if is_other && let Some(problem) = self.other_mode(job, clean) {
+            return Err(vec![problem]);
+        }
+        match found {
             Current::Same => return Ok(true),
             Current::Unknown => {}
             Current::Wrong(problems) => return Err(problems),
@@ -233,6 +238,19 @@ impl<'a> Adjustment<'a> {
             }
         }
         Ok(false)
+    }
+
+    /// PB608 where the program is current with `--compatible`, or without it, and only that is the reason.
+    fn other_mode(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
+        let is_compatible = self.context.settings.general.compatible.value;
+        let workspace = self.context.in_mode(!is_compatible);
+        let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
+        let found = current(&mut Session::new(&workspace), clean, beside, job.drawing.as_deref());
+        let message =
+            if is_compatible { &probes::NOT_COMPATIBLE_PROGRAM } else { &probes::COMPATIBLE_PROGRAM };
+        let name = job.clean.file_name().unwrap_or_default();
+        let problem = || Diagnostic::new(message).with("name", name).in_file(&job.clean);
+        matches!(found, Current::Same).then(problem)
     }
 
     /// The program, the values and the log; all that cannot be read is told.

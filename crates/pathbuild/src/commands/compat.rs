@@ -7,7 +7,7 @@
 //! | `/c` | `check` in place of `emit` |
 //! | `/x REGEX` | `texts --match REGEX`, then the programs; with `/m` `adjust --show REGEX` |
 //! | `/m`, or a file `..._Clean.gcode` or `..._Z.txt` | `adjust --max-correction` |
-//! | `/h` `/?` | this table |
+//! | `/h` `/?` | this table, in the language of `/l` |
 //!
 //! Programs are those of the original tool: `--compatible`. A value may be glued to its option, also with `=` or `:` between (but for regular
 //! expressions, which may begin so), or follow it. Case does not count, and `-` stands for `/` as well. Options with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
@@ -19,6 +19,7 @@ use pathbuild_diagnostic::Lang;
 
 use super::adjust;
 use crate::german;
+use crate::surroundings::named_lang;
 
 /// Options whose value is passed on.
 const VALUES: &[(char, &str)] = &[
@@ -38,8 +39,8 @@ const VALUES: &[(char, &str)] = &[
 pub(crate) enum Translated {
     /// Command lines of ours, without the program's name, one after the other.
     Commands(Vec<Vec<String>>),
-    /// Their help was asked for.
-    Help,
+    /// Their help was asked for, in this language where one was named.
+    Help(Option<Lang>),
 }
 
 /// The help that is printed for `/h`.
@@ -95,7 +96,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
                 read.own.extend(value.cloned());
             }
             None => read.files.push(file_name(argument)),
-            Some(('h' | '?', _)) => return Ok(Translated::Help),
+            Some(('h' | '?', _)) => return Ok(Translated::Help(named_lang_in(arguments))),
             Some(('c', "")) => read.check = true,
             Some((letter, glued)) => {
                 let value = if glued.is_empty() {
@@ -124,6 +125,16 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
         ));
     }
     Ok(Translated::Commands(read.commands()))
+}
+
+/// The language of the last `/l`, wherever it stands.
+fn named_lang_in(arguments: &[String]) -> Option<Lang> {
+    let named = |(at, argument): (usize, &String)| match option(argument)? {
+        ('l', "") => named_lang(arguments.get(at + 1)?),
+        ('l', glued) => named_lang(value('l', glued)),
+        _ => None,
+    };
+    arguments.iter().enumerate().filter_map(named).last()
 }
 
 /// The arguments of the shell where `compat` comes first: what follows with one hyphen is theirs, `-v` and `-h` too.

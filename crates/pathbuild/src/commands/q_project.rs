@@ -5,6 +5,7 @@ use pathbuild_db::system::{Written, spelt};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
+use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, QProject};
 
 use super::output_row;
@@ -99,7 +100,15 @@ fn drawn(
         return Err(problems);
     }
     let planned = q_project(session.db(), drawing);
-    let bytes = dxf(planned, name).map_err(|reason| {
+    let is_free = |name: &PathName| {
+        let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
+        pattern.matches(name.as_str()) && !path_names(session.db(), drawing).contains(name)
+    };
+    let Some(names) = names(name, planned.len(), is_free) else {
+        let problem = Diagnostic::new(&outputs::NO_NAME_FOR_CUTTER).with("name", name.as_str());
+        return Err(vec![problem.in_file(drawing.path(session.db()))]);
+    };
+    let bytes = dxf(planned, &names).map_err(|reason| {
         let problem = Diagnostic::new(&files::CANNOT_WRITE)
             .with("name", output.file_name().unwrap_or_default())
             .with("reason", reason);
@@ -113,8 +122,26 @@ fn drawn(
         problems
     });
     let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
-    if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, planned.lines.len())) }
+    let count = planned.iter().map(|path| path.lines.len()).sum();
+    if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
+
+/// Names for the paths of a Q-project, one for each cutter: this one, and behind it those with the next higher last number that are free.
+/// `None` where there are not so many.
+fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) -> Option<Vec<PathName>> {
+    let is_digit = |character: char| character.is_ascii_digit();
+    let text = first.as_str();
+    let end = text.rfind(is_digit).map_or(0, |last| last + 1);
+    let start = text[..end].trim_end_matches(is_digit).len();
+    let number = u64::from(text[start..end].parse::<u32>().unwrap_or_default());
+    let next = |offset: u64| PathName::new(&format!("{}{}{}", &text[..start], number + offset, &text[end..]));
+    let others = (1..=MOST_TRIED).filter(|_| start < end).map(next).filter(is_free);
+    let names: Vec<PathName> = std::iter::once(first.clone()).chain(others).take(count.max(1)).collect();
+    (names.len() >= count).then_some(names)
+}
+
+/// How many names are tried.
+const MOST_TRIED: u64 = 1000;
 
 /// What is wrong with a drawing and all its paths; that it has none, too.
 fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
@@ -129,14 +156,16 @@ fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     problems
 }
 
-fn dxf(planned: &QProject, name: &PathName) -> Result<Vec<u8>, String> {
-    let segments: Vec<(f64, &str)> =
-        planned.lines.iter().map(|line| (line.length, line.text.as_str())).collect();
-    let sheet = pathbuild_draw::q_project(name.as_str(), &planned.parameters, &segments);
+fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
+    let mut paths = Vec::new();
+    for (path, name) in planned.iter().zip(names) {
+        let segments = path.lines.iter().map(|line| (line.length, line.text.as_str())).collect();
+        paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
+    }
     let reasons = |errors: Vec<pathbuild_draw::DrawError>| {
         errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
-    Ok(sheet.map_err(reasons)?.to_dxf())
+    Ok(pathbuild_draw::q_project(&paths).map_err(reasons)?.to_dxf())
 }
 
 fn write(
