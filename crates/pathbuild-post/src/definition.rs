@@ -184,7 +184,8 @@ impl Post {
         let tolerance = (!options.unchecked).then_some(tolerance);
         let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
         let machine = options.machine.as_ref();
-        read_back::check(text, job, &Expected { target, tolerance, machine, unfollowed, is_manual })
+        let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
+        read_back::check(text, job, &Expected { target, tolerance, machine, unfollowed, is_manual, is_flat })
     }
 
     /// The unit that is written, in mm.
@@ -235,11 +236,13 @@ impl Post {
     /// in place of the cycle's word.
     fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
-            Engine::CamBam(definition) => (definition.writes_cycles(), definition.is_wrapped()),
+            Engine::CamBam(definition) => {
+                (definition.writes_cycles(), definition.is_wrapped() || definition.is_flat())
+            }
             Engine::Cad6(_) => (false, false),
         };
         let has_cycles = target.is_none_or(Target::has_cycles);
-        // Round a cylinder only lines are wrapped.
+        // Round a cylinder only lines are wrapped, and a beam drills nothing.
         let cycles = options.cycles && (has_cycles || !writes_cycles) && !is_wrapped;
         PostOptions { cycles, ..options.clone() }
     }

@@ -58,6 +58,11 @@ impl Job {
         // A line of which the beginning is no hole has none further on either.
         let mut plain_line = None;
         while let Some((step, after)) = rest.split_first() {
+            // The word of a cycle stands in front of its moves.
+            if matches!(step.action, Action::Word(_)) {
+                rest = after;
+                continue;
+            }
             let hole = if plain_line == Some(step.line) { None } else { recognise::hole(rest) };
             plain_line = hole.is_none().then_some(step.line);
             rest = match hole {

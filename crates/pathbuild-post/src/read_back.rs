@@ -27,6 +27,8 @@ pub(super) struct Expected<'a> {
     pub(super) unfollowed: &'a [Unfollowed],
     /// The spindle is not switched by the program.
     pub(super) is_manual: bool,
+    /// The text moves nothing in Z: its beam cuts, at whatever depth the job does.
+    pub(super) is_flat: bool,
 }
 
 /// What is wrong with a text, by line: what the target's reader says, else the first place where it moves otherwise than the job and the
@@ -36,7 +38,7 @@ pub(super) fn check(
     job: &Job,
     expected: &Expected<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, unfollowed, is_manual } = expected;
+    let Expected { target, tolerance, machine, unfollowed, is_manual, is_flat } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let read = interpret::interpret(text, reader, &Options::default());
     let mut problems: Vec<Diagnostic> =
@@ -52,10 +54,14 @@ pub(super) fn check(
     }
     doubts.extend(chosen_offsets(&read.steps));
     if let Some(tolerance) = tolerance {
-        let wanted = moves(job).map_err(|error| vec![*error])?;
-        let clearance =
+        let mut wanted = moves(job).map_err(|error| vec![*error])?;
+        let mut clearance =
             job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
-        let found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
+        let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
+        if *is_flat {
+            (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
+            problems.extend(spindle::check_beam(&read.steps).map(as_post_s));
+        }
         problems.extend(ways::check(&found, &wanted, clearance, tolerance).err().map(|it| as_post_s(*it)));
         for word in *unfollowed {
             let found =
@@ -68,11 +74,22 @@ pub(super) fn check(
             }
         }
         if !is_manual {
-            problems.extend(spindle::check(&read.steps, job).map(as_post_s));
+            problems.extend(spindle::check(&read.steps, job, *is_flat).map(as_post_s));
         }
     }
     problems.extend(broken);
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
+}
+
+/// Moves as seen from above; those that lead nowhere in the plane are left out.
+fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
+    let level = |mut at: interpret::Position| {
+        at.at[2] = 0.0;
+        at.known = at.known.with(Axes::Z);
+        at
+    };
+    let seen = moves.iter().map(|(line, it)| (*line, Move { from: level(it.from), to: level(it.to), ..*it }));
+    seen.filter(|(_, it)| !it.is_nothing() || it.from.known != it.to.known).collect()
 }
 
 /// Words that choose where the program's zero is: the job says nothing about it.

@@ -8,13 +8,13 @@ use super::job::{Job, Operation, Spindle};
 
 /// The first cut of the text before which the spindle was not switched on, or is switched the other way round than the job says. A job in
 /// which some operation leaves the spindle to others is not asked.
-pub(super) fn check(steps: &[interpret::Step], job: &Job) -> Option<Diagnostic> {
+pub(super) fn check(steps: &[interpret::Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
     let cutting = || job.operations.iter().filter(|operation| operation.cuts());
     let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
     expected.dedup();
     // A feed above the material, on the way to it, is no cut.
     let surface = cutting().map(|operation| operation.surface).reduce(f64::max);
-    let surface = surface.filter(|_| !job.has_no_surface).unwrap_or(f64::INFINITY);
+    let surface = surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY);
     let (mut now, mut index) = (Turning::Unstated, 0);
     for step in steps {
         match &step.action {
@@ -35,6 +35,23 @@ pub(super) fn check(steps: &[interpret::Step], job: &Job) -> Option<Diagnostic> 
                     Turning::Clockwise | Turning::Counterclockwise => &posts::SPINDLE_OTHER_WAY,
                 };
                 return Some(Diagnostic::new(message).at_line(step.line, None));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The first rapid move over which a beam, which the words of the spindle switch, is not off.
+pub(super) fn check_beam(steps: &[interpret::Step]) -> Option<Diagnostic> {
+    let mut is_on = false;
+    for step in steps {
+        match &step.action {
+            Action::Spindle(spindle) => {
+                is_on = matches!(spindle.turning, Turning::Clockwise | Turning::Counterclockwise);
+            }
+            Action::Move(it) if is_on && it.pace == Pace::Rapid && !it.is_nothing() => {
+                return Some(Diagnostic::new(&posts::BEAM_ON).at_line(step.line, None));
             }
             _ => {}
         }

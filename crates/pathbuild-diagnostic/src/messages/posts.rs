@@ -585,6 +585,11 @@ messages! {
         en: "here the spindle turns the other way round than `direction` of the tool says",
         de: "hier dreht sich die Spindel andersherum, als es `direction` des Werkzeugs sagt",
     }
+    /// A note: a laser that cuts on its way.
+    BEAM_ON: PostDiffers {
+        en: "the post moves nothing in Z, and here its beam is still on during a rapid move",
+        de: "der Postprozessor bewegt nichts in Z, und hier ist der Strahl während eines Eilgangs noch an",
+    }
     /// A note: another end.
     GOES_ELSEWHERE: PostDiffers {
         en: "here the tool goes to {found}, in the program to {expected}",

@@ -6,10 +6,10 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::macros::{Macro, State};
+use super::macros::{Macro, State, Value};
 use super::names::MacroArguments;
 use super::options::{Options, Refusal};
-use super::registers::Form;
+use super::registers::{Form, Register};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts};
@@ -111,6 +111,26 @@ impl Definition {
     /// Whether paths are wrapped round a cylinder.
     pub(crate) fn is_wrapped(&self) -> bool {
         self.options.rotary.wrap
+    }
+
+    /// Whether nothing is moved in Z: a beam is switched on where a cut starts and off where it ends.
+    pub(crate) fn is_flat(&self) -> bool {
+        // Other macros may stand for anything.
+        let is_without_z = |what: &Macro| match what {
+            Macro::Register(register, _) | Macro::Value(Value::MoveAxis(register)) => {
+                *register != Register::Z
+            }
+            Macro::Code { .. } | Macro::Speed | Macro::Value(_) => true,
+            _ => false,
+        };
+        let is_flat = |section: Section| {
+            let text = self.section(section);
+            text.macros().all(|(what, _)| is_without_z(what)) && !text.literal().contains(['Z', 'z'])
+        };
+        [Section::Rapid, Section::FeedMove, Section::ArcCw, Section::ArcCcw].into_iter().all(is_flat)
+            && [Section::StartCut, Section::EndCut]
+                .into_iter()
+                .all(|section| !self.section(section).is_blank())
     }
 
     /// Decimals of the numbers that are written.

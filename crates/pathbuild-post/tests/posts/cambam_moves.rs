@@ -438,3 +438,39 @@ fn a_hole_that_would_not_be_drilled_is_an_error() {
     assert!(drilled("<G81/>").is_ok(), "another cycle's word");
     assert!(drilled("<G83/><DrillPeck>G1 {$z}\nG0 Z{$mop.clearanceplane}</DrillPeck>").is_ok());
 }
+
+/// A laser has no Z: what its beam cuts is compared from above.
+#[test]
+fn a_beam_without_z_is_read_back_from_above() {
+    let mut job = job(vec![
+        rapid(1.0, 0.0, 5.0),
+        feed(1.0, 0.0, -1.0),
+        feed(9.0, 0.0, -1.0),
+        rapid(9.0, 0.0, 5.0),
+        rapid(1.0, 4.0, 5.0),
+        feed(1.0, 4.0, -1.0),
+        feed(9.0, 4.0, -2.0),
+        rapid(9.0, 4.0, 5.0),
+    ]);
+    job.operations[0].spindle = Some(pathbuild_post::Spindle::Clockwise);
+    job.operations[0].speed = Some(1000.0);
+    let written = |change: [&str; 2], dialect: Option<&str>| {
+        let elements = "<Header>G21 G90</Header><ToolChange/><MOP>{$blocks}</MOP><Rapid>{$g0} {$_x} {$_y}</Rapid>\
+            <FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove><ArcCW>{$g2} {$_x} {$_y} {$i} {$j}</ArcCW>\
+            <ArcCCW>{$g3} {$_x} {$_y} {$i} {$j}</ArcCCW><StartCut>M3 {$s}</StartCut><EndCut>M5</EndCut>\
+            <Footer>M5\nM30</Footer>";
+        let text = crate::support::definition(&elements.replace(change[0], change[1]));
+        let options = PostOptions { dialect: dialect.map(Into::into), ..PostOptions::default() };
+        read(&text).unwrap().write(&job, &options).map_err(|errors| texts(&errors))
+    };
+    for dialect in [None, Some("grbl"), Some("linuxcnc")] {
+        assert!(written(["_", "_"], dialect).is_ok(), "{dialect:?} {:?}", written(["_", "_"], dialect));
+    }
+    for change in [
+        ["<EndCut>M5", "<EndCut>(on)"],
+        ["<StartCut>M3 {$s}", "<StartCut>(off)"],
+        ["{$_f} {$_x}", "{$_f} X0"],
+    ] {
+        assert!(written(change, None).is_err(), "{change:?}");
+    }
+}
