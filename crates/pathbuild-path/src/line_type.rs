@@ -53,6 +53,8 @@ impl LineType {
         let longest = in_name.max_by_key(|(word, _)| word.len());
         let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
         let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));
+        // Numbered names differ by a digit where they mean something else.
+        let misspelt = || misspelt().filter(|_| !name.bytes().any(|byte| byte.is_ascii_digit()));
         longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| *line_type)
     }
 

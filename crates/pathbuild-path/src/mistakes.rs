@@ -106,6 +106,11 @@ pub(crate) fn equals_sign(letter: Letter, value: &str, problem: &Diagnostic) -> 
     Some(problem.with("meant", format!("{}{number}", letter.as_char())))
 }
 
+/// Whether a letter stands alone, or with a sign only: a blank separates it from its number.
+pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> bool {
+    piece.letter.is_some_and(|letter| !letter.is_text()) && matches!(text.value(piece), "" | "-" | "+")
+}
+
 /// What a piece without a letter was meant to be: a zero for O, or a path's name without its sign.
 pub(crate) fn in_piece(
     text: ParameterText<'_>,
@@ -118,6 +123,14 @@ pub(crate) fn in_piece(
     let (message, meant) = match text.letter(piece)? {
         first if class == ElementClass::Subpath && before.is_some_and(is_apart) => {
             (&messages::NAME_APART_FROM_SIGN, format!(">{first}{value}"))
+        }
+        first if before.is_some_and(|letter| is_without_value(text, letter)) => {
+            let meant =
+                format!("{}{first}{value}", before.map(|letter| text.piece_text(letter)).unwrap_or_default());
+            if parse_number(meant.get(1..).unwrap_or_default()).is_none() {
+                return None;
+            }
+            (&messages::VALUE_APART, meant)
         }
         digit if class == ElementClass::Subpath && digit.is_ascii_digit() => {
             (&messages::NAME_WITHOUT_SIGN, format!(">{digit}{value}"))

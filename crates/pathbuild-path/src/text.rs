@@ -172,6 +172,11 @@ impl<'t> ParameterText<'t> {
         self.string[piece.span()].chars().next()
     }
 
+    /// A piece as written.
+    pub(crate) fn piece_text(self, piece: &LetterValue) -> &'t str {
+        &self.string[piece.span()]
+    }
+
     /// A piece's value as written.
     pub fn value(self, piece: &LetterValue) -> &'t str {
         let mut characters = self.string[piece.span()].chars();

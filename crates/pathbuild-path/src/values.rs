@@ -82,10 +82,14 @@ impl<'t> Values<'t> {
                 && !is_definition(*letter)
                 && (*letter == Letter::Variable || !text.repeats(*letter))
         };
+        let has_unread = values.unread != Letters::default();
+        let is_apart = |piece: &LetterValue| has_unread && mistakes::is_without_value(text, piece);
         let mut filled = Vec::with_capacity(text.pieces().len());
         for piece in text.pieces() {
             filled.push(match piece.letter.filter(is_value) {
                 Some(letter) if letter.is_literal() && text.value(piece).contains('=') => Filled::Nothing,
+                // Its number stands apart from it, which is reported there.
+                Some(_) if is_apart(piece) => Filled::Nothing,
                 Some(letter) => values.fill(letter, piece, interpolation),
                 None => Filled::Nothing,
             });

@@ -71,6 +71,13 @@ messages! {
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
+    /// A blank between a letter and its number.
+    VALUE_APART: UnknownParameter {
+        en: "a blank separates a letter from its value",
+        de: "ein Leerzeichen trennt einen Buchstaben von seinem Wert",
+        help_en: "write \"{meant}\"",
+        help_de: "\"{meant}\" schreiben",
+    }
     /// A blank between > and the name.
     NAME_APART_FROM_SIGN: UnknownParameter {
         en: "a blank separates \">\" from the path's name",

@@ -116,6 +116,7 @@ fn a_text_at_fault_makes_its_own_letters_unknown() {
     assert_eq!(with(""), ["PB201 B"]);
     assert_eq!(with("\"b2\""), ["PB202 b"]);
     assert_eq!(with("\"2\""), ["PB202 2"]);
+    assert_eq!(with("\"B 2\""), ["PB202"]);
     assert_eq!(with("\"B2mm\""), ["PB205 B"]);
     assert_eq!(with("\"F100\""), ["PB201 B"]);
     assert_eq!(with("\"f100\""), ["PB202 f", "PB201 B"]);

@@ -137,3 +137,20 @@ fn the_text_of_a_skipped_subpath_is_not_read() {
     assert_eq!(codes(&compiled.found), [""; 0]);
     assert!(matches!(path.segments[0].kind, SegmentKind::Sweep { height: None }), "{path:?}");
 }
+
+#[test]
+fn unknown_names_suggest_a_line_type() {
+    let likely = [
+        ("PHANTOMLINIE", Some(LineType::Phantom)),
+        ("BEGRENZUNG", Some(LineType::Border)),
+        ("CONTINOUS", Some(LineType::Continuous)),
+        ("PHANT", Some(LineType::Phantom)),
+        ("STRICHPUNKTLINIE", Some(LineType::Dashdot)),
+        // A digit tells numbered types apart.
+        ("ACAD_ISO06W100", None),
+        ("ZIGZAG", None),
+    ];
+    for (name, meant) in likely {
+        assert_eq!(LineType::like(name), meant, "{name}");
+    }
+}
