@@ -31,14 +31,39 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether any text (code 1) in these blocks satisfies `is`. `false` is certain, as above.
-pub(crate) fn has_text(blocks: &Pairs<'_>, is: &dyn Fn(&[u8]) -> bool) -> bool {
+/// Whether any text (code 1) in these blocks satisfies `is`, those of records aside that are on a wanted layer.
+pub(crate) fn has_text<'a>(
+    blocks: &Pairs<'a>,
+    is: &dyn Fn(&[u8]) -> bool,
+    layers: &mut Layers<'a, '_>,
+    decoder: &mut Decoder<'_>,
+) -> bool {
     let line_end = blocks.line_end();
     let bytes = &blocks.bytes()[blocks.consumed()..];
     any_digit(b'1', bytes, |one| {
         let behind = line_behind_code(bytes, one, line_end);
-        behind.is_some_and(|at| is(line_from(&bytes[at..], line_end)))
+        if !behind.is_some_and(|at| is(line_from(&bytes[at..], line_end))) {
+            return false;
+        }
+        let layer = layer_before(&bytes[..one], line_end);
+        !layer.is_some_and(|layer| {
+            let id = layers.id(layer, || blocks.line(), decoder);
+            layers.is_kept(id)
+        })
     })
+}
+
+/// The layer of the record that goes on in the line with which these bytes end, where that stands before.
+fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
+    let mut lines = bytes.rsplit(|byte| *byte == line_end).skip(1).map(without_cr);
+    while let (Some(value), Some(code)) = (lines.next(), lines.next()) {
+        match code.trim_ascii() {
+            b"8" => return Some(value),
+            b"0" => return None,
+            _ => {}
+        }
+    }
+    None
 }
 
 /// Whether `is` holds for the position of any such digit that may be a group code.

@@ -238,7 +238,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     /// Whether inserting a block on a layer may bring something wanted.
     fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
-            self.has_noted_text = self.has_noted_text || has_text(&blocks, is_noted);
+            let Self { layers, decoder, .. } = self;
+            self.has_noted_text = self.has_noted_text || has_text(&blocks, is_noted, layers, decoder);
         }
         if self.layers.is_kept(layer) || (space == Space::Block && self.layers.is_inheriting(layer)) {
             return true;

@@ -36,5 +36,7 @@ fn texts_in_blocks_are_noted_where_a_block_is_inserted() {
     assert!(is_noted(block, &insertion.replace("8 0", "8 P")));
     assert!(!is_noted(block, "0 LINE\n8 0"));
     assert!(!is_noted(&block.replace("1 B2", "5 B2"), insertion), "a handle");
+    assert!(!is_noted(&block.replace("0 TEXT\n8 0", "0 TEXT\n8 P"), insertion), "a wanted layer");
+    assert!(is_noted(&block.replace("0 TEXT\n8 0", "0 TEXT"), insertion), "without a layer");
     assert!(!is_noted_with(block, insertion, true), "blocks do not count");
 }

@@ -33,8 +33,9 @@ const LONGEST_SLIP: usize = 2;
 pub fn may_be_stray_text(text: &[u8]) -> bool {
     let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W');
     let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
-    // A backslash begins a format of MTEXT, as in `\\W0.8;`, or a new line: `\\P`.
-    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'\\';
+    // A colon begins a variable, as in `:D0.5`, which no stray text has; a backslash begins a format of MTEXT, as in `\\W0.8;`, or a new
+    // line: `\\P`.
+    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':');
     let is_begin = |before: &[u8]| !before.last().is_some_and(is_inside) || before.ends_with(b"\\P");
     let mut pairs = text.windows(2).enumerate();
     pairs.any(|(at, pair)| is_weighty(pair[0]) && is_value(pair[1]) && is_begin(&text[..at]))

@@ -103,7 +103,7 @@ fn the_first_look_at_bytes_is_certain() {
     for text in ["B2", "F120 B-0.3", " B2", "B=D", "N1 B.5", "{\\fArial|b0|i0;B2}", "N1\\PB2"] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
-    for text in ["R5", "M6", "Maßstab 1:1", "AB2", "\\W0.8;Text", "Bohrung", ""] {
+    for text in ["R5", "M6", "Maßstab 1:1", "AB2", ">1234.1P :D0.5", "\\W0.8;Text", "Bohrung", ""] {
         assert!(!may_be_stray_text(text.as_bytes()), "{text}");
     }
 }
