@@ -127,9 +127,7 @@ pub(crate) fn in_piece(
         first if before.is_some_and(|letter| is_without_value(text, letter)) => {
             let meant =
                 format!("{}{first}{value}", before.map(|letter| text.piece_text(letter)).unwrap_or_default());
-            if parse_number(meant.get(1..).unwrap_or_default()).is_none() {
-                return None;
-            }
+            parse_number(meant.get(1..).unwrap_or_default())?;
             (&messages::VALUE_APART, meant)
         }
         digit if class == ElementClass::Subpath && digit.is_ascii_digit() => {

@@ -122,7 +122,7 @@ impl<'a> LayerEnds<'a> {
             distances.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
         let arguments =
             vec![("layer", layer.into()), ("element", entity.kind.name().into()), ("distance", gap.into())];
-        (gap <= WORTH_NAMING).then(|| (Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
+        (gap <= WORTH_NAMING).then_some((Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
     }
 }
 

@@ -44,7 +44,7 @@ impl PathSummary {
         let walk_problems = walked.diagnostics.into_iter().map(with_hint).collect();
         if path.has_faults() {
             let faulty_signature = Some(Box::new(signature));
-            return Self { problems, walk_problems, faulty_signature, ..Self::default() };
+            return Self { problems, faulty_signature, walk_problems, ..Self::default() };
         }
         Self {
             problems,

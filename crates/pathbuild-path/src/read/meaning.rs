@@ -72,14 +72,12 @@ impl<'d> Collected<'d> {
 
     fn add_curve(&mut self, found: &Found<'_>, curve: Curve) {
         let shape = Shape::Curve(curve);
-        match found.line_type.and_then(curve_role) {
-            Some(role) => self.add_element(found, shape, role),
-            None => {
-                self.add_unknown(found, shape);
-                let element = Element { source: found.source, shape, role: Role::SilentSweep, text: None };
-                self.faults.unclear_curves.push(element);
-            }
-        }
+        let Some(role) = found.line_type.and_then(curve_role) else {
+            self.add_unknown(found, shape);
+            let element = Element { source: found.source, shape, role: Role::SilentSweep, text: None };
+            return self.faults.unclear_curves.push(element);
+        };
+        self.add_element(found, shape, role);
     }
 
     fn add_circle(&mut self, found: &Found<'_>, centre: Xy, radius: f64) {

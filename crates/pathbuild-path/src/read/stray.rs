@@ -58,8 +58,8 @@ impl NearNames {
         let layer = folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
         let ends = layer.char_indices().rev().map(|(at, _)| at);
-        let ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
-        before_tilde.or_else(|| ends.filter_map(|end| self.by_folded.get(&layer[..end])).next())
+        let mut ends = std::iter::once(layer.len()).chain(ends).take(LONGEST_SLIP + 1);
+        before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])))
     }
 }
 
