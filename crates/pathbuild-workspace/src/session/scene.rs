@@ -128,7 +128,7 @@ impl Session<'_> {
             let mut scene = program_scene(db, traced, writing, shown)?;
             if let Some(scene) = &mut scene {
                 scene.examples = examples(db, traced, writing);
-                scene.refusal = refusal.clone();
+                scene.refusal.clone_from(&refusal);
             }
             let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
