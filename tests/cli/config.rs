@@ -2,6 +2,7 @@
 
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
+use pathbuild_testkit::sheet;
 
 /// `config show --origin` with this configuration.
 fn show(text: &str, arguments: &str) -> Run {
@@ -410,4 +411,37 @@ fn the_option_compatible_wins_over_the_key() {
         line(&show("compatible = false\n", "--compatible"), "compatible"),
         "compatible = true  # --compatible"
     );
+}
+
+/// Whoever made it expects that it holds.
+#[test]
+fn a_configuration_that_is_a_directory_cannot_be_read() {
+    let drawing =
+        sheet("layer 1301.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0").unwrap().to_dxf();
+    let place = Place::new().file("pathbuild.toml/a.txt", "").file("1301.1P.dxf", drawing);
+    let run = place.run("check 1301.1P.dxf");
+    assert!(run.status != Some(0) && run.stderr.contains("PB00"), "{run}");
+}
+
+/// A path's name becomes a file's, which must suit every system and look like what it is.
+#[test]
+fn names_of_paths_that_no_file_may_have_are_refused() {
+    let emitted = |name: &str| {
+        let text = format!(
+            "layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0\nlayer other\nstart 0,9 \"T5 O2 I1 B0 MX\"\nmill 0,9 40,9\nend 40,9"
+        );
+        let configuration =
+            "path-pattern = '.+'\nfeed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
+        let place = Place::new().file("pathbuild.toml", configuration);
+        place.file("a.dxf", sheet(&text).unwrap().to_dxf()).run_with(&["emit", ".", "--format", "concise"])
+    };
+    for name in ["x:y", "x<y", "x\u{202e}y"] {
+        let run = emitted(name);
+        assert!(
+            run.status == Some(1) && run.stderr.contains("PB004") || run.stdout.contains("PB004"),
+            "{name}: {run}"
+        );
+    }
+    let run = emitted("x-y(z)");
+    assert_eq!(run.status, Some(0), "{run}");
 }

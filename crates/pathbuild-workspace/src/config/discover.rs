@@ -53,10 +53,9 @@ impl Discovery<'_> {
     /// The configuration of a directory: in it, or in the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, FILE_NAME));
-        // A link to nothing is one that cannot be read.
+        // A directory of that name, or a link to nothing, is one that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
-            FileKind::File => true,
-            FileKind::Directory => false,
+            FileKind::File | FileKind::Directory => true,
             FileKind::Missing => files::is_named(file),
         };
         files.find(is_one)

@@ -135,7 +135,7 @@ impl Maker<'_> {
             return Ok(None);
         };
         let directory = output_directory(self.session, first.target.file(self.session.db()));
-        let stem = named(name, &directory).map_err(|problem| vec![*problem])?;
+        let stem = named(name, name, &directory).map_err(|problem| vec![*problem])?;
         let title = joined_title(name, checked);
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
@@ -147,7 +147,8 @@ impl Maker<'_> {
         let is_alone = path_names(db, file).len() == 1;
         let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
         let directory = output_directory(self.session, file);
-        let stem = named(&format!("{name}{}", emitted.suffix), &directory).map_err(at)?;
+        let full = format!("{name}{}", emitted.suffix);
+        let stem = named(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
         Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
@@ -251,9 +252,9 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
     refused
 }
 
-/// A file's name in a directory, unless no file can have it.
-fn named(name: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
-    if stem_fault(name) {
+/// A file's name in a directory, unless no file can have it. `rest`: the part of it that is not a drawing's.
+fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
+    if stem_fault(name, rest) {
         return Err(Box::new(cannot_write(name, Value::Word(&NO_FILE_NAME))));
     }
     Ok(join(directory, name))

@@ -135,9 +135,18 @@ impl Writing {
     }
 }
 
-/// Whether a name, which R is a part of, cannot be a file's.
-pub fn stem_fault(stem: &str) -> bool {
-    stem.contains(['/', '\\']) || stem.contains(char::is_control)
+/// Whether a name cannot be a file's. `rest` is the part of it that is not the name of a file already, such as R: it must suit every system, and
+/// look like what it is. On Windows `x:y` is a part of the file `x` that no listing shows.
+pub fn stem_fault(name: &str, rest: &str) -> bool {
+    name.contains(['/', '\\'])
+        || name.contains(char::is_control)
+        || rest.contains([':', '<', '>', '"', '|', '?', '*'])
+        || rest.contains(is_direction)
+}
+
+/// Characters that turn what stands beside them, as it is shown, the other way round.
+fn is_direction(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// The text of a file of values with everything behind `=` taken away, whatever its line ends are.
