@@ -380,6 +380,10 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
             {
                 settings.remove(name);
             }
+            // A program that states nothing has exact corners.
+            "SET_MOTION_CONTROL_MODE" if is_exact(arguments) => {
+                settings.remove(name);
+            }
             _ if SETTINGS.contains(&name) => {
                 settings.insert(SETTINGS.iter().find(|known| **known == name)?, arguments);
             }
@@ -413,6 +417,13 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
         }
     }
     Some(effects)
+}
+
+/// Whether corners are exact, or rounded by no more mm than our posts allow.
+fn is_exact(arguments: &str) -> bool {
+    let last = arguments.trim_end_matches(')').rsplit(' ').next().unwrap_or_default();
+    let is_near = last.parse::<f64>().is_ok_and(|tolerance| tolerance > 0.0 && tolerance <= 0.01);
+    arguments.starts_with("CANON_EXACT") || is_near
 }
 
 /// mm: below every S0 of the library, where rapid moves meet material or come near it.
