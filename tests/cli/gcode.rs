@@ -312,7 +312,8 @@ fn built_in_posts_are_listed_and_shown() {
 }
 
 /// Every built-in post.
-const POSTS: [&str; 8] = ["native", "grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "xpertmill"];
+const POSTS: [&str; 10] =
+    ["native", "grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "estlcam", "din", "xpertmill"];
 
 #[test]
 fn what_any_post_wrote_is_what_the_drawing_says() {

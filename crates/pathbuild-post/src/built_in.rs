@@ -64,6 +64,13 @@ pub static BUILT_IN: &[BuiltIn] = &[
     cambam("fanuc", "Fanuc and controls like it, mill", include_str!("../posts/fanuc.cbpp")),
     cambam("haas", "Haas mills", include_str!("../posts/haas.cbpp")),
     cambam("marlin", "Marlin 2 on a mill", include_str!("../posts/marlin.cbpp")),
+    cambam("estlcam", "Estlcam CNC controller", include_str!("../posts/estlcam.cbpp")),
+    BuiltIn {
+        name: "din",
+        language: Language::Cad6,
+        description: "DIN 66025, as in the manual of CAD6",
+        text: include_str!("../posts/din.toml"),
+    },
     BuiltIn {
         name: "xpertmill",
         language: Language::Cad6,

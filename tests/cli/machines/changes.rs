@@ -421,6 +421,18 @@ const TEXTS: &[(&str, &str, &str, bool)] = &[
     ("xpertmill", "G71", "G71\nG91", true),
     ("xpertmill", "G71", "G71\nG51 P2", true),
     ("xpertmill", "M30", "M2\nM30", true),
+    ("din", " G40", "", true),
+    ("din", " G71", "", true),
+    ("din", " G71", " G70", true),
+    ("din", " G40", " g040.0", false),
+    ("din", " G40", " G40 G53", true),
+    ("din", " M06", "", false),
+    ("estlcam", "G17", "", true),
+    ("estlcam", "G17", "G17\nG54", true),
+    ("estlcam", "G17", "G17\nM10", true),
+    ("estlcam", "G17", "G17 G90", true),
+    ("estlcam", "G21", "g 21.0", false),
+    ("estlcam", "T1 M6", "", true),
 ];
 
 #[test]

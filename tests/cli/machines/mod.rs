@@ -80,7 +80,7 @@ fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnost
 fn tolerance(post: &str) -> Tolerance {
     let (decimals, chord) = match post {
         "xpertmill" => (3, 0.01),
-        "fanuc" | "haas" => (3, 0.0),
+        "fanuc" | "haas" | "din" => (3, 0.0),
         _ => (4, 0.0),
     };
     Tolerance { ends: Ends::Cutting, chord, ..Tolerance::of_decimals(decimals) }

@@ -73,6 +73,13 @@ messages! {
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
+    /// Two G words, or two M words, in one line.
+    SECOND_WORD: ConflictingWords {
+        en: "{dialect} obeys one {letter} word a line: {first}, not {word}",
+        de: "{dialect} gehorcht einem {letter}-Wort je Zeile: {first}, nicht {word}",
+        help_en: "write {word} into a line of its own",
+        help_de: "{word} in eine eigene Zeile schreiben",
+    }
     /// `verify --against`: a word of which the drawing's program knows nothing.
     NOT_IN_DRAWING: MovesDiffer {
         en: "{word} is not in the drawing's program: it may change where, how deep or how fast the tool cuts",

@@ -222,3 +222,30 @@ pub(super) static MARLIN: Words = Words {
     own_m_codes: false,
     lenient: false,
 };
+
+/// No coordinate systems, no cycles. M10 and M11 switch an output.
+pub(super) static ESTLCAM: Words = Words {
+    letters: Letters::new(b"FGIJKMNRSTXYZ"),
+    g: &[0, 10, 20, 30, 170, 200, 210, 900, 910],
+    g_own: &[],
+    g_ignored: &[],
+    m: &[0, 10, 30, 40, 50, 60, 80, 90, 100, 110, 300],
+    m_ignored: &[],
+    own_m_codes: false,
+    lenient: false,
+};
+
+pub(super) static DIN: Words = Words {
+    letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
+    g: &[
+        0, 10, 20, 30, 40, 90, 170, 180, 190, 400, 410, 420, 430, 440, 530, 540, 550, 560, 570, 580, 590,
+        700, 710, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910, 920, 930, 940, 950, 960, 970,
+    ],
+    // G53 takes the offsets away for good, and G92 may mean a limit of the speed.
+    g_own: &[530, 920],
+    g_ignored: &[],
+    m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300],
+    m_ignored: &[],
+    own_m_codes: false,
+    lenient: false,
+};

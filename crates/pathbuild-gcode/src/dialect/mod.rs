@@ -35,6 +35,10 @@ pub enum Dialect {
     Haas,
     /// Marlin 2 on a mill.
     Marlin,
+    /// The CNC controller of Estlcam.
+    Estlcam,
+    /// DIN 66025, as the CAD6 manual writes it.
+    Din,
     /// What pathbuild and its predecessor write (book: program/gcode), with correction formulas as data (book: language/probes).
     Native,
 }
@@ -51,6 +55,8 @@ impl Dialect {
         Self::Fanuc,
         Self::Haas,
         Self::Marlin,
+        Self::Estlcam,
+        Self::Din,
     ];
 
     /// The name on the command line.
@@ -64,6 +70,8 @@ impl Dialect {
             Self::Fanuc => "fanuc",
             Self::Haas => "haas",
             Self::Marlin => "marlin",
+            Self::Estlcam => "estlcam",
+            Self::Din => "din",
             Self::Native => "native",
         }
     }
@@ -79,6 +87,8 @@ impl Dialect {
             Self::Fanuc => &rules::FANUC,
             Self::Haas => &rules::HAAS,
             Self::Marlin => &rules::MARLIN,
+            Self::Estlcam => &rules::ESTLCAM,
+            Self::Din => &rules::DIN,
             Self::Native => &rules::NATIVE,
         }
     }

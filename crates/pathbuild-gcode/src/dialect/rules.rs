@@ -31,6 +31,10 @@ pub struct Rules {
     pub dwell: DwellRules,
     /// The control obeys one G, M or T word a line, the first, and every line begins with one. Other words are values of that one.
     pub one_command: bool,
+    /// Of G and of M words, one each in a line.
+    pub one_word_each: bool,
+    /// M5 and M9 take effect behind the move of their line.
+    pub stops_last: bool,
     /// Rapid moves are as fast as F says, like any other.
     pub rapids_at_feed: bool,
     /// `O1234` at the beginning is the program's number.
@@ -157,6 +161,8 @@ const BASE: Rules = Rules {
     motion_is_stated: false,
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
     one_command: false,
+    one_word_each: false,
+    stops_last: false,
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
@@ -321,4 +327,33 @@ pub(super) static MARLIN: Rules = Rules {
     one_command: true,
     rapids_at_feed: true,
     ..BASE
+};
+
+pub(super) static ESTLCAM: Rules = Rules {
+    dialect: Dialect::Estlcam,
+    spelling: Spelling {
+        semicolon_comments: Style::Usual,
+        percent: Percent::Refused,
+        slash: Slash::Unknown,
+        ..BASE_SPELLING
+    },
+    words: &codes::ESTLCAM,
+    arcs: ArcRules { axis_word: false, ..BASE.arcs },
+    start_motion: StartMotion::None,
+    motion_is_stated: true,
+    one_word_each: true,
+    ..BASE
+};
+
+pub(super) static DIN: Rules = Rules {
+    dialect: Dialect::Din,
+    spelling: Spelling { percent: Percent::Title, block_numbers: Some(99_999_999), ..BASE_SPELLING },
+    words: &codes::DIN,
+    start_motion: StartMotion::None,
+    unit_words: [700, 710],
+    dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"X" },
+    program_numbers: false,
+    least_increments: false,
+    stops_last: true,
+    ..ISO
 };

@@ -71,6 +71,8 @@ pub enum Percent {
     Frame,
     /// It begins the program.
     Start,
+    /// The first begins the program, also behind a block number, and the rest of its line is the program's name.
+    Title,
     /// The control refuses it.
     Refused,
 }

@@ -54,7 +54,7 @@ impl<'i> Interpreter<'i> {
         if !self.ended && !is_framed && has_end {
             let words = match self.rules.spelling.percent {
                 Percent::Frame => "M2, M30, %",
-                Percent::Start => "M30",
+                Percent::Start | Percent::Title => "M30",
                 Percent::Refused => "M2, M30",
             };
             self.problems.add_at_line(&say::NO_END, last_line, |d| d.with("words", words));
@@ -146,11 +146,16 @@ impl<'i> Interpreter<'i> {
         self.set_feed(block);
         self.set_speed(block);
         self.tool(block);
-        self.spindle_and_coolant(block);
+        let stops_last = self.rules.stops_last && self.words.m_code(&[50, 90]).is_some();
+        if !stops_last {
+            self.spindle_and_coolant(block);
+        }
         self.dwell(block);
         self.modes(block);
         let has_moved = self.coordinates_taken(block) || self.motion(block);
-        if has_moved {
+        if stops_last {
+            self.spindle_and_coolant(block);
+        } else if has_moved {
             self.check_stop_before_motion(block);
         }
         self.stop(block);

@@ -71,6 +71,11 @@ const SIGNS: &[Sign] = &[
         },
     ),
     (
+        Dialect::Din,
+        is_title,
+        &Word { en: "its first line is `%` and a name", de: "seine erste Zeile ist `%` und ein Name" },
+    ),
+    (
         Dialect::Fanuc,
         |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
         &Word { en: "it has a program number", de: "es hat eine Programmnummer" },
@@ -137,6 +142,16 @@ fn has(line: &[u8], sign: &[u8]) -> bool {
 
 fn without_round_comments(line: &[u8]) -> &[u8] {
     &line[..memchr::memchr(b'(', line).unwrap_or(line.len())]
+}
+
+/// `%NAME`, also behind a block number.
+fn is_title(line: &[u8]) -> bool {
+    let digits = |line: &[u8]| line.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let line = match line {
+        [b'N', rest @ ..] => rest[digits(rest)..].trim_ascii_start(),
+        line => line,
+    };
+    matches!(line, [b'%', name, ..] if name.is_ascii_alphanumeric())
 }
 
 fn is_number(text: &[u8]) -> bool {

@@ -19,6 +19,9 @@ impl Interpreter<'_> {
         if self.rules.one_command {
             self.check_command(block);
         }
+        if self.rules.one_word_each {
+            self.check_one_each(block);
+        }
         for (index, word) in block.words.iter().enumerate() {
             let (value, decimals) = self.value(block, word.value, word.span)?;
             match word.letter {
@@ -84,6 +87,20 @@ impl Interpreter<'_> {
             self.report(block, &say::SECOND_COMMAND, second.span, |d| {
                 d.with("first", first).with("word", name)
             });
+        }
+    }
+
+    /// The control obeys one G word and one M word a line.
+    fn check_one_each(&mut self, block: &Block<'_>) {
+        for letter in [b'G', b'M'] {
+            let mut words = block.words.iter().filter(|word| word.letter == letter);
+            if let (Some(first), Some(second)) = (words.next(), words.next()) {
+                let [first, name] = [first, second].map(|word| block.text_of(word.span).into_owned());
+                let letter = char::from(letter);
+                self.report(block, &say::SECOND_WORD, second.span, |d| {
+                    d.with("letter", letter).with("first", first).with("word", name)
+                });
+            }
         }
     }
 

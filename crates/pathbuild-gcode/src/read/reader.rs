@@ -228,7 +228,11 @@ impl<'t> BlockReader<'t> {
     }
 
     fn percent(&mut self, line: &[u8]) -> Beginning {
-        let blanks = line.iter().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+        let is_blank = |byte: &&u8| matches!(byte, b' ' | b'\t');
+        let mut blanks = line.iter().take_while(is_blank).count();
+        if self.rules.spelling.percent == Percent::Title {
+            blanks += title_number(&line[blanks..]);
+        }
         if line.get(blanks) != Some(&b'%') {
             return Beginning::Nothing;
         }
@@ -239,7 +243,11 @@ impl<'t> BlockReader<'t> {
                 self.report(&say::UNKNOWN_PERCENT, &line[..behind], |d| d);
                 Beginning::Passed(behind)
             }
-            Percent::Frame => {
+            Percent::Title if self.state == State::Leader => {
+                self.state = State::Program;
+                Beginning::Comment(Span::new(behind, line.len()))
+            }
+            Percent::Frame | Percent::Title => {
                 let text = Span::new(behind, line.len());
                 if self.state == State::Leader {
                     self.state = State::Program;
@@ -316,6 +324,12 @@ enum Beginning {
     Passed(usize),
     /// The rest is a comment.
     Comment(Span),
+}
+
+/// The length of a block number, and of the blanks behind it, in front of a program's name.
+fn title_number(line: &[u8]) -> usize {
+    let [b'N' | b'n', digits @ ..] = line else { return 0 };
+    1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()
 }
 
 fn bare(bytes: &[u8]) -> usize {

@@ -20,6 +20,8 @@ pub(super) struct Target {
     has_real_time_bytes: bool,
     /// A line may begin with `%`.
     percent: bool,
+    /// The rest of a line with `%` is the program's name, also behind a block number.
+    titles: bool,
     longest: Option<LineLength>,
     /// The tool's number stands bare behind M6.
     bare_tool_number: bool,
@@ -70,6 +72,7 @@ impl Target {
             },
             has_real_time_bytes: spelling.real_time_bytes,
             percent: spelling.percent != Percent::Refused,
+            titles: spelling.percent == Percent::Title,
             longest: spelling.line_length,
             bare_tool_number: spelling.bare_tool_number,
             message_codes: spelling.message_codes,
@@ -122,6 +125,11 @@ impl Target {
         let mut pieces = Vec::new();
         let mut begins = 0;
         let mut at = 0;
+        if self.titles
+            && let Some(percent) = line.find('%').filter(|at| is_block_number(&line[..*at]))
+        {
+            return vec![LinePart::Code(&line[..percent]), LinePart::Comment(&line[percent..])];
+        }
         let code = self.code_length(line);
         if code < line.len() {
             return vec![LinePart::Code(&line[..code]), LinePart::Comment(&line[code..])];
@@ -140,6 +148,13 @@ impl Target {
         pieces.push(LinePart::Code(&line[begins..]));
         pieces
     }
+}
+
+/// Whether a text is nothing, or a block number.
+fn is_block_number(text: &str) -> bool {
+    let text = text.trim();
+    text.is_empty()
+        || text.strip_prefix('N').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// A part of a line.

@@ -287,9 +287,12 @@ impl PostProcessor {
     }
 }
 
-/// The words that programs of a dialect may have: those of the configuration's post, if it writes this dialect, else of the post that
-/// comes with pathbuild.
-pub fn known_words(context: &Workspace, dialect: Dialect) -> PostWords {
+/// The words that programs of a dialect may have: those of the post that wrote them, where it is named, else of the configuration's post, if
+/// it writes this dialect, else of the post that comes with pathbuild.
+pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: Dialect) -> PostWords {
+    if let Some(poster) = wrote {
+        return poster.words(dialect);
+    }
     let of_run = |name| PostProcessor::of_run(context, name, PostArguments::default()).ok().flatten();
     let writes_it = |poster: &PostProcessor| poster.reader().is_none_or(|reader| reader == dialect);
     let poster = of_run(None).filter(writes_it).or_else(|| of_run(Some(dialect.name())));

@@ -9,7 +9,7 @@ use crate::completion;
 /// How programs are read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ReadingArgs {
-    /// G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas or marlin; without it pathbuild guesses
+    /// G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses
     #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
     pub dialect: Option<Dialect>,
     /// `XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round
@@ -63,6 +63,9 @@ pub struct VerifyArgs {
     /// Height of the material's upper face; pathbuild's own programs say it themselves
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
+    /// Post-processor that wrote the programs: its words are known, and its dialect is read
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadingArgs,

@@ -276,8 +276,12 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ),
     // How programs are read.
     (
-        "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas or marlin; without it pathbuild guesses",
-        "G-Code-Dialekt: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas oder marlin; sonst versucht pathbuild, ihn zu erkennen",
+        "Post-processor that wrote the programs: its words are known, and its dialect is read",
+        "Postprozessor, der die Programme geschrieben hat: seine Wörter sind bekannt, und sein Dialekt wird gelesen",
+    ),
+    (
+        "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses",
+        "G-Code-Dialekt: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam oder din; sonst versucht pathbuild, ihn zu erkennen",
     ),
     (
         "`XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round",

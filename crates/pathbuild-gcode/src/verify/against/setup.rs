@@ -244,7 +244,7 @@ impl<'w> Setup<'w> {
 
     /// Where programs choose their tool, or the layer that they mill, it is the drawing's.
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
-        let chosen = if self.words.has('M', 60) { self.inserted } else { self.selected };
+        let chosen = self.inserted.or(self.selected);
         let is_chosen = if self.dialect.rules().layers {
             // Moves before M6 are on the first layer.
             self.expected.number.is_none_or(|expected| expected == chosen.unwrap_or(1))

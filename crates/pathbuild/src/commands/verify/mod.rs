@@ -19,7 +19,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{number, positive};
 use pathbuild_workspace::machine::machine;
-use pathbuild_workspace::posting::known_words;
+use pathbuild_workspace::posting::{PostArguments, PostProcessor, known_words};
 use pathbuild_workspace::session::Session;
 
 use super::program::Program;
@@ -31,6 +31,13 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(wishes) => wishes,
         Err(fault) => return context.refuse(vec![*fault]),
     };
+    let named = args.post.as_deref().map(|name| {
+        PostProcessor::of_run(context, Some(name), PostArguments::default())
+    });
+    let wrote = match named.transpose() {
+        Ok(wrote) => wrote.flatten(),
+        Err(problems) => return context.fail(problems),
+    };
     context.output.figure("programs", args.files.len());
     let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
@@ -41,7 +48,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
     for file in &args.files {
-        match check(context, file, args, &wishes, against.as_ref()) {
+        match check(context, file, args, &wishes, against.as_ref(), wrote.as_ref()) {
             Ok(found) => diagnostics.extend(found),
             Err(problem) => diagnostics.push(*problem),
         }
@@ -75,13 +82,16 @@ fn check(
     args: &VerifyArgs,
     wishes: &StockOptions,
     against: Option<&Against>,
+    wrote: Option<&PostProcessor>,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
+    let mut reading = args.reading.clone();
+    reading.dialect = reading.dialect.or(wrote.and_then(PostProcessor::reader));
     let machine = machine(context);
     let mut limits = machine.as_ref().map(MachineRules::new);
     let mut tools = stock::Tools::default();
     let mut stated = StatedStatistics::default();
     let mut has_probed = false;
-    let program = Program::open_each(context, file, &args.reading, &mut |step| {
+    let program = Program::open_each(context, file, &reading, &mut |step| {
         tools.step(&step);
         stated.step(&step);
         has_probed |= step.as_move().is_some_and(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
@@ -97,7 +107,7 @@ fn check(
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
-    let words = known_words(context, program.dialect);
+    let words = known_words(context, wrote, program.dialect);
     let mut foreign = against.is_none().then(|| WordRules::new(&words, program.dialect));
     // The probing run of a drawing is a text of its own.
     let is_probing = has_probed && program.dialect == Dialect::Native;
