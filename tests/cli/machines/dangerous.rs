@@ -196,7 +196,13 @@ fn probed(place: &Place) -> Vec<Good> {
     let values = format!("{directory}/{PROBED}_Z.txt");
     let mut off = [-0.04, 0.02, 0.05, -0.01].into_iter().cycle();
     let measured = |line: &str| {
-        let drawn = line.split("/T=").nth(1).unwrap().split(|c: char| c != '.' && c != '-' && !c.is_ascii_digit()).next().unwrap();
+        let drawn = line
+            .split("/T=")
+            .nth(1)
+            .unwrap()
+            .split(|c: char| c != '.' && c != '-' && !c.is_ascii_digit())
+            .next()
+            .unwrap();
         format!("{line}{:.3}\n", drawn.parse::<f64>().unwrap() + off.next().unwrap())
     };
     let text: String = place.read(&values).lines().map(measured).collect();
