@@ -469,12 +469,13 @@ fn what_may_be_written_again_is_not_stale() {
     place.run("emit");
     // A path that is wrong just now; one that is no target; what adjust makes; a drawing that is ignored.
     place.run("emit 1234.1P");
-    let clean = place.read("projects/8002_Clean.gcode");
+    let values = place.read("projects/8002_Z.txt").replace("=\n", "=5.125\n");
+    let place = place.file("projects/8002_Z.txt", values);
+    assert_eq!(place.run("adjust projects/8002.dxf --max-correction 0.9").status, Some(0));
     let ignored = place.read("projects/8001 a b_Milling.gcode").replace("8001 a b.dxf", "8009.dxf");
     let broken =
         Place::of("== 8001 a b.dxf ==\nlayer 8001.1P\nstart 0,0 \"T5 O2\"\nmill 0,0 40,0\nend 40,0\n");
     let place = place
-        .file("projects/8002_Milling.gcode", clean)
         .file("projects/8009_Milling.gcode", ignored)
         .file("projects/8009.dxf", "nothing")
         .file("projects/.ignore", "8009.dxf\n")

@@ -60,7 +60,7 @@ fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'d
         outer,
         settings.restrictions(db),
         &settings.language(db).path_pattern,
-        settings.fold(db).compatible,
+        settings.reading(db).compatible,
     );
     let embedder = Embedder { db, file: instance.file(db), judge };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()

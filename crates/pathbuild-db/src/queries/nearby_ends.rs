@@ -3,22 +3,25 @@
 use std::cell::OnceCell;
 
 use pathbuild_diagnostic::messages::{drawing, walk};
-use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Note, Number, Point, Value};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{Arc, Curve, Language, Line, LineType, PathName, TextCircle, Xy, on_circle};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 
 /// Everything on all layers of a drawing. The drawing is read again when it is first needed.
 pub(super) struct LayerEnds<'a> {
     /// Reads all layers of the drawing.
     read: &'a dyn Fn() -> Drawing,
-    all: OnceCell<Drawing>,
+    all: OnceCell<AllLayers>,
+    /// The first start and the first end marker on layers of no path.
+    markers: OnceCell<[Option<usize>; 2]>,
 }
 
-/// An end of a line or arc on any layer.
-struct LayerEnd {
-    layer: Box<str>,
-    kind: EntityKind,
-    point: Point,
+/// A drawing with all its layers, and the boxes of its entities: thousands of problems must not each look at all of them.
+struct AllLayers {
+    drawing: Drawing,
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
 /// Largest distance in mm at which an end on another layer is worth a hint.
@@ -26,7 +29,7 @@ const WORTH_NAMING: f64 = 1.0;
 
 impl<'a> LayerEnds<'a> {
     pub(super) fn new(read: &'a dyn Fn() -> Drawing) -> Self {
-        Self { read, all: OnceCell::new() }
+        Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
     /// Adds what is drawn on another layer and was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element.
@@ -54,50 +57,54 @@ impl<'a> LayerEnds<'a> {
         problem
     }
 
-    fn entities(&self) -> impl Iterator<Item = (&str, &Entity)> {
-        let all = self.all.get_or_init(self.read);
-        all.entities.iter().map(|entity| (&*all.layers[entity.layer as usize].name, entity))
+    fn all(&self) -> &AllLayers {
+        self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
     /// The nearest end on a layer of no or another path.
     fn end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
-        let point = problem.place.point?;
-        let ends = all_ends(self.all.get_or_init(self.read));
+        let Point { x: Number(x), y: Number(y) } = problem.place.point?;
+        let point = Xy::new(x, y);
         let is_other =
-            |end: &&LayerEnd| language.path_pattern.layer(&end.layer).is_none_or(|layer| layer.path != *path);
-        let distances = ends.iter().filter(is_other).map(|end| (end, distance(end.point, point)));
-        let (end, distance) = distances.reduce(|best, other| if other.1 < best.1 { other } else { best })?;
+            |layer: &str| language.path_pattern.layer(layer).is_none_or(|layer| layer.path != *path);
+        let near = self.all().near(point, WORTH_NAMING).filter(|(layer, _)| is_other(layer));
+        let ends = near.flat_map(|(layer, entity)| {
+            ends_of(&entity.geometry).into_iter().flatten().map(move |end| (layer, entity.kind, end))
+        });
+        let distances = ends.map(|(layer, kind, end)| (layer, kind, end, (end - point).norm()));
+        let (layer, kind, end, distance) =
+            distances.reduce(|best, other| if other.3 < best.3 { other } else { best })?;
         let arguments = vec![
-            ("layer", (&*end.layer).into()),
-            ("element", end.kind.name().into()),
-            ("point", end.point.into()),
+            ("layer", layer.into()),
+            ("element", kind.name().into()),
+            ("point", Point::new(end.x, end.y).into()),
             ("distance", distance.into()),
         ];
         let note = Note { message: &walk::END_ON_OTHER_LAYER, arguments };
         (distance <= WORTH_NAMING).then_some((note, distance))
     }
 
-    /// A marker of this radius on a layer of no path.
+    /// A start or end marker on a layer of no path.
     fn marker(
         &self,
         language: &Language,
         problem: &Diagnostic,
-        radius: f64,
-        message: &'static pathbuild_diagnostic::Message,
+        which: usize,
+        message: &'static Message,
     ) -> Option<(Note, f64)> {
         // Another circle was named already.
         if !problem.notes.is_empty() {
             return None;
         }
-        let (layer, centre) = self.entities().find_map(|(layer, entity)| match &entity.geometry {
-            Geometry::Circle(circle) if (circle.radius - radius).abs() < SAME_RADIUS => {
-                let is_phantom =
-                    LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom);
-                let is_of_path = language.path_pattern.layer(layer).is_some();
-                (is_phantom && !is_of_path).then_some((layer, Point::new(circle.centre.x, circle.centre.y)))
-            }
-            _ => None,
-        })?;
+        let markers = self.markers.get_or_init(|| {
+            MARKER_RADII.map(|radius| {
+                let mut entities = self.all().entities();
+                entities.position(|(layer, entity)| is_marker(language, layer, entity, radius))
+            })
+        });
+        let (layer, entity) = self.all().entity(markers[which]?)?;
+        let Geometry::Circle(circle) = &entity.geometry else { return None };
+        let centre = Point::new(circle.centre.x, circle.centre.y);
         Some((Note { message, arguments: vec![("layer", layer.into()), ("point", centre.into())] }, 0.0))
     }
 
@@ -115,7 +122,8 @@ impl<'a> LayerEnds<'a> {
         }
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
-        let others = self.entities().filter(|(layer, _)| Some(*layer) != own);
+        let near = self.all().near(text.centre, text.radius + WORTH_NAMING);
+        let others = near.filter(|(layer, _)| Some(*layer) != own);
         let distances =
             others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
         let (layer, entity, gap) =
@@ -126,6 +134,44 @@ impl<'a> LayerEnds<'a> {
     }
 }
 
+impl AllLayers {
+    fn new(drawing: Drawing) -> Self {
+        let boxes = drawing.entities.iter().map(|entity| box_of(&entity.geometry)).zip(0..);
+        let boxes = boxes.filter_map(|(box_, index)| Some(GeomWithData::new(box_?, index)));
+        let boxes = RTree::bulk_load(boxes.collect());
+        Self { drawing, boxes }
+    }
+
+    fn entities(&self) -> impl Iterator<Item = (&str, &Entity)> {
+        (0..self.drawing.entities.len()).filter_map(|index| self.entity(index))
+    }
+
+    fn entity(&self, index: usize) -> Option<(&str, &Entity)> {
+        let entity = self.drawing.entities.get(index)?;
+        Some((&self.drawing.layers[entity.layer as usize].name, entity))
+    }
+
+    /// The entities whose boxes come within a distance of a point, in the order of the file.
+    fn near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, &Entity)> {
+        let searched = AABB::from_corners(
+            [point.x - distance, point.y - distance],
+            [point.x + distance, point.y + distance],
+        );
+        let mut found: Vec<usize> =
+            self.boxes.locate_in_envelope_intersecting(searched).map(|found| found.data).collect();
+        found.sort_unstable();
+        found.into_iter().filter_map(|index| self.entity(index))
+    }
+}
+
+/// Whether an entity is a marker of this radius on a layer of no path.
+fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> bool {
+    let Geometry::Circle(circle) = &entity.geometry else { return false };
+    (circle.radius - radius).abs() < SAME_RADIUS
+        && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom)
+        && language.path_pattern.layer(layer).is_none()
+}
+
 /// The distance that a note names, in mm.
 fn distance_of(note: &Note) -> Option<f64> {
     match note.arguments.iter().find(|(name, _)| *name == "distance")? {
@@ -134,9 +180,12 @@ fn distance_of(note: &Note) -> Option<f64> {
     }
 }
 
-/// Radii of the start and the end marker in mm, and how far others may be off.
-const START: f64 = 0.5;
-const END: f64 = 1.0;
+/// Radii of the start and the end marker in mm.
+const MARKER_RADII: [f64; 2] = [0.5, 1.0];
+const START: usize = 0;
+const END: usize = 1;
+
+/// Largest difference in mm between the radius of a marker and that of a circle that counts as one.
 const SAME_RADIUS: f64 = 0.001;
 
 /// The distance of an element from the circle of a text; `None` for texts.
@@ -158,34 +207,32 @@ fn gap(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     })
 }
 
-fn all_ends(drawing: &Drawing) -> Vec<LayerEnd> {
-    let mut ends = Vec::new();
-    for entity in &drawing.entities {
-        let layer = &drawing.layers[entity.layer as usize].name;
-        let mut add = |point: Xy| {
-            ends.push(LayerEnd {
-                layer: layer.clone(),
-                kind: entity.kind,
-                point: Point::new(point.x, point.y),
-            });
-        };
-        match &entity.geometry {
-            Geometry::Line(line) => {
-                add(Xy::new(line.start.x, line.start.y));
-                add(Xy::new(line.end.x, line.end.y));
-            }
-            Geometry::Arc(arc) => {
-                let centre = Xy::new(arc.centre.x, arc.centre.y);
-                add(on_circle(centre, arc.radius, arc.start_angle));
-                add(on_circle(centre, arc.radius, arc.end_angle));
-            }
-            Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => {}
+/// The box around a line, arc or circle; that of an arc is its circle's. `None` for texts.
+fn box_of(geometry: &Geometry) -> Option<Rectangle<[f64; 2]>> {
+    let around = |centre: &pathbuild_dxf::Point3, radius: f64| {
+        Rectangle::from_corners(
+            [centre.x - radius, centre.y - radius],
+            [centre.x + radius, centre.y + radius],
+        )
+    };
+    Some(match geometry {
+        Geometry::Line(line) => {
+            Rectangle::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
         }
-    }
-    ends
+        Geometry::Arc(arc) => around(&arc.centre, arc.radius),
+        Geometry::Circle(circle) => around(&circle.centre, circle.radius),
+        Geometry::Text(_) | Geometry::MText(_) => return None,
+    })
 }
 
-fn distance(a: Point, b: Point) -> f64 {
-    let difference = |Number(a): Number, Number(b): Number| a - b;
-    Xy::new(difference(a.x, b.x), difference(a.y, b.y)).coords.norm()
+/// The ends of a line or arc.
+fn ends_of(geometry: &Geometry) -> Option<[Xy; 2]> {
+    match geometry {
+        Geometry::Line(line) => Some([Xy::new(line.start.x, line.start.y), Xy::new(line.end.x, line.end.y)]),
+        Geometry::Arc(arc) => {
+            let centre = Xy::new(arc.centre.x, arc.centre.y);
+            Some([arc.start_angle, arc.end_angle].map(|angle| on_circle(centre, arc.radius, angle)))
+        }
+        Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => None,
+    }
 }

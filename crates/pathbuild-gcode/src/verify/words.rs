@@ -10,7 +10,8 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 
 use crate::dialect::Dialect;
 use crate::interpret::{
-    Action, Change, Corners, Group, Options, Pace, StatedWord, Step, WordEffect, code_name, interpret_each,
+    Action, Axes, Change, Corners, Group, Move, Options, Pace, StatedWord, Step, WordEffect, code_name,
+    interpret_each,
 };
 use crate::read::Problems;
 
@@ -32,6 +33,8 @@ pub struct PostWords {
     rapid_feed: Option<f64>,
     /// It lets the control round corners as far as it likes.
     rounds_freely: bool,
+    /// Whether its first move in the plane begins at a height that the program has stated; `None` before that move.
+    raises_first: Option<bool>,
 }
 
 /// How far a program has come.
@@ -81,6 +84,9 @@ impl PostWords {
 
     fn take(&mut self, step: &Step, progress: Progress) {
         match &step.action {
+            Action::Move(it) if moves_in_plane(it) => {
+                self.raises_first.get_or_insert(it.from.known.has(Axes::Z));
+            }
             Action::Word(word) => {
                 self.codes.insert((word.letter, word.code));
                 if word.effect == WordEffect::Place && progress != Progress::Cutting {
@@ -128,6 +134,11 @@ impl PostWords {
     }
 }
 
+/// Whether a move goes to a place in the plane.
+fn moves_in_plane(it: &Move) -> bool {
+    !it.to.known.and(Axes::XY).is_empty()
+}
+
 /// Groups of which a control keeps what the program before has set. Motions, tool lengths and corners are judged where they count.
 fn is_kept(group: Group) -> bool {
     !matches!(
@@ -149,6 +160,7 @@ pub struct WordRules<'w> {
     /// The program is to be what a drawing says.
     is_strict: bool,
     progress: Progress,
+    has_moved_in_plane: bool,
     /// Words before the first cut that go where the post goes only behind it: harmless in a program that cuts nothing.
     early_places: Vec<(u32, StatedWord)>,
     found: BTreeSet<(char, u16)>,
@@ -163,6 +175,7 @@ impl<'w> WordRules<'w> {
             dialect,
             is_strict: false,
             progress: Progress::Head,
+            has_moved_in_plane: false,
             early_places: Vec::new(),
             found: BTreeSet::new(),
             problems: Problems::default(),
@@ -182,6 +195,11 @@ impl<'w> WordRules<'w> {
                 self.report(line, &word);
             }
         }
+        if let Action::Move(it) = &step.action
+            && moves_in_plane(it)
+        {
+            self.first_in_plane(step.line, it);
+        }
         let Action::Word(word) = &step.action else { return };
         if !self.is_known(word) {
             self.report(step.line, word);
@@ -200,6 +218,17 @@ impl<'w> WordRules<'w> {
             let d = d.with("word", code_name(word.letter, word.code)).with("dialect", self.dialect.name());
             Diagnostic { severity, ..d }
         });
+    }
+
+    /// A first move in the plane that also goes to a height leads there aslant from a height that nobody knows. Where the post raises the
+    /// cutter before, the line that does so is missing. (A move at an unknown height is judged in [`super::rules`].)
+    fn first_in_plane(&mut self, line: u32, it: &Move) {
+        let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
+        let is_aslant = it.to.known.has(Axes::Z) && !it.from.known.has(Axes::Z);
+        if is_first && is_aslant && self.is_strict && self.words.raises_first == Some(true) {
+            let error = |d| Diagnostic { severity: Severity::Error, ..d };
+            self.problems.add_at_line(&say::START_NOT_RAISED, line, error);
+        }
     }
 
     fn is_early_place(&self, word: &StatedWord) -> bool {

@@ -259,7 +259,7 @@ fn built_in_posts_move_as_the_native_program() {
         assert_moves_alike(name, &output.text, &program);
         compared += 1;
     }
-    assert_eq!(compared, 7);
+    assert_eq!(compared, 9);
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub struct Node {
     pub bindings: Bindings,
     /// Whether the values are examples that it is checked with, and nothing embeds it with them.
     pub is_example: bool,
-    /// Whether it is right as far as its own drawing says. Of others it is not known what they embed.
+    /// Whether its own drawing has no errors. Other paths may embed more than is known.
     pub is_sound: bool,
 }
 

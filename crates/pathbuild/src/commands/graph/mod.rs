@@ -120,8 +120,8 @@ impl GraphArguments {
             context.printer.status(format_args!(
                 "{}: {unknown} ({})",
                 context.choose(
-                    "paths with errors, of which it is not known what they embed",
-                    "Pfade mit Fehlern, von denen nicht bekannt ist, was sie einbetten"
+                    "paths with errors, which may embed more than is shown",
+                    "Pfade mit Fehlern, die mehr einbetten können als gezeigt"
                 ),
                 context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
             ));
