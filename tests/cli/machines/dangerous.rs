@@ -467,6 +467,8 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
             Action::System(system) => {
                 settings.insert("system", format!("{system:?}"));
             }
+            // How fast rapid moves are changes nothing in the material.
+            Action::Change(interpret::Change::RapidFeed(_)) => {}
             Action::Change(change) => {
                 settings.insert("change", format!("{change:?}"));
             }
