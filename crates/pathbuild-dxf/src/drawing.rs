@@ -8,7 +8,7 @@ pub struct Options<'a> {
     pub keep_layer: &'a dyn Fn(&str) -> bool,
     /// Decides by the bytes of a TEXT, or of the last part of an MTEXT, on an unwanted layer whether the drawing shall say that it has such
     /// a text ([`Drawing::has_noted_text`]). The text is not decoded.
-    pub note_text: Option<&'a dyn Fn(&[u8]) -> bool>,
+    pub note_text: Option<TextTest<'a>>,
     /// How $INSUNITS is treated.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE by arcs; 0 leaves them out with PB111.
@@ -21,6 +21,9 @@ pub struct Options<'a> {
     /// with one warning per drawing, and no MTEXT has a width.
     pub compatible: bool,
 }
+
+/// Decides by the bytes of a text.
+pub type TextTest<'a> = &'a dyn Fn(&[u8]) -> bool;
 
 /// How $INSUNITS is treated. (book: reference/configuration, `units`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

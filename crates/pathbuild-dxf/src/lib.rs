@@ -43,7 +43,7 @@ mod units;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,
-    Origin, Point3, Text, Units, VerticalAlign,
+    Origin, Point3, Text, TextTest, Units, VerticalAlign,
 };
 
 /// Reads a drawing.

@@ -156,9 +156,8 @@ impl PathNumbers {
 /// The use of a letter on an element. Elements whose text is not read are swept along at the path's height.
 fn use_of(class: ElementClass, letter: Letter) -> Use {
     match (class, letter) {
-        (_, Letter::At) => Use::Unknown,
         (ElementClass::Unread, Letter::S) => Use::PathOnly,
-        (ElementClass::Unread, _) => Use::Unknown,
+        (_, Letter::At) | (ElementClass::Unread, _) => Use::Unknown,
         _ => class.use_of(letter),
     }
 }

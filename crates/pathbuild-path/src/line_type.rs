@@ -121,7 +121,7 @@ fn differs_little(name: &str, other: &str) -> bool {
     let (name, other) = (&name[same_start..], &other[same_start..]);
     let same_end = name.iter().rev().zip(other.iter().rev()).take_while(|(a, b)| a == b).count();
     match (&name[..name.len() - same_end], &other[..other.len() - same_end]) {
-        ([], [] | [_]) | ([_], [] | [_]) => true,
+        ([] | [_], [] | [_]) => true,
         ([a, b], [c, d]) => a == d && b == c,
         _ => false,
     }

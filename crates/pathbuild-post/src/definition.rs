@@ -255,7 +255,7 @@ impl Post {
         options: &PostOptions<'_>,
         output: &mut Output,
     ) -> Result<(String, Vec<Unfollowed>, Vec<LineOrigin>), Vec<Diagnostic>> {
-        let cambam::Written { written, post_build, leaves_out_coolant } =
+        let cambam::Written { text: written, post_build, leaves_out_coolant } =
             cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
         output.warnings.extend(written.warnings);
@@ -276,11 +276,11 @@ impl Post {
 }
 
 /// The text of a definition in UTF-8, or in UTF-16 with its mark, as some editors save XML.
-fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Diagnostic> {
+fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
         let text: Result<String, _> = char::decode_utf16(units).collect();
-        text.map(Cow::Owned).map_err(|_| Diagnostic::new(&posts::POST_NOT_UTF16))
+        text.map(Cow::Owned).map_err(|_| Box::new(Diagnostic::new(&posts::POST_NOT_UTF16)))
     };
     match bytes {
         [0xFF, 0xFE, rest @ ..] => return wide(rest, u16::from_le_bytes),
@@ -291,8 +291,9 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Diagnostic> {
     }
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     std::str::from_utf8(bytes).map(Cow::Borrowed).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
-        Diagnostic::new(&posts::POST_NOT_UTF8).at_line(u32::try_from(line).unwrap_or(u32::MAX), None)
+        let line = 1 + memchr::memchr_iter(b'\n', &bytes[..error.valid_up_to()]).count();
+        let line = u32::try_from(line).unwrap_or(u32::MAX);
+        Box::new(Diagnostic::new(&posts::POST_NOT_UTF8).at_line(line, None))
     })
 }
 

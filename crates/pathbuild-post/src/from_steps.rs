@@ -92,6 +92,7 @@ struct State {
     plane: Plane,
 }
 
+#[expect(clippy::struct_excessive_bools, reason = "facts that do not depend on each other")]
 struct Builder {
     job: Job,
     state: State,

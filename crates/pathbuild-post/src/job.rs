@@ -87,7 +87,7 @@ impl Job {
             for step in &mut operation.steps {
                 match step {
                     Step::Feed { feed: own, .. } | Step::Probe { feed: own, .. } => {
-                        _ = own.get_or_insert(feed)
+                        _ = own.get_or_insert(feed);
                     }
                     Step::Arc(arc) => _ = arc.feed.get_or_insert(feed),
                     Step::Hole(hole) => _ = hole.feed.get_or_insert(feed),

@@ -111,11 +111,11 @@ fn work_grows_with_what_a_post_writes() {
 /// The same with the definition: macros, elements and mistakes. At most 100 mistakes are told.
 #[test]
 fn work_grows_with_what_a_definition_holds() {
+    type Definition<'d> = &'d dyn Fn(usize) -> String;
     let cambam = |macros: String| {
         format!("<PostProcessor><PostProcessorMacros>\n{macros}</PostProcessorMacros></PostProcessor>")
     };
     let texts = |line: String| format!("[text]\nline='''\n{line}'''\n");
-    type Definition<'d> = &'d dyn Fn(usize) -> String;
     let lines = |line: &dyn Fn(usize) -> String, count| (0..count).map(line).collect::<String>();
     for (name, file, count, definition) in [
         (

@@ -189,11 +189,10 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
             Action::Move(it) if it.is_nothing() => {}
             Action::Move(it) if it.pace != Pace::Rapid => effects.push((it, Some(spindle))),
             Action::Move(it) if it.to.z() < low || it.from.z() < low => effects.push((it, None)),
-            Action::Change(Change::Corners(Corners::Exact)) => {}
+            Action::Change(Change::Corners(Corners::Exact) | Change::RapidFeed(_)) => {}
             Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most <= 0.01 => {}
             // The tool's length, offsets and the like change the machine's coordinates, not the program's.
             Action::Change(Change::Corners(Corners::Rounded(None))) => effects.push((nothing(), None)),
-            Action::Change(Change::RapidFeed(_)) => {}
             Action::Change(_) | Action::System(_) => effects.push((nothing(), Some(spindle))),
             _ => {}
         }

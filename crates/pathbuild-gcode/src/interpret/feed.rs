@@ -53,13 +53,11 @@ impl Interpreter<'_> {
         }
         let layer = self.layer_of_block();
         let speeds = &mut self.state.layer_speeds;
-        let old = match speeds.iter_mut().find(|(known, _)| *known == layer) {
-            Some((_, speed)) => std::mem::replace(speed, slot.value),
-            None => {
-                speeds.push((layer, slot.value));
-                return;
-            }
+        let Some((_, speed)) = speeds.iter_mut().find(|(known, _)| *known == layer) else {
+            speeds.push((layer, slot.value));
+            return;
         };
+        let old = std::mem::replace(speed, slot.value);
         if old != slot.value {
             self.report(block, &say::SPEED_REPLACED, slot.span, |d| {
                 d.with("layer", u64::from(layer)).with("old", old).with("new", slot.value)

@@ -192,7 +192,7 @@ impl<'w> WordRules<'w> {
         self.progress.step(step);
         if self.progress == Progress::Cutting {
             for (line, word) in std::mem::take(&mut self.early_places) {
-                self.report(line, &word);
+                self.report(line, word);
             }
         }
         if let Action::Move(it) = &step.action
@@ -201,14 +201,14 @@ impl<'w> WordRules<'w> {
             self.first_in_plane(step.line, it);
         }
         let Action::Word(word) = &step.action else { return };
-        if !self.is_known(word) {
-            self.report(step.line, word);
-        } else if self.is_early_place(word) {
+        if !self.is_known(*word) {
+            self.report(step.line, *word);
+        } else if self.is_early_place(*word) {
             self.early_places.push((step.line, *word));
         }
     }
 
-    fn report(&mut self, line: u32, word: &StatedWord) {
+    fn report(&mut self, line: u32, word: StatedWord) {
         let is_new = self.found.insert((word.letter, word.code));
         if !is_new && !self.is_strict {
             return;
@@ -231,7 +231,7 @@ impl<'w> WordRules<'w> {
         }
     }
 
-    fn is_early_place(&self, word: &StatedWord) -> bool {
+    fn is_early_place(&self, word: StatedWord) -> bool {
         self.is_strict
             && word.effect == WordEffect::Place
             && self.progress != Progress::Cutting
@@ -243,7 +243,7 @@ impl<'w> WordRules<'w> {
         self.problems.into_diagnostics()
     }
 
-    fn is_known(&self, word: &StatedWord) -> bool {
+    fn is_known(&self, word: StatedWord) -> bool {
         self.words.has(word.letter, word.code)
             || match word.effect {
                 WordEffect::Followed => true,

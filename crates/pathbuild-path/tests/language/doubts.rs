@@ -254,10 +254,7 @@ fn a_nearer_element_of_another_kind_is_a_rival() {
     let sweep = ring.replace("mill", "sweep");
     let text = "text 16.3,0 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);
-    assert_eq!(
-        texts(&format!("{}\n{text}", format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle")), 0.1),
-        [""; 0]
-    );
+    assert_eq!(texts(&format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{}\n{text}", ring.replace("mill 0,0 17,0", "mill 0,3 17,3")), 0.1), [""; 0]);
     // The ring is nearer.
     let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";

@@ -230,7 +230,7 @@ fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlT
 
 /// How many lines end in a text.
 fn line_ends(text: &[u8]) -> usize {
-    text.iter().filter(|byte| **byte == b'\n').count()
+    memchr::memchr_iter(b'\n', text).count()
 }
 
 /// A span of the expanded text as one of the control text.

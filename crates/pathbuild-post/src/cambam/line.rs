@@ -5,6 +5,7 @@ use super::section::Section;
 
 /// The line that is being written.
 #[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "facts that do not depend on each other")]
 pub(super) struct Line {
     pub(super) text: String,
     /// What did not come from macros of motion codes.

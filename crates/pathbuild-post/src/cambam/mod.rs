@@ -49,13 +49,13 @@ pub(super) fn write(
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
-    let written = Writer::new(&plan).run().map_err(one)?;
-    Ok(Written { written, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+    let text = Writer::new(&plan).run().map_err(one)?;
+    Ok(Written { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
 /// What the engine wrote.
 pub(super) struct Written {
-    pub(super) written: WrittenText,
+    pub(super) text: WrittenText,
     /// The definition's own command.
     pub(super) post_build: Option<Vec<String>>,
     /// The program says what the coolant does, and the definition has no macro for that.

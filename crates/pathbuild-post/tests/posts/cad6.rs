@@ -70,6 +70,7 @@ fn written(definition: &str, job: &Job) -> String {
 }
 
 #[test]
+#[expect(clippy::disallowed_methods, reason = "it reads the books")]
 fn the_manual_s_rectangle_comes_out_byte_for_byte() {
     let expected = "\
 N10 %TEST-DIN-ISO

@@ -359,7 +359,7 @@ fn a_cut_from_or_to_an_unknown_place_is_an_error() {
         match written {
             Ok(_) => assert!(is_known, "{cut}"),
             Err(errors) => {
-                assert!(!is_known && errors[0].contains("PB765 a cut from or to a place"), "{errors:?}")
+                assert!(!is_known && errors[0].contains("PB765 a cut from or to a place"), "{errors:?}");
             }
         }
     }

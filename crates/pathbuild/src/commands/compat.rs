@@ -134,7 +134,7 @@ fn named_lang_in(arguments: &[String]) -> Option<Lang> {
         ('l', glued) => named_lang(value('l', glued)),
         _ => None,
     };
-    arguments.iter().enumerate().filter_map(named).last()
+    arguments.iter().enumerate().filter_map(named).next_back()
 }
 
 /// The arguments of the shell where `compat` comes first: what follows with one hyphen is theirs, `-v` and `-h` too.
