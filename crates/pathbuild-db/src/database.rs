@@ -118,7 +118,8 @@ impl Database {
         has_changes
     }
 
-    /// Whether the bytes of a drawing ever changed under its index. Results from before and after that may stem from different bytes.
+    /// Whether the bytes of a drawing ever changed after it was indexed. Results from before and after the change may stem from different
+    /// bytes.
     pub fn has_drifted(&self, file: SourceFile) -> bool {
         lock(&self.shared.drifted).contains(&file)
     }

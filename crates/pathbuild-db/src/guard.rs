@@ -30,7 +30,7 @@ impl Underway {
 }
 
 impl Database {
-    /// Clears a cancellation whose work has ended, so that it does not hit the next query.
+    /// Clears a cancellation whose work has ended, so that it does not cancel the next query.
     pub fn forget_given_up(&self) {
         // Salsa clears it at the end of every query that was not called by another.
         self.attach(|_| ());

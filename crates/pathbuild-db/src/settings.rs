@@ -1,5 +1,5 @@
-//! What the configuration and the options say, one field for each consumer, so that a changed feed does not read drawings again.
-//! (book: reference/configuration)
+//! Settings from the configuration and the options, one field for each consumer, so that changing the feed does not invalidate the parsed
+//! drawings. (book: reference/configuration)
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,22 +14,22 @@ pub struct Settings {
     /// How drawings are read.
     #[returns(ref)]
     pub reading: Reading,
-    /// What the drawing language needs to know.
+    /// Settings of the drawing language.
     #[returns(ref)]
     pub language: Arc<Language>,
-    /// What file names say about paths.
+    /// How file names map to path names.
     #[returns(ref)]
     pub file_pattern: FilePattern,
-    /// Directories where embedded paths are looked for beyond the drawing's own, in order.
+    /// Directories searched for embedded paths after the drawing's own, in order.
     #[returns(ref)]
     pub search: Vec<Utf8PathBuf>,
-    /// Which paths may embed which.
+    /// Rules about which paths may embed which.
     #[returns(ref)]
     pub restrictions: Vec<Restriction>,
-    /// What holds where a drawing gives no F or S.
+    /// Values used if a drawing gives no F or S.
     #[returns(copy)]
     pub fold: PathOptions,
-    /// What is refused as too much.
+    /// Limits beyond which work is refused.
     #[returns(copy)]
     pub limits: Limits,
 }
@@ -37,32 +37,32 @@ pub struct Settings {
 /// How drawings are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What $INSUNITS means.
+    /// The unit that $INSUNITS stands for.
     pub units: Units,
-    /// Tolerance for ELLIPSE and SPLINE in mm; 0: left out.
+    /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 ignores them.
     pub approximate_curves: f64,
-    /// Largest file in bytes.
+    /// Maximum size of a file in bytes.
     pub file_size: u64,
-    /// Most entities.
+    /// Maximum number of entities.
     pub entities: usize,
-    /// Longest text in bytes.
+    /// Maximum length of a text in bytes.
     pub text_length: usize,
-    /// Longest time of a walk along a path, of which a drawing's index knows the outcome, whoever asks for it.
+    /// Maximum time for walking a path. It belongs to reading because a drawing's index contains the result of the walk.
     pub walk_time: Duration,
-    /// Whether drawings are hashed, for saying out of which a program was made. It takes about as long as reading them.
+    /// Whether to hash drawings, so that a program can name its source. This takes about as long as reading them.
     pub is_hashed: bool,
-    /// Whether only those entities count that PathDxf2GCode knows.
+    /// Whether to ignore all entities that PathDxf2GCode does not know.
     pub compatible: bool,
 }
 
-/// What is refused as too much: PB005.
+/// Limits beyond which work is refused with PB005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Most moves of a program.
+    /// Maximum number of moves in a program.
     pub moves: u64,
-    /// Most bytes that the moves of a program may take in memory.
+    /// Maximum size in bytes of a program's moves in memory.
     pub memory: u64,
-    /// Most paths in a program that differ in their drawings or values: each costs memory, however little it mills.
+    /// Maximum number of paths in a program that differ in drawing or values: each takes memory, however little it mills.
     pub paths: u64,
 }
 

@@ -16,7 +16,7 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::NOT_REGULAR;
 use tempfile::TempDir;
 
-/// A directory with a file of so many bytes.
+/// A directory with a file of this size in bytes.
 fn file(size: usize) -> (TempDir, Utf8PathBuf) {
     let directory = tempfile::tempdir().expect("there is room for a directory");
     let path = Utf8Path::from_path(directory.path()).expect("it is UTF-8").join("drawing.dxf");
@@ -31,7 +31,7 @@ fn a_file_may_have_as_many_bytes_as_the_limit() {
     assert_eq!(OsSystem.read(&path, 999), Err(ReadError::TooLarge { size: 1000 }));
 }
 
-/// Files of the kernel tell no size: here the environment of a process, which answers once it runs.
+/// Files of the kernel report no size. This one is the environment of a process, which is readable once it runs.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
@@ -50,7 +50,7 @@ fn a_file_that_is_longer_than_it_says_is_read_up_to_the_limit() {
     assert!(read[1..].iter().all(|read| matches!(read, Err(ReadError::TooLarge { .. }))), "{read:?}");
 }
 
-/// What was read before is not seen again, whether that was longer or shorter.
+/// Old content does not show up again, whether it was longer or shorter.
 #[test]
 fn drawings_are_read_into_the_same_memory() {
     let mut room = b"x".repeat(50);
@@ -61,7 +61,7 @@ fn drawings_are_read_into_the_same_memory() {
     }
 }
 
-/// A file is not taken for whole because a part of it ends as a drawing does.
+/// A file is not considered complete because its first part ends as a drawing does.
 #[test]
 fn what_follows_the_end_of_a_drawing_is_read() {
     let (_directory, path) = file(0);
@@ -72,7 +72,7 @@ fn what_follows_the_end_of_a_drawing_is_read() {
     }
 }
 
-/// Reading from a pipe would wait for whoever writes into it, perhaps for ever.
+/// Reading from a pipe would wait for a writer, perhaps for ever.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_is_no_regular_file_is_refused() {
@@ -123,7 +123,7 @@ fn a_directory_says_what_is_a_file_a_directory_or_a_link() {
     assert!(OsSystem.each_entry(&file, &mut |_| ControlFlow::Continue(())).is_err(), "a file has no entries");
 }
 
-/// No file can be found under the spelling that is shown; one whose name is just that spelling can.
+/// No file can be opened by a lossy spelling, except one that really has that name.
 #[cfg(target_os = "linux")]
 #[test]
 #[expect(clippy::disallowed_methods, reason = "System has no names that are no UTF-8")]

@@ -1,4 +1,4 @@
-//! Systems that stand for another: files in memory, and a drawing that is not written yet.
+//! Systems that replace the operating system: files in memory, and an overlay.
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use pathbuild_db::system::{MemorySystem, Overlay, ReadError, System};
 
 const NEW: &str = "parts/1002.dxf";
 
-/// A drawing that is not written yet, over a directory in which `1001.dxf` lies.
+/// A drawing that is not written yet, over a directory with `1001.dxf`.
 fn overlay(new: &str) -> Overlay {
     let below = MemorySystem::default();
     below.put("parts/1001.dxf", "old");

@@ -1,5 +1,5 @@
-//! Everything that a target reaches through embeddings. The one place that walks the embedding: cycles, depth, limits, diagnostics and
-//! dependencies all come from here.
+//! Everything that a target reaches through embeddings. All graph-wide questions (cycles, depth, limits, diagnostics and dependencies) are
+//! answered by the traversal in this file.
 
 use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -21,22 +21,22 @@ use crate::db::Db;
 use crate::inputs::{Role, SourceFile, Target};
 use crate::settings::{Limits, Settings};
 
-/// What a target reaches, itself included.
+/// The paths that a target reaches, including its own.
 #[derive(Clone, Debug, Default, PartialEq, salsa::SalsaValue)]
 pub struct Closure<'db> {
-    /// The target's path with its values; `None` when the file has no such path.
+    /// The target's path with its values; `None` if the file has no such path.
     pub root: Option<Instance<'db>>,
-    /// Every path, in the order in which it is reached first.
+    /// Every path, in the order in which it is first reached.
     pub reached: Vec<Reached<'db>>,
-    /// What is wrong with any of them, each once.
+    /// Diagnostics of all these paths, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
-    /// About how many moves the program comes to.
+    /// Estimated number of moves in the program.
     pub moves: u64,
-    /// Values of the options that the program cannot be made without, and that are not given.
+    /// Options that the program requires and that are not set.
     pub missing_options: Vec<MissingOption>,
 }
 
-/// An option that must be given because a path does not say.
+/// An option that must be given because a path does not set the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissingOption {
     /// `--feed`.
@@ -46,7 +46,7 @@ pub enum MissingOption {
 }
 
 impl MissingOption {
-    /// Its name on the command line, without hyphens, and in the configuration.
+    /// The option's name in the configuration, and on the command line after the hyphens.
     pub fn name(self) -> &'static str {
         match self {
             Self::Feed => "feed",
@@ -60,14 +60,14 @@ impl MissingOption {
 pub struct Reached<'db> {
     /// The path with its values.
     pub instance: Instance<'db>,
-    /// How far below the target it is reached first.
+    /// The smallest depth below the target at which it is reached.
     pub depth: u32,
 }
 
-/// How deep embedding may be below the emitted path.
+/// Maximum depth of embedding below the emitted path.
 const DEEPEST: u32 = 10;
 
-/// Walks what a target embeds.
+/// Collects everything that a target embeds, directly or indirectly.
 #[salsa::tracked]
 pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     let Some((root, missing)) = root(db, target) else { return Closure::default() };
@@ -91,7 +91,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     }
 }
 
-/// The closure of a checked path that embeds nothing and has no findings, as nearly all are.
+/// The closure of a checked path without embeddings and findings, which is by far the most common case.
 fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
     let has_raised = own.signature.as_ref().is_some_and(|it| !it.raised_probes.is_empty());
@@ -103,7 +103,7 @@ fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Clo
     (is_lone && is_within).then(closure)
 }
 
-/// A target's path with its values, and what is wrong with the values that it has not; `None` when the file has no such path.
+/// A target's path with its values, and errors about missing values. `None` if the file has no such path.
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
@@ -127,7 +127,7 @@ impl Closure<'_> {
         self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// The files that it was made from.
+    /// The files that the closure was computed from.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         let files = self.reached.iter().map(|reached| reached.instance.file(db));
@@ -143,12 +143,12 @@ struct Walk<'db> {
     limits: Limits,
     reached: Vec<Reached<'db>>,
     diagnostics: Vec<Diagnostic>,
-    /// Hashes of what makes them different from each other.
+    /// Indices of the diagnostics reported so far, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
     moves: u64,
-    /// Whether a path at a depth has errors, itself or below: the depth counts since it may be too deep there.
+    /// Whether a path at a depth has errors, in itself or below. The depth is part of the key because embedding may be too deep only there.
     visited: FxHashMap<(Instance<'db>, u32), bool>,
-    /// The highest that a path and all that it embeds stand, in mm above the plane that it lies on.
+    /// Height in mm of the highest point of a path and everything it embeds, above the plane it lies on.
     tops: FxHashMap<Instance<'db>, f64>,
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
@@ -183,7 +183,7 @@ impl<'db> Walk<'db> {
         }
     }
 
-    /// Visits a path and what it embeds; whether there are errors in any of them.
+    /// Visits a path and everything it embeds. Returns whether any of them has errors.
     fn visit(&mut self, instance: Instance<'db>, depth: u32) -> bool {
         if let Some(has_errors) = self.visited.get(&(instance, depth)) {
             return *has_errors;
@@ -200,7 +200,7 @@ impl<'db> Walk<'db> {
         has_errors
     }
 
-    /// The stages of one path. Each reports what does not follow from what earlier stages found.
+    /// Runs the stages for one path. Each stage skips errors that merely follow from those of earlier stages.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> bool {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
@@ -222,7 +222,7 @@ impl<'db> Walk<'db> {
         has_errors
     }
 
-    /// Holds what H raises against the sweeps of a path; whether there are errors.
+    /// Checks the heights that H adds against the sweep height of a path. Returns whether there are errors.
     fn visit_raised(&mut self, instance: Instance<'db>, signature: &PathSignature, depth: u32) -> bool {
         let calls = signature.subpaths.iter().zip(embeds(self.db, instance));
         let raised = calls.filter_map(|(call, embedding)| match &embedding.outcome {
@@ -242,7 +242,7 @@ impl<'db> Walk<'db> {
         self.report_all(instance, &problems)
     }
 
-    /// S of a path in its role, where somebody says it: a path that is checked by itself may be emitted with another than T + O.
+    /// S of a path in its role, if it is known: a path that is checked on its own may later be emitted with another S than T + O.
     fn sweep_height(&self, signature: &PathSignature, depth: u32) -> Option<f64> {
         match (depth, self.is_emitted) {
             (0, true) => signature.sweep_height(&self.options, PathRole::Emitted),
@@ -251,7 +251,7 @@ impl<'db> Walk<'db> {
         }
     }
 
-    /// What is wrong with S of a path in its role. Where nobody says S and it is needed, that is noted.
+    /// Checks S of a path in its role, and records `--sweep-height` as missing if S is needed but set nowhere.
     fn sweep_problems(
         &mut self,
         summary: &'db PathSummary,
@@ -268,7 +268,7 @@ impl<'db> Walk<'db> {
         Cow::Owned(signature.sweep_limits.check(height))
     }
 
-    /// The feed of a path that has no F of its own.
+    /// Checks that a path without F of its own gets a feed.
     fn check_feed(&mut self, instance: Instance<'db>, signature: &PathSignature) {
         if !self.is_emitted || !signature.needs_feed {
             return;
@@ -312,7 +312,7 @@ impl<'db> Walk<'db> {
                 let has_errors = self.visit(*child, depth + 1);
                 self.stack.pop();
                 if has_errors {
-                    // Whether the two fit may depend on what is wrong there.
+                    // Errors in the embedded path may hide whether it fits.
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
                         .with("name", self.name_of(*child))
                         .with("file", child.file(self.db).path(self.db).as_str())
@@ -324,7 +324,7 @@ impl<'db> Walk<'db> {
         }
     }
 
-    /// Whether a path is being visited: to embed it once more would never end.
+    /// Whether a path is already being visited, so that embedding it again would recurse for ever.
     fn is_open(&self, child: Instance<'db>, visiting: Instance<'db>) -> bool {
         child == visiting || self.stack.iter().any(|frame| frame.instance == child)
     }
@@ -360,7 +360,7 @@ impl<'db> Walk<'db> {
         index.map_or_else(|| name.folded(self.db).to_owned(), |index| index.header.name.to_string())
     }
 
-    /// Reports what is found in a path, each once; whether there are errors.
+    /// Reports the findings in a path, skipping duplicates. Returns whether any is an error.
     fn report_all(&mut self, instance: Instance<'db>, found: &[Diagnostic]) -> bool {
         let has_errors = found.iter().any(Diagnostic::is_error);
         for mut diagnostic in found.iter().cloned() {
@@ -384,7 +384,7 @@ impl<'db> Walk<'db> {
         self.stack.iter().map(step).collect()
     }
 
-    /// Whether there are more distinct paths than can be meant; said once.
+    /// Whether the number of distinct paths exceeds the limit, which is reported once.
     fn is_crowded(&mut self, instance: Instance<'db>) -> bool {
         let Limits { paths, .. } = self.limits;
         if self.reached.len() as u64 <= paths {
@@ -397,7 +397,7 @@ impl<'db> Walk<'db> {
         true
     }
 
-    /// Counts the moves that the program comes to, before anybody makes them.
+    /// Estimates the number of moves in the program before generating them.
     fn count(&mut self, root: Instance<'db>) {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
@@ -430,7 +430,7 @@ impl<'db> Walk<'db> {
     }
 }
 
-/// PB005: a program of so many moves, which is too long, or would take too much memory while it is made.
+/// PB005 if a program of this many moves would be too long or take too much memory.
 fn too_much(count: u64, limits: Limits) -> Option<Diagnostic> {
     let size = memory(count);
     let problem = if count > limits.moves {
@@ -444,7 +444,7 @@ fn too_much(count: u64, limits: Limits) -> Option<Diagnostic> {
     Some(problem.with("count", count))
 }
 
-/// What makes two diagnostics the same: everything but how they were come by.
+/// The identity of a diagnostic for removing duplicates: everything except the embeddings that lead to it.
 fn identity(diagnostic: &Diagnostic) -> impl Hash + PartialEq + '_ {
     let Diagnostic { message, place, path, file, arguments, text, .. } = diagnostic;
     (message, place, path, file, arguments, text)

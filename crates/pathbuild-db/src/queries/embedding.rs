@@ -1,5 +1,5 @@
-//! What a path embeds: every subpath segment with the path it names, checked against each other.
-//! (book: language/embedding; the order of errors: book: reference/diagnostics)
+//! The direct embeddings of a path: every subpath segment with the path that it names, checked against each other. (book:
+//! language/embedding; the order of errors: book: reference/diagnostics)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{Judge, Origin, PathName, PathSignature, SpeltName, SubpathCall, SubpathName};
@@ -11,44 +11,44 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
 
-/// A subpath segment and what came of it.
+/// A subpath segment and the result of resolving it.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
 pub struct Embedding<'db> {
     /// Index into [`Path::segments`](pathbuild_path::Path::segments).
     pub segment: usize,
-    /// Where the segment is drawn.
+    /// The element that draws the segment.
     pub origin: Origin,
-    /// The path that it names, where it names one.
+    /// The name of the embedded path, if the segment has one.
     pub name: Option<SpeltName>,
-    /// What came of it.
+    /// The result of resolving it.
     pub outcome: Outcome<'db>,
-    /// What is doubtful about it.
+    /// Warnings about the segment.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// What comes of a subpath segment, from the first error that stops it to the embedded path.
+/// The result of resolving a subpath segment: the first error that stops it, or the embedded path.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
 pub enum Outcome<'db> {
-    /// It names no path, or one that may not be embedded: PB501, PB502, PB507.
+    /// The segment has no name, or names a path that must not be embedded: PB501, PB502, PB507.
     Refused(Diagnostic),
-    /// It may be in a directory that cannot be listed: PB001.
+    /// The path may be in a directory that cannot be listed: PB001.
     Unlisted(Vec<Diagnostic>),
-    /// The path is nowhere, or in several places: PB503, PB504.
+    /// The path was found nowhere, or in several files: PB503, PB504.
     NotFound(Diagnostic),
     /// The values do not fit its variables: PB302 to PB304.
     Unbound(Vec<Diagnostic>),
-    /// The path, and what does not fit: PB201, PB505, PB506, PB510.
+    /// The path was found; the problems are PB201, PB505, PB506 and PB510.
     Found {
         /// The embedded path with its values.
         child: Instance<'db>,
-        /// What does not fit.
+        /// Mismatches between the segment and the path.
         problems: Vec<Diagnostic>,
     },
 }
 
-/// What a path embeds, in the order of its segments; not what those embed.
+/// The direct embeddings of a path, in the order of its segments.
 pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
-    // Most paths embed nothing, and need no query for that.
+    // Most paths embed nothing; no query is needed for them.
     if summary(db, instance).has_subpaths() { embeddings(db, instance) } else { &[] }
 }
 
@@ -68,7 +68,7 @@ fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'d
 
 struct Embedder<'db> {
     db: &'db dyn Db,
-    /// The drawing that embeds.
+    /// The embedding drawing.
     file: SourceFile,
     judge: Judge<'db>,
 }

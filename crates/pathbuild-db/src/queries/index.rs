@@ -19,7 +19,7 @@ use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::{Reading, Settings};
 
-/// The index of a drawing. It has no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
+/// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
 #[derive(Clone, Debug, Default)]
 pub struct FileIndex {
     /// Names in order of first appearance.
@@ -103,7 +103,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     index
 }
 
-/// Whether a layer is nearly a path's.
+/// Whether any of the other layers has a name that almost names a path.
 fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
     if others.is_empty() {
         return false;

@@ -1,4 +1,4 @@
-//! The stages from a drawing to a program, each a memoized query. Who asks whom:
+//! The stages from a drawing to a program, each a memoized query. Their dependencies:
 //!
 //! ```text
 //! program -> path, chains -> raw_path -> raw_file
@@ -6,10 +6,10 @@
 //!                            \-> resolve_path -> name_table
 //! ```
 //!
-//! Where drawings have clamps, `program` also asks `entered_keep_outs`, which holds the moves of `traced_program` against `keep_outs`.
+//! If drawings have clamps, `program` also asks `entered_keep_outs`, which checks the moves of `traced_program` against `keep_outs`.
 //!
-//! `file_index` is all that a check of most drawings asks: what was read is dropped when the index is made. `raw_file` reads a drawing
-//! again, for programs, other values of variables, and the places of findings.
+//! A check of most drawings asks only for `file_index`; the parsed drawing is dropped as soon as the index exists. `raw_file` reads a
+//! drawing again for programs, other values of variables, and the places of findings.
 
 mod binding;
 mod closures;

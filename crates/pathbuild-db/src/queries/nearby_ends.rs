@@ -1,4 +1,5 @@
-//! Hints at what is probably drawn on the wrong layer, searched only where a path breaks off, lacks a marker or has a stray text.
+//! Hints at elements that were probably drawn on the wrong layer. They are searched only if a path breaks off, lacks a marker or has a
+//! stray text.
 
 use std::cell::OnceCell;
 
@@ -14,11 +15,11 @@ pub(super) struct LayerEnds<'a> {
     /// Reads all layers of the drawing.
     read: &'a dyn Fn() -> Drawing,
     all: OnceCell<AllLayers>,
-    /// The first start and the first end marker on layers of no path.
+    /// Indices of the first start marker and the first end marker on layers without a path.
     markers: OnceCell<[Option<usize>; 2]>,
 }
 
-/// A drawing with all its layers, and the boxes of its entities: thousands of problems must not each look at all of them.
+/// A drawing with all its layers. An index of bounding boxes keeps thousands of problems from each scanning all entities.
 struct AllLayers {
     drawing: Drawing,
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
@@ -32,7 +33,7 @@ impl<'a> LayerEnds<'a> {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
-    /// Adds what is drawn on another layer and was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element.
+    /// Adds the element on another layer that was probably meant: to PB401 an end, to PB101 and PB102 a circle, to PB107 an element.
     pub(super) fn with_hint(
         &self,
         path: &PathName,
@@ -49,7 +50,7 @@ impl<'a> LayerEnds<'a> {
             _ => None,
         };
         if let Some((note, distance)) = hint {
-            // What is farther away on the path's own layer was hardly meant.
+            // An element of the path's own layer that is farther away is an unlikely cause.
             problem.notes.retain(|other| distance_of(other).is_none_or(|other| other <= distance));
             let nearer = problem.notes.iter().take_while(|other| distance_of(other).is_some()).count();
             problem.notes.insert(nearer, note);
@@ -61,7 +62,7 @@ impl<'a> LayerEnds<'a> {
         self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
-    /// The nearest end on a layer of no or another path.
+    /// The nearest end on another layer, whether or not that belongs to a path.
     fn end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;
         let point = Xy::new(x, y);
@@ -84,7 +85,7 @@ impl<'a> LayerEnds<'a> {
         (distance <= WORTH_NAMING).then_some((note, distance))
     }
 
-    /// A start or end marker on a layer of no path.
+    /// A start or end marker on a layer without a path.
     fn marker(
         &self,
         language: &Language,
@@ -151,7 +152,7 @@ impl AllLayers {
         Some((&self.drawing.layers[entity.layer as usize].name, entity))
     }
 
-    /// The entities whose boxes come within a distance of a point, in the order of the file.
+    /// The entities whose bounding boxes come within a distance of a point, in file order.
     fn near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, &Entity)> {
         let searched = AABB::from_corners(
             [point.x - distance, point.y - distance],
@@ -164,7 +165,7 @@ impl AllLayers {
     }
 }
 
-/// Whether an entity is a marker of this radius on a layer of no path.
+/// Whether an entity is a marker of this radius on a layer without a path.
 fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> bool {
     let Geometry::Circle(circle) = &entity.geometry else { return false };
     (circle.radius - radius).abs() < SAME_RADIUS
@@ -172,7 +173,7 @@ fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> 
         && language.path_pattern.layer(layer).is_none()
 }
 
-/// The distance that a note names, in mm.
+/// The distance in mm that a note gives.
 fn distance_of(note: &Note) -> Option<f64> {
     match note.arguments.iter().find(|(name, _)| *name == "distance")? {
         (_, Value::Number(Number(distance))) => Some(*distance),
@@ -185,7 +186,7 @@ const MARKER_RADII: [f64; 2] = [0.5, 1.0];
 const START: usize = 0;
 const END: usize = 1;
 
-/// Largest difference in mm between the radius of a marker and that of a circle that counts as one.
+/// Tolerance in mm for the radius of a circle to count as a marker.
 const SAME_RADIUS: f64 = 0.001;
 
 /// The distance of an element from the circle of a text; `None` for texts.
@@ -207,7 +208,7 @@ fn gap(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     })
 }
 
-/// The box around a line, arc or circle; that of an arc is its circle's. `None` for texts.
+/// The bounding box of a line, arc or circle; an arc gets that of its whole circle. `None` for texts.
 fn box_of(geometry: &Geometry) -> Option<Rectangle<[f64; 2]>> {
     let around = |centre: &pathbuild_dxf::Point3, radius: f64| {
         Rectangle::from_corners(

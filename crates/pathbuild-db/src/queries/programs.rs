@@ -13,7 +13,7 @@ use crate::db::Db;
 use crate::inputs::Target;
 use crate::settings::Settings;
 
-/// Joins a path and everything it embeds to a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
+/// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
 /// Programs are large and used once, so only the last few are kept.
 #[salsa::tracked(lru = 16)]
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
@@ -27,7 +27,7 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     Some(Arc::new(program))
 }
 
-/// The paths of a closure without errors.
+/// Gives the fold access to the paths of a closure without errors.
 pub(super) struct Embedded<'db> {
     pub(super) db: &'db dyn Db,
 }

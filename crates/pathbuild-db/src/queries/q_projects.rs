@@ -1,4 +1,4 @@
-//! Q-projects: `NAME_Q` embeds every path of `NAME` as its proxy lines say. (book: language/q-projects)
+//! Q-projects: `NAME_Q` embeds every path of `NAME` as given by its proxy lines. (book: language/q-projects)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{Bindings, Component, Path, ProxyLine, QProject, judge_q_project, plan_q_project};

@@ -1,4 +1,4 @@
-//! What somebody wants to see: programs with where their moves come from, what is drawn, and what else there is in a drawing.
+//! Queries for displays: programs with the origins of their moves, the drawn paths, and the rest of a drawing.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use crate::db::Db;
 use crate::inputs::{Role, SourceFile, Target};
 use crate::settings::Settings;
 
-/// A program, and where each of its steps comes from.
+/// A program with the origin of each step.
 #[derive(Debug)]
 pub struct Traced {
-    /// The same as [`program`](super::program) gives for what is emitted. What is only checked sweeps as a check has it.
+    /// The same program as that of [`program`](super::program) for emitted targets. Checked targets use the sweep height of a check.
     pub program: Program,
     /// Its paths are indices into [`Traced::parts`].
     pub trace: Trace<usize>,
@@ -32,22 +32,22 @@ pub struct Traced {
 pub struct Part {
     /// The drawing that defines it.
     pub file: SourceFile,
-    /// The path, every parameter known.
+    /// The path with all parameters bound.
     pub path: Path,
     /// The values.
     pub bindings: Bindings,
 }
 
-/// A path as it is drawn, and where in the file.
+/// A path as it is drawn, with its positions in the file.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnPath<'db> {
-    /// What is drawn.
+    /// The drawn elements.
     pub raw: &'db RawPath,
-    /// Where that is in the file.
+    /// Their positions in the file.
     pub positions: &'db SourceMap,
 }
 
-/// The program of a target with its origins; `None` where there is no program. One is kept.
+/// The program of a target with the origins of its steps; `None` if there is no program. Only the last one is kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
     let closure = closure(db, target);
@@ -59,7 +59,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
     let mut options = Settings::get(db).fold(db);
     let is_only_embedded = !root.bindings(db).is_empty();
     if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
-        // As a check has it.
+        // The sweep height of a check.
         options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
     }
     let (program, trace) = fold_traced(&Embedded { db }, root, drawing, options);
@@ -82,14 +82,14 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
     Some(Arc::new(Traced { program, trace, parts }))
 }
 
-/// A path as it is drawn; `None` where the drawing has none of that name.
+/// A path as it is drawn; `None` if the drawing has no path of that name.
 pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<DrawnPath<'db>> {
     let entry = raw_file(db, file).entry(name)?;
     Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
 }
 
-/// The effective parameters of each element of a path with these values of its variables. S is as in [`traced_program`]: where an option is
-/// missing, and for paths with variables, the path counts as embedded.
+/// The effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
+/// variables or lacks an option counts as embedded.
 pub fn in_force(
     db: &dyn Db,
     file: SourceFile,
@@ -105,7 +105,7 @@ pub fn in_force(
     raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
 }
 
-/// What is on the layers of a drawing that hold neither paths nor clamps. The drawing is read once more for that. One is kept.
+/// The contents of a drawing's layers that hold neither paths nor clamps. The drawing is read again for this; only the last one is kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn other_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     let language = Settings::get(db).language(db);

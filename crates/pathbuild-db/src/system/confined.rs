@@ -1,4 +1,5 @@
-//! A system in which nothing leads out of some directories: for trees of strangers. (book: reference/configuration, `--untrusted`)
+//! A system that prevents links from leading out of given directories, for untrusted repositories. (book: reference/configuration,
+//! `--untrusted`)
 
 use std::io;
 use std::ops::ControlFlow;
@@ -12,18 +13,19 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written, clean};
 
-/// Another system, of which nothing is read or written through links that lead from inside one of some directories to outside of it. A name that
-/// lies outside by itself is allowed: a tree can give none that is not held against [`Confined::holds`] first, so a person gave it.
+/// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
+/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`Confined::holds`] first, so such a
+/// path was given by the user.
 #[derive(Clone, Debug)]
 pub struct Confined {
     below: Arc<dyn System>,
-    /// What relative names are relative to.
+    /// Base of relative paths.
     working_directory: Utf8PathBuf,
-    /// That of the configuration first.
+    /// The directories, starting with the one of the configuration.
     roots: Vec<Root>,
 }
 
-/// A directory as names spell it, and where it really is.
+/// A directory as spelt, and with links resolved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Root {
     spelt: Utf8PathBuf,
@@ -37,7 +39,7 @@ impl Confined {
         confined.and(root)
     }
 
-    /// The same, confined to a further directory for what lies in that.
+    /// Confines the system to a further directory as well, for the paths inside it.
     #[must_use]
     pub fn and(mut self, root: &Utf8Path) -> Self {
         let spelt = clean(&self.working_directory.join(root));
@@ -54,24 +56,24 @@ impl Confined {
         self.roots.first().map_or(Utf8Path::new(""), |root| &root.spelt)
     }
 
-    /// Whether all of the directories really lie in or below one of these.
+    /// Whether all the directories, with links resolved, lie in or below one of these.
     pub fn lies_below(&self, trusted: &[Utf8PathBuf]) -> bool {
         let is_below =
             |root: &Root| trusted.iter().any(|trusted| root.real.starts_with(self.below.canonical(trusted)));
         self.roots.iter().all(is_below)
     }
 
-    /// Whether a path lies in the directory of the configuration, as it is spelt and where it leads.
+    /// Whether a path lies in the directory of the configuration, both as spelt and with links resolved.
     pub fn holds(&self, path: &Utf8Path) -> bool {
         self.roots.first().is_some_and(|root| self.spells(path, root) && self.leads_into(path, root))
     }
 
-    /// Whether a path may lie in one of the directories: as it is spelt, where it leads, or since nobody can say where that is.
+    /// Whether a path may lie in one of the directories: as spelt, with links resolved, or because its links cannot be resolved.
     pub fn may_hold(&self, path: &Utf8Path) -> bool {
         let spells = |root: &Root| self.spells(path, root);
         let leads = || match self.real(path) {
             Some(Ok(real)) => self.roots.iter().any(|root| real.starts_with(&root.real)),
-            // What cannot be followed may lead anywhere.
+            // A link that cannot be resolved may lead anywhere.
             Some(Err(_)) => true,
             None => false,
         };
@@ -84,11 +86,11 @@ impl Confined {
     }
 
     fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
-        // What cannot be followed may lead anywhere.
+        // A link that cannot be resolved may lead anywhere.
         self.real(path).is_none_or(|real| real.is_ok_and(|it| it.starts_with(&root.real)))
     }
 
-    /// Where a path leads; of what is not there yet, the nearest directory above that is.
+    /// The path with links resolved; if it does not exist yet, that of the nearest existing parent directory.
     fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
@@ -96,7 +98,7 @@ impl Confined {
         Some(there.canonicalize_utf8())
     }
 
-    /// Whether a path may be read or written: it does not lead from inside to outside.
+    /// Whether a path may be read or written because it does not lead from inside to outside.
     pub fn allows(&self, path: &Utf8Path) -> bool {
         self.roots.iter().all(|root| !self.spells(path, root) || self.leads_into(path, root))
     }
@@ -105,7 +107,7 @@ impl Confined {
         if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Word(&LEADS_OUT))) }
     }
 
-    /// Writing replaces a link, so it is the directory that must not lead out.
+    /// Checks the parent directory, since writing replaces a link instead of following it.
     fn changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
         if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Word(&LEADS_OUT)) }

@@ -1,20 +1,20 @@
-//! What is in a directory.
+//! Directory listings.
 
 use std::fmt;
 
-/// Names one after the other in one text: a directory of ten thousand drawings has as many.
+/// Names stored back to back in one string, since a directory may hold ten thousand drawings.
 #[derive(Clone, Default, PartialEq, Eq)]
 pub struct Names {
     text: String,
-    /// Where each ends.
+    /// End offsets of the names.
     ends: Vec<usize>,
 }
 
 /// The names in a directory, in no particular order: sorting ten thousand takes longer than reading the few drawings among them that are
-/// wanted. Of names that are no UTF-8 there is a lossy spelling, which no file has.
+/// needed. Names that are not UTF-8 appear in a lossy spelling that no file has.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// What is no directory.
+    /// Everything that is not a directory.
     pub files: Names,
     /// Directories, and links to them.
     pub directories: Names,
@@ -23,22 +23,22 @@ pub struct Listing {
 /// A name in a directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry<'a> {
-    /// The name, or a lossy spelling of one that is no UTF-8.
+    /// The name, or a lossy spelling if it is not UTF-8.
     pub name: &'a str,
-    /// Whether a file can be found under that spelling.
+    /// Whether `name` is exact, so that a file can be opened by it.
     pub is_exact: bool,
-    /// What it is a name of.
+    /// The type of the entry.
     pub kind: EntryKind,
 }
 
-/// What a directory says of a name in it.
+/// The type of a directory entry, with links unresolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
-    /// Anything that is none of the others.
+    /// Anything else.
     File,
     /// A directory.
     Directory,
-    /// A symbolic link, to whatever.
+    /// A symbolic link to anything.
     Link,
 }
 
@@ -47,37 +47,37 @@ impl Names {
         Self { text: String::new(), ends: Vec::new() }
     }
 
-    /// Those behind these.
+    /// Appends other names.
     pub fn extend(&mut self, names: &Self) {
         let begin = self.text.len();
         self.text.push_str(&names.text);
         self.ends.extend(names.ends.iter().map(|end| begin + end));
     }
 
-    /// One more name.
+    /// Appends a name.
     pub fn push(&mut self, name: &str) {
         self.text.push_str(name);
         self.ends.push(self.text.len());
     }
 
-    /// How many there are.
+    /// The number of names.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no names.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// A name by its number.
+    /// The name at an index.
     pub fn get(&self, number: usize) -> Option<&str> {
         let end = *self.ends.get(number)?;
         let begin = number.checked_sub(1).map_or(0, |before| self.ends[before]);
         Some(&self.text[begin..end])
     }
 
-    /// All of them.
+    /// Iterates over the names.
     pub fn iter(&self) -> impl Iterator<Item = &str> {
         (0..self.len()).filter_map(|number| self.get(number))
     }

@@ -1,4 +1,4 @@
-//! Files in memory: for tests, and for the page that compiles in a browser.
+//! Files in memory, for tests and for the page that compiles in a browser.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
@@ -10,7 +10,7 @@ use pathbuild_diagnostic::Value;
 
 use super::{FileKind, Listing, ReadError, System, Written};
 
-/// Files by path. Directories are there as soon as a file is in them.
+/// Files by path. A directory exists as long as it contains a file.
 #[derive(Debug, Default)]
 pub struct MemorySystem {
     files: Mutex<BTreeMap<Utf8PathBuf, Vec<u8>>>,
@@ -18,18 +18,18 @@ pub struct MemorySystem {
 }
 
 impl MemorySystem {
-    /// Without files, where nobody tells the time.
+    /// An empty system without a clock.
     pub fn without_clock() -> Self {
         Self { has_no_clock: true, ..Self::default() }
     }
 
-    /// Puts a file there, or other bytes into it.
+    /// Creates or overwrites a file.
     pub fn put(&self, path: impl Into<Utf8PathBuf>, bytes: impl Into<Vec<u8>>) {
         self.files().insert(path.into(), bytes.into());
     }
 
     fn files(&self) -> MutexGuard<'_, BTreeMap<Utf8PathBuf, Vec<u8>>> {
-        // The map is whole even if a test panicked while holding it.
+        // The map is consistent even if a test panicked while holding the lock.
         self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -93,7 +93,7 @@ impl System for MemorySystem {
     }
 }
 
-/// The files in a directory and below: paths are ordered part by part, so they stand together.
+/// The files in a directory and below. Paths are ordered component by component, so these are consecutive.
 fn below<'a>(
     files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
     directory: &Utf8Path,

@@ -1,9 +1,9 @@
-//! The outside world, as the queries see it: one trait, so that tests run in memory and every file that a result depends on is known.
+//! The outside world as seen by queries: a single trait, so that tests run in memory and all files that a result depends on are known.
 
 mod confined;
 mod listing;
 mod memory;
-// The program in a browser has no files but those it is given.
+// The WebAssembly build has no operating system, only the files it is given.
 #[cfg(not(target_family = "wasm"))]
 mod os;
 mod overlay;
@@ -27,13 +27,13 @@ pub use spelling::{clean, join, spelt};
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {
-    /// The bytes of a file.
+    /// Reads a file.
     ///
     /// # Errors
-    /// When there is no such regular file, it cannot be read, or it has more bytes than `limit`.
+    /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`.
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
 
-    /// The same in memory that is there already; `room` is what was read before, and then whatever else there was.
+    /// Like [`read`](Self::read), but reuses a buffer. Its old content is overwritten; bytes beyond the returned slice are garbage.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -47,8 +47,8 @@ pub trait System: Debug + Send + Sync {
         Ok(room)
     }
 
-    /// The same with the stamp that the file had before and after it was read. Unknown where that was not the same, or nobody tells:
-    /// then nobody can say later whether a file still has these bytes without reading it.
+    /// Like [`read_into`](Self::read_into), and also returns the file's stamp. The stamp is unknown if it differs before and after reading,
+    /// or if the system has none: then the file must be read again to find out whether it has changed.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -61,13 +61,13 @@ pub trait System: Debug + Send + Sync {
         self.read_into(path, limit, room).map(|bytes| (bytes, Stamp::UNKNOWN))
     }
 
-    /// The first bytes of a file, at most so many.
+    /// The first `length` bytes of a file, or fewer if it is shorter.
     ///
     /// # Errors
     /// As [`read`](Self::read).
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError>;
 
-    /// When a file was last changed, where that is known.
+    /// The time of the last change to a file, if known.
     fn modified(&self, path: &Utf8Path) -> Option<SystemTime>;
 
     /// The names in a directory.
@@ -76,19 +76,19 @@ pub trait System: Debug + Send + Sync {
     /// As [`read`](Self::read).
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
 
-    /// The same, as they come.
+    /// Like [`list`](Self::list), but delivers the names in batches as they arrive.
     ///
     /// # Errors
-    /// As [`read`](Self::read), also after some of them.
+    /// As [`read`](Self::read), possibly after some batches.
     fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
         take(self.list(directory)?);
         Ok(())
     }
 
-    /// Each name in a directory, in no particular order, until `take` has enough. Links are links where the system has them.
+    /// Calls `take` for each entry of a directory, in no particular order, until it asks to stop. Links are not resolved.
     ///
     /// # Errors
-    /// As [`read`](Self::read), also after some of them.
+    /// As [`read`](Self::read), possibly after some entries.
     fn each_entry(
         &self,
         directory: &Utf8Path,
@@ -102,7 +102,7 @@ pub trait System: Debug + Send + Sync {
         Ok(())
     }
 
-    /// The last bytes of a file, at most so many.
+    /// The last `length` bytes of a file, or fewer if it is shorter.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -111,31 +111,31 @@ pub trait System: Debug + Send + Sync {
         Ok(bytes.split_off(bytes.len().saturating_sub(length)))
     }
 
-    /// What is under a name.
+    /// The type of the file at a path.
     fn kind(&self, path: &Utf8Path) -> FileKind;
 
-    /// The one name of a file that can be reached under several.
+    /// A canonical path for a file that can be reached by several paths.
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf;
 
-    /// Writes a file whole or not at all, and only if what is there differs.
+    /// Replaces a file atomically, unless it already has these bytes.
     ///
     /// # Errors
-    /// The reason why it cannot be written; nothing is left under the name that was not there before.
+    /// The reason why it cannot be written. In that case the path is left as it was.
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value>;
 
-    /// Removes a file; that there is none is no error.
+    /// Removes a file, if it exists.
     ///
     /// # Errors
     /// The reason why it cannot be removed.
     fn remove(&self, path: &Utf8Path) -> Result<(), Value>;
 
-    /// What time it is, for limits of time; `None` where there is no clock: who started the work there ends it when it takes too long.
+    /// The current time, for time limits. `None` without a clock: then the caller must stop work that takes too long.
     fn now(&self) -> Option<Instant> {
         Some(Instant::now())
     }
 }
 
-/// What is under a name.
+/// The type of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum FileKind {
@@ -144,7 +144,7 @@ pub enum FileKind {
     Missing,
 }
 
-/// What writing did.
+/// The result of writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Written {
@@ -152,16 +152,16 @@ pub enum Written {
     Unchanged,
 }
 
-/// Why something cannot be read.
+/// The reason why a file or directory cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReadError {
-    /// There is nothing under that name.
+    /// It does not exist.
     Missing,
-    /// A directory where a file was asked for.
+    /// It is a directory, but a file is needed.
     IsDirectory,
-    /// More bytes than the limit.
+    /// It has more bytes than the limit.
     TooLarge {
-        /// How many there are.
+        /// Its size in bytes.
         size: u64,
     },
     /// Any other reason.

@@ -1,4 +1,4 @@
-//! A system with one file more, or with other bytes in it: what would be, were it written.
+//! Wraps a system and adds or replaces one file in memory, to see the effect of writing it.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Value;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
-/// Another system, with this file in it. Only reading is as if it were there.
+/// Another system with one file replaced. Only reads see the replacement.
 #[derive(Debug)]
 pub struct Overlay {
     below: Arc<dyn System>,
@@ -18,7 +18,7 @@ pub struct Overlay {
 }
 
 impl Overlay {
-    /// A system with these bytes under this path, which must be normalised.
+    /// Overlays a file with these bytes. The path must be normalised.
     pub fn new(below: Arc<dyn System>, path: Utf8PathBuf, bytes: Vec<u8>) -> Self {
         Self { below, path, bytes }
     }
@@ -79,7 +79,7 @@ impl System for Overlay {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        // Where directories are walked, what is not written yet is no part of them.
+        // Directory walks show only what exists on disk.
         self.below.each_entry(directory, take)
     }
 

@@ -1,14 +1,14 @@
-//! One spelling of paths on every platform: `/` between their parts. Windows takes it as it takes its own `\`, and what is shown, kept or
-//! written into a file is the same wherever the program runs.
+//! Uniform spelling of paths with `/` as the separator on every platform. Windows accepts it like its own `\`, and output, caches and
+//! written files are the same everywhere.
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
-/// A path with `/` between its parts. What begins with `\\?\` is left as it is: Windows takes `/` for a letter there.
+/// A path with `/` as the separator. Paths that begin with `\\?\` are left alone: there, Windows treats `/` as an ordinary character.
 pub fn spelt(path: Utf8PathBuf) -> Utf8PathBuf {
     if cfg!(windows) { with_slashes(path) } else { path }
 }
 
-/// A name in a directory, made at once in the memory that it needs, spelt as [`spelt`] does.
+/// The path of a file in a directory, spelt as by [`spelt`], in a single allocation of the right size.
 pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let name = name.as_ref();
     let mut path = Utf8PathBuf::with_capacity(directory.as_str().len() + 1 + name.as_str().len());
@@ -17,13 +17,14 @@ pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     spelt(path)
 }
 
-/// The path without `.` and `..`, with `/` between its parts, else as it is written: links are not followed, so that a linked drawing belongs where it is seen.
+/// Removes `.` and `..` and normalises separators, without resolving links, so that a linked drawing belongs to the directory where it
+/// appears.
 pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
     let mut clean = Utf8PathBuf::new();
     for component in path.components() {
         match component {
             Utf8Component::ParentDir if clean.file_name().is_some() => _ = clean.pop(),
-            // Nothing is above the root.
+            // The root has no parent.
             Utf8Component::ParentDir if clean.has_root() => {}
             Utf8Component::CurDir => {}
             other => clean.push(other),

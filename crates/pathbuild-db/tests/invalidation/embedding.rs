@@ -45,7 +45,7 @@ const OF_SIBLING: [&str; 8] = [
     "program sibling",
 ];
 
-/// What drawing and looking up a project comes to, apart from what it embeds.
+/// Queries that run for a project itself, apart from the paths it embeds.
 const OF_PROJECT: [&str; 7] = [
     "file_index project",
     "path_index project",
@@ -56,7 +56,7 @@ const OF_PROJECT: [&str; 7] = [
     "resolve_path project",
 ];
 
-/// All but the look-up.
+/// All of them except the look-up.
 const DRAWN: std::ops::RangeTo<usize> = ..6;
 
 #[test]
@@ -129,7 +129,7 @@ fn a_new_unrelated_file_runs_only_lookups() {
     );
 }
 
-/// A file that may hold the path by its name is read; when it does not, nothing follows from it.
+/// A file whose name admits the path is read; if it does not define the path, nothing else runs.
 #[test]
 fn a_new_file_that_could_hold_the_path_is_read() {
     let mut world = world();

@@ -1,5 +1,5 @@
-//! After any sequence of edits the database says what one made from scratch says. Each step also says which targets it must change,
-//! and which it must leave alone. A third of the steps make a path ambiguous, missing or cyclic.
+//! After any sequence of edits, the database gives the same results as a new one. Each step also states which targets it must change and
+//! which it must not. A third of the steps make a path ambiguous, missing or cyclic.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -15,24 +15,24 @@ use crate::world::{Outcome, dxf, outcome, set_up};
 
 const PATHS: usize = 6;
 
-/// An edit. Numbers are taken modulo what there is, so that any part of a sequence is a sequence.
+/// An edit. Numbers are taken modulo the number of candidates, so that any part of a sequence is a valid sequence.
 #[derive(Clone, Debug)]
 enum Step {
     /// Mills a path deeper.
     Deepen(usize),
     /// Puts a remark before a path.
     Remark(usize),
-    /// Draws the path into a second file as well: in its own directory, or in the search directory.
+    /// Draws the path into a second file as well, in its own directory or in the search directory.
     Double(usize, usize),
     /// Removes a file.
     Remove(usize),
-    /// Renames a file so that its name does not say any more what it holds.
+    /// Renames a file so that its name no longer admits its path.
     Hide(usize),
-    /// Embeds in a path one that embeds it.
+    /// Embeds a path in one that it embeds itself, closing a cycle.
     Close(usize),
-    /// Embeds one path less.
+    /// Removes one embedding.
     Unembed(usize),
-    /// Draws all that is missing, under its usual name, and removes what was added.
+    /// Redraws everything missing under its usual name, and removes what was added.
     Mend,
 }
 
@@ -90,7 +90,7 @@ fn first_file(library: &Library, path: usize) -> Option<String> {
     library.files.iter().find(|(_, drawing)| drawing.path == path).map(|(file, _)| file.clone())
 }
 
-/// A database that is kept, with one target for each file that there ever was.
+/// A long-lived database, with one target for each file that ever existed.
 struct Kept {
     system: Arc<MemorySystem>,
     db: Database,
@@ -98,7 +98,7 @@ struct Kept {
 }
 
 thread_local! {
-    /// Drawings that were written before: writing takes longer than compiling.
+    /// Cache of written drawings, since writing takes longer than compiling.
     static WRITTEN: RefCell<HashMap<String, Vec<u8>>> = RefCell::default();
 }
 
@@ -136,7 +136,7 @@ impl Kept {
         }
     }
 
-    /// What comes of each file's path.
+    /// The outcome for each file's path.
     fn outcomes(&mut self, library: &Library) -> BTreeMap<String, Outcome> {
         let outcome = |(file, drawing): (&String, &Drawing)| {
             let target = self.targets.entry(file.clone()).or_insert_with(|| {
@@ -148,14 +148,14 @@ impl Kept {
         library.files.iter().map(outcome).collect()
     }
 
-    /// With lines and handles.
+    /// Fills in lines and handles.
     fn located(&self, outcome: Outcome) -> Outcome {
         let located = outcome.diagnostics.into_iter().map(|found| locate(&self.db, found)).collect();
         Outcome { diagnostics: located, program: outcome.program }
     }
 }
 
-/// What is found must be what the model says.
+/// Compares the findings with those that the model predicts.
 fn check_prediction(library: &Library, file: &str, outcome: &Outcome) -> Result<(), TestCaseError> {
     let codes: BTreeSet<String> = outcome.diagnostics.iter().map(|found| found.code().to_string()).collect();
     match library.predict(file) {

@@ -1,4 +1,4 @@
-//! What is judged, and with what: values, roles, duplicates.
+//! The values and roles that checks depend on, and duplicate findings.
 
 use pathbuild_db::{Limits, Role, Settings};
 use pathbuild_path::Bindings;
@@ -7,7 +7,7 @@ use salsa::Setter;
 use crate::embedding::component;
 use crate::world::World;
 
-/// With B0 it is right, with B9 it is milled through the table.
+/// Correct with B0; with B9 the tool mills through the table.
 const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
 
 fn project(path: &str, segment: &str) -> String {
@@ -18,7 +18,7 @@ fn codes(files: &[(&str, &str)], file: &str, path: &str, role: Role) -> Vec<Stri
     World::new(files).judge("path", file, path, role)
 }
 
-/// The index knows what comes of the example values; of others it says nothing.
+/// The index covers the example values only.
 #[test]
 fn a_path_is_judged_with_the_values_that_it_is_given() {
     let component = ("lib/1114.1P.dxf", WITH_VARIABLE);
@@ -34,21 +34,21 @@ fn a_path_is_judged_with_the_values_that_it_is_given() {
     assert_eq!(checked(Role::Emitted), ["PB302"]);
 }
 
-/// What the role gives is checked where a path embeds nothing, too.
+/// The sweep height that follows from the role is checked even if a path embeds nothing.
 #[test]
 fn the_sweep_height_of_a_role_is_checked() {
     let drawing = |t: &str| {
         format!("layer 1111.1P\nstart 0,0 \"T5 O3 I1 Mx B0\"\nmill 0,0 20,0\nprobe 10,30 \"T{t}\"\nend 20,0")
     };
     let checked = |t: &str, role| codes(&[("lib/1111.dxf", &drawing(t))], "lib/1111.dxf", "1111.1P", role);
-    // T + O where it is checked, the option's 20 mm where it is emitted.
+    // T + O when checked, the option's 20 mm when emitted.
     assert_eq!(checked("7.9", Role::Checked), [""; 0]);
     assert_eq!(checked("8", Role::Checked), ["PB203"]);
     assert_eq!(checked("19.9", Role::Emitted), [""; 0]);
     assert_eq!(checked("20", Role::Emitted), ["PB203"]);
 }
 
-/// With an S of its own, what H raises is held against that, whoever asks; without, only where somebody says another.
+/// With S of its own, heights that H adds are checked in any role; otherwise only if S is given elsewhere.
 #[test]
 fn what_h_raises_is_checked_where_a_path_embeds_nothing() {
     let checked = |s: &str, h: &str| {
@@ -74,7 +74,7 @@ fn a_path_that_two_drawings_define_is_in_neither() {
     assert_eq!(codes(&files[1..], "lib/8001.1P.dxf", "8001.1P", Role::Checked), [""; 0]);
 }
 
-/// A path that embeds nothing is within the limits or not, as others are.
+/// Limits also apply to a path that embeds nothing.
 #[test]
 fn limits_hold_for_every_path() {
     let project = project("8001.1P", ">1111.1P");
@@ -94,7 +94,7 @@ fn limits_hold_for_every_path() {
     }
 }
 
-/// Nothing large is asked of drawings without findings: they are read once.
+/// Drawings without findings need no expensive query: they are read once.
 #[test]
 fn a_check_reads_each_drawing_once() {
     let project = project("8001.1P", ">1111.1P");

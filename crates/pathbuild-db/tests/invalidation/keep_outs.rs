@@ -1,4 +1,4 @@
-//! Clamps: an edit of one reaches every program around it. (book: language/keep-outs)
+//! Clamps: an edit of one invalidates every program around it. (book: language/keep-outs)
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ fn with_clamp(y: &str) -> String {
     format!("{}\nlayer clamps\ncircle 10,{y} d 6\ntext 8,{y} \"Z90\"", component("1111.1P", "0"))
 }
 
-/// Says which layers hold clamps; the settings before that.
+/// Sets the layers that hold clamps. Returns the settings from before.
 fn name_clamps(world: &mut World) -> Arc<Language> {
     let settings = Settings::get(&world.db);
     let before = Arc::clone(settings.language(&world.db));
@@ -39,14 +39,14 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
     }
     world.draw("lib/1111.1P.dxf", &with_clamp("8"));
     assert_eq!(world.outcome("project"), right);
-    // What is not clear stops both; without the setting it is not looked at.
+    // An unclear clamp stops both; without the setting it is ignored.
     world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
     assert_eq!(world.codes("project"), ["PB117", "PB511"]);
     Settings::get(&world.db).set_language(&mut world.db).to(language);
     assert_eq!(world.outcome("project").program, right.program);
 }
 
-/// Of clamps that are not all clear it is not said which moves come into them, also where a path embeds nothing.
+/// Moves into clamps are reported only if all clamps are clear, even if a path embeds nothing.
 #[test]
 fn moves_into_clamps_are_looked_for_where_all_are_clear() {
     for (label, code) in [("Z90", "PB407"), ("high", "PB117")] {

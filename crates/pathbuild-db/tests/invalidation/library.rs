@@ -1,4 +1,4 @@
-//! A library as a model: files, the paths in them, what each embeds, and what must come of each path.
+//! A model of a library: its files, their paths, the embeddings, and the expected result for each path.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -22,16 +22,16 @@ pub(crate) struct Drawing {
     pub(crate) remarks: u32,
 }
 
-/// What the specification says of a path.
+/// The result for a path according to the specification.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Prediction {
     /// All depths in the order of milling.
     Milled(Vec<u32>),
-    /// The codes of what is wrong.
+    /// The codes of its errors.
     Wrong(BTreeSet<&'static str>),
 }
 
-/// The directories in which paths are looked for: that of the drawings, and a search directory.
+/// The directories that are searched for paths: the drawings' own, and a search directory.
 pub(crate) const DIRECTORIES: [&str; 2] = ["lib", "parts"];
 
 /// The name of a path.
@@ -58,7 +58,7 @@ impl Library {
         Self { files: files.map(|drawing| (file_name("lib", drawing.path, ""), drawing)).collect() }
     }
 
-    /// What must come of the path of a file.
+    /// Predicts the result for the path of a file.
     pub(crate) fn predict(&self, file: &str) -> Prediction {
         let (mut depths, mut wrong) = (Vec::new(), BTreeSet::new());
         self.follow(file, &mut Vec::new(), &mut depths, &mut wrong);
@@ -86,7 +86,7 @@ impl Library {
         open.pop();
     }
 
-    /// The files in which a path is found from a file: itself, or those in the directories whose name says so.
+    /// The files that define a path as seen from a file: that file itself, or those of the directories whose names admit it.
     fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
         if self.files[from].path == path {
             return vec![from];
@@ -100,7 +100,7 @@ impl Library {
         found.map(|(file, _)| file.as_str()).collect()
     }
 
-    /// Everything that could matter to the path of a file: the drawings it reaches, without remarks.
+    /// Everything that could affect the path of a file: the drawings it reaches, without remarks.
     pub(crate) fn reach(&self, file: &str) -> BTreeMap<&str, (u32, &[usize])> {
         let (mut reached, mut open) = (BTreeMap::new(), vec![file]);
         while let Some(next) = open.pop() {
@@ -118,7 +118,7 @@ fn directory(file: &str) -> &str {
 }
 
 impl Drawing {
-    /// In text form: a milled line from the start to the end, then from there up to each embedded path, over it and back.
+    /// The text form: a milled line from the start to the end, then from there up to each embedded path, along it and back.
     pub(crate) fn text(&self) -> String {
         let remark = "layer REMARKS\ntext 0,-50 \"a remark\"\n".repeat(self.remarks as usize);
         let depth = f64::from(self.bottom) / 10.0;

@@ -1,4 +1,4 @@
-//! Walks that take too long: another time the machine may be less busy.
+//! Walks that exceed the time limit are repeated, since the machine may be less busy the next time.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ const OTHER: &str = "lib/1112.1P.dxf";
 const PROJECT: &str =
     "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 300,0 \">1114.1P :B1\"\nend 300,0";
 
-/// So many segments that the walk looks at the clock.
+/// Enough segments that the walk checks the clock.
 fn long(name: &str, values: &str) -> String {
     let lines: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
     format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx {values}\"\n{}end 300,0", lines.concat())

@@ -1,4 +1,4 @@
-//! Settings: one field for each consumer.
+//! Settings: each consumer depends on one field only.
 
 use camino::Utf8PathBuf;
 use pathbuild_db::Settings;

@@ -1,4 +1,4 @@
-//! A database over files in memory that tells which queries ran, by the name of what was asked for first when they ran first.
+//! A database over files in memory that records which queries ran, labelled by the target for which each first ran.
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::{Arc, Mutex};
@@ -13,24 +13,24 @@ use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathOptions, PathPattern};
 use pathbuild_testkit::sheet;
 
-/// Files, a database over them, and the targets that somebody keeps asking for.
+/// Files, a database over them, and the targets that are queried repeatedly.
 pub(crate) struct World {
     system: Arc<MemorySystem>,
     pub(crate) db: Database,
     log: Arc<Mutex<Vec<String>>>,
-    /// Which target made a query run first.
+    /// The target that made a query run first.
     labels: HashMap<String, &'static str>,
     targets: Vec<(&'static str, Target)>,
-    /// What ran for the last of them.
+    /// The queries that ran for the last target.
     ran: BTreeSet<String>,
 }
 
-/// What came of a target.
+/// The result for a target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Outcome {
-    /// Not located: lines are no part of it.
+    /// Not located, so they have no lines.
     pub(crate) diagnostics: Vec<Diagnostic>,
-    /// The program as text that shows every number.
+    /// The program as text, with every number.
     pub(crate) program: Option<String>,
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn dxf(text: &str) -> Vec<u8> {
     sheet(text).expect("the text is right").to_dxf()
 }
 
-/// The settings that all tests here begin with. `search` is one more directory.
+/// The settings that all tests here begin with, with additional search directories.
 pub(crate) fn set_up(db: &Database, search: &[&str]) {
     let language = Language {
         path_pattern: PathPattern::default(),
@@ -63,7 +63,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
     );
 }
 
-/// What somebody who asks for a target gets.
+/// Queries everything that a client gets for a target.
 pub(crate) fn outcome(db: &Database, target: Target) -> Outcome {
     Outcome {
         diagnostics: check_target(db, target).cloned().collect(),
@@ -84,14 +84,14 @@ impl World {
         Self { system, db, log, labels: HashMap::new(), targets: Vec::new(), ran: BTreeSet::new() }
     }
 
-    /// Asks for a path to be emitted, and remembers what ran for the first time.
+    /// Queries a path for emitting, and records what ran for the first time.
     pub(crate) fn ask(&mut self, label: &'static str, file: &str, path: &str) {
         let target = self.new_target(label, file, path, Role::Emitted);
         outcome(&self.db, target);
         self.note(label);
     }
 
-    /// Asks what is wrong with a path, and no more: the codes.
+    /// Queries the codes of a path's findings, nothing else.
     pub(crate) fn judge(&mut self, label: &'static str, file: &str, path: &str, role: Role) -> Vec<String> {
         let target = self.new_target(label, file, path, role);
         let codes = check_target(&self.db, target).map(|found| found.code().to_string()).collect();
@@ -104,22 +104,22 @@ impl World {
         &self.ran
     }
 
-    /// The input that stands for a drawing.
+    /// The input of a drawing.
     pub(crate) fn file(&self, file: &str) -> SourceFile {
         self.db.file(file.into())
     }
 
-    /// Does work that may be given up.
+    /// Runs work that may be abandoned.
     pub(crate) fn guarded<R>(&self, work: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
         self.db.guarded(Duration::MAX, || work(&self.db))
     }
 
-    /// Writes a drawing without telling the database.
+    /// Writes a drawing without notifying the database.
     pub(crate) fn put_unnoticed(&self, file: &str, text: &str) {
         self.system.put(file, dxf(text));
     }
 
-    /// Removes a drawing without telling the database.
+    /// Removes a drawing without notifying the database.
     pub(crate) fn remove_unnoticed(&self, file: &str) {
         self.system.remove(file.into()).unwrap();
     }
@@ -139,19 +139,19 @@ impl World {
             .collect();
     }
 
-    /// Writes a drawing, and tells the database.
+    /// Writes a drawing and notifies the database.
     pub(crate) fn draw(&mut self, file: &str, text: &str) {
         self.put(file, dxf(text));
     }
 
-    /// Writes bytes, and tells the database.
+    /// Writes bytes and notifies the database.
     pub(crate) fn put(&mut self, file: &str, bytes: Vec<u8>) {
         let is_new = self.system.read(file.into(), u64::MAX).is_err();
         self.system.put(file, bytes);
         self.touch(file, is_new);
     }
 
-    /// Removes a file, and tells the database.
+    /// Removes a file and notifies the database.
     pub(crate) fn remove(&mut self, file: &str) {
         self.system.remove(file.into()).unwrap();
         self.touch(file, true);
@@ -170,17 +170,17 @@ impl World {
         self.system.read(file.into(), u64::MAX).unwrap()
     }
 
-    /// What comes of a target.
+    /// The result for a target.
     pub(crate) fn outcome(&self, label: &str) -> Outcome {
         outcome(&self.db, self.target(label))
     }
 
-    /// The codes of what is wrong with a target, in order.
+    /// The codes of a target's findings, in order.
     pub(crate) fn codes(&self, label: &str) -> Vec<String> {
         self.outcome(label).diagnostics.iter().map(|found| found.code().to_string()).collect()
     }
 
-    /// Where the first finding of a target is in its file.
+    /// The place of a target's first finding.
     pub(crate) fn place(&self, label: &str) -> Place {
         let found = self.outcome(label).diagnostics.first().cloned().expect("there is a finding");
         locate(&self.db, found).place
@@ -190,8 +190,8 @@ impl World {
         self.targets.iter().find(|(known, _)| *known == label).expect("the target was asked for").1
     }
 
-    /// Asks for everything again, and compares which queries ran: just `ran`, and so none of `spared`. Both are named
-    /// `query label`; what runs for the first time has the label `new`.
+    /// Queries everything again and compares the queries that ran: exactly `ran`, and so none of `spared`. Both are written as `query
+    /// label`; a query that runs for the first time has the label `new`.
     #[track_caller]
     pub(crate) fn expect(&mut self, ran: &[&str], spared: &[&str]) {
         let found = self.run_again();
@@ -207,7 +207,7 @@ impl World {
         }
     }
 
-    /// Asks for everything again: the queries that ran.
+    /// Queries everything again and returns the queries that ran.
     pub(crate) fn run_again(&mut self) -> BTreeSet<String> {
         self.log.lock().unwrap().clear();
         for (_, target) in &self.targets {

@@ -1,5 +1,5 @@
-//! Temporary files of runs that were killed. Each directory is looked through once a run; one that was listed for something else is not
-//! listed again.
+//! Removes temporary files left by killed runs. Each directory is searched at most once per run; if it has been listed for another reason
+//! already, that listing is used.
 
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
@@ -11,18 +11,18 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use super::{directory, open};
 
-/// The temporary files that were in a directory when it was first listed.
+/// Temporary files found when a directory was first listed.
 static LISTED: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
 
-/// Remembers what there is in a directory that was just listed.
+/// Records the temporary files found while listing a directory.
 pub(super) fn listed(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
     known().entry(directory.to_owned()).or_insert(temporary);
 }
 
-/// Removes the temporary files of runs that are gone.
+/// Removes temporary files whose process no longer runs.
 pub(super) fn remove(directory: &Utf8Path) {
     if !known().contains_key(directory) {
-        // A directory that cannot be listed has no debris that could be removed.
+        // Nothing can be removed from a directory that cannot be listed.
         _ = directory::list_by_parts(directory, &mut drop);
     }
     let left = std::mem::take(known().entry(directory.to_owned()).or_default());
@@ -30,7 +30,7 @@ pub(super) fn remove(directory: &Utf8Path) {
         let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
         let is_left = || open::open(&debris).ok().filter(|file| file.try_lock().is_ok());
         if let Some(_locked) = is_regular.then(is_left).flatten() {
-            // What cannot be removed harms nobody.
+            // Best effort: a leftover temporary file does no harm.
             _ = fs::remove_file(&debris);
         }
     }
@@ -40,7 +40,7 @@ fn known() -> MutexGuard<'static, HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>> {
     LISTED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// `.NAME.123-0.tmp`
+/// Whether a name has the form `.NAME.123-0.tmp` of a temporary file.
 pub(super) fn is_temporary(name: &str) -> bool {
     let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     name.strip_prefix('.')

@@ -1,4 +1,4 @@
-//! The names in a directory of the operating system.
+//! Directory listings of the operating system.
 
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
@@ -12,10 +12,10 @@ use camino::Utf8Path;
 use super::debris;
 use crate::system::{Entry, EntryKind, Listing};
 
-/// The names in a directory, in the order in which the system gives them, some at a time.
+/// Lists a directory in batches, in the order in which the system delivers the names.
 ///
 /// # Errors
-/// When there is no such directory, or it cannot be read.
+/// If the directory does not exist or cannot be read.
 pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> io::Result<()> {
     let mut part = Listing::default();
     let mut left = Vec::new();
@@ -27,7 +27,7 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
         if debris::is_temporary(name) {
             left.push(directory.join(name));
         }
-        // A link is what it leads to; one that leads nowhere is a file that cannot be read. Some file systems do not tell what a name is.
+        // A link has the type of its target, and counts as an unreadable file if it is dangling. Some file systems do not report types.
         let is_directory = match kind {
             ListedKind::Directory => true,
             ListedKind::Link | ListedKind::Untold => {
@@ -42,7 +42,7 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
     Ok(())
 }
 
-/// Each name in a directory with what the directory itself says of it, until `take` has enough.
+/// Calls `take` for each entry, with the type that the directory reports, until it asks to stop.
 ///
 /// # Errors
 /// As [`list_by_parts`].
@@ -62,7 +62,7 @@ pub(super) fn each_entry(
     })
 }
 
-/// What the system says of a name of which the directory says nothing.
+/// Asks the system for the type of an entry if the directory does not report it.
 fn told(path: &Utf8Path) -> EntryKind {
     match fs::symlink_metadata(path).map(|data| data.file_type()) {
         Ok(kind) if kind.is_dir() => EntryKind::Directory,
@@ -71,15 +71,15 @@ fn told(path: &Utf8Path) -> EntryKind {
     }
 }
 
-/// A name, as a directory has it.
+/// A name as stored in a directory.
 struct Name<'a> {
     spelling: &'a str,
-    /// Whether it has no other.
+    /// Whether the spelling is exact, not lossy.
     is_exact: bool,
     kind: ListedKind,
 }
 
-/// What a directory says of a name in it.
+/// The type of an entry as reported by the directory.
 #[derive(Clone, Copy)]
 enum ListedKind {
     File,
@@ -101,7 +101,8 @@ impl From<fs::FileType> for ListedKind {
     }
 }
 
-/// Takes each name, and nothing whenever the next must be waited for. By the system call itself: the standard library makes three copies of each name, which is half of the time of listing ten thousand.
+/// Calls `take` for each name, and with `None` before each wait for more. Uses the system call directly: the standard library copies each
+/// name three times, which doubles the time for listing ten thousand.
 #[cfg(target_os = "linux")]
 fn each_name(
     directory: &Utf8Path,
@@ -139,11 +140,11 @@ fn each_name(
     Ok(())
 }
 
-/// Bytes for the names that the system gives at once.
+/// Size in bytes of the buffer for one batch of names.
 #[cfg(target_os = "linux")]
 const BUFFER: usize = 1 << 15;
 
-/// Takes each name, and nothing at the end.
+/// Calls `take` for each name, and with `None` at the end.
 #[cfg(not(target_os = "linux"))]
 fn each_name(
     directory: &Utf8Path,

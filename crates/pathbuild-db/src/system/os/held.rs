@@ -1,4 +1,4 @@
-//! Files that another program has open for itself alone, as a CAD does on Windows while it saves: they are waited for.
+//! Retries operations on files that another program has locked for exclusive use, as CAD programs on Windows do while saving.
 
 use std::io;
 use std::thread;
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use pathbuild_diagnostic::reasons::is_held;
 
-/// Does what may find a file held by another program: again until the file is free, for two seconds at most.
+/// Retries an operation for up to two seconds while it fails because another program has locked the file.
 ///
 /// # Errors
 /// The last error.
@@ -14,7 +14,7 @@ pub(super) fn waiting<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T
     again_while(is_held, attempt, thread::sleep)
 }
 
-/// Tries again while an error `is_passing`.
+/// Retries an operation while its error satisfies `is_passing`.
 fn again_while<T>(
     is_passing: impl Fn(&io::Error) -> bool,
     mut attempt: impl FnMut() -> io::Result<T>,
@@ -30,14 +30,14 @@ fn again_while<T>(
 }
 
 const PAUSE: Duration = Duration::from_millis(50);
-/// Two seconds of pauses.
+/// Number of pauses between attempts: two seconds in total.
 const PAUSES: u32 = 40;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// What comes of a file that is held so many times, and how long it was waited for.
+    /// Simulates a file that is locked for this many attempts. Returns whether the operation succeeds, and the time waited.
     fn held(times: u32) -> (bool, Duration) {
         let (mut left, mut waited) = (times, Duration::ZERO);
         let attempt = || {

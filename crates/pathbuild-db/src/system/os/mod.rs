@@ -1,4 +1,4 @@
-//! The files of the operating system. The one place of the program that does IO on drawings and programs.
+//! Files of the operating system. All IO on drawings and programs happens here.
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
 mod debris;
@@ -21,12 +21,12 @@ use pathbuild_diagnostic::reasons::reason;
 
 use super::{Entry, FileKind, Listing, ReadError, System, Written};
 
-/// Paths are relative to the working directory of the process.
+/// The files of the operating system. Relative paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OsSystem;
 
 impl OsSystem {
-    /// The same, to be handed on.
+    /// A shared instance.
     pub fn shared() -> Arc<dyn System> {
         Arc::new(Self)
     }
@@ -130,7 +130,7 @@ impl System for OsSystem {
     }
 }
 
-/// A path in a system call's words.
+/// The path as passed to system calls, which do not accept an empty one.
 fn readable(path: &Utf8Path) -> &Utf8Path {
     if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }

@@ -1,4 +1,4 @@
-//! Opening what may be read: regular files, nothing else. A pipe would be waited for, a device has no end.
+//! Opens regular files only: reading a pipe may block, and a device may never end.
 
 use std::fs::File;
 use std::io;
@@ -11,13 +11,13 @@ use pathbuild_diagnostic::reasons::NOT_REGULAR;
 use super::held;
 use crate::system::ReadError;
 
-/// Opens a file for reading. What is no regular file is opened at most for a moment, and never waited for.
+/// Opens a file for reading. Anything but a regular file is closed again at once and never blocks.
 ///
 /// # Errors
-/// When there is none, or it cannot be opened.
+/// If the file does not exist or cannot be opened.
 pub(super) fn open(path: &Utf8Path) -> Result<File, ReadError> {
     open_at_once(path).map_err(|error| {
-        // A socket, on Windows a directory too, cannot be opened at all: say what it is rather than what the system says.
+        // A socket, and a directory on Windows, cannot be opened at all; report the type instead of the system's message.
         match path.as_std_path().metadata() {
             Ok(data) if data.is_dir() => ReadError::IsDirectory,
             Ok(data) if !data.is_file() => not_regular(),
@@ -29,7 +29,7 @@ pub(super) fn open(path: &Utf8Path) -> Result<File, ReadError> {
 /// The size of a regular file.
 ///
 /// # Errors
-/// When it is something else.
+/// If it is not a regular file.
 pub(super) fn regular_size(file: &File) -> Result<u64, ReadError> {
     let data = file.metadata()?;
     if data.is_dir() {
@@ -45,7 +45,7 @@ pub(super) fn not_regular() -> ReadError {
     ReadError::Other(Value::Word(&NOT_REGULAR))
 }
 
-/// Without `NONBLOCK`, opening a pipe waits for whoever writes into it.
+/// Opens with `NONBLOCK`, since opening a pipe would otherwise wait for a writer.
 #[cfg(unix)]
 fn open_at_once(path: &Utf8Path) -> io::Result<File> {
     use rustix::fs::{Mode, OFlags};

@@ -1,7 +1,7 @@
-//! Writing a file whole or not at all: a temporary file beside it takes its name.
+//! Atomic replacement of files: a temporary file in the same directory is renamed over the target.
 //!
-//! Who writes a temporary file holds a lock on it. A run that was killed holds none any more: what it left is removed by the next run
-//! that writes in that directory.
+//! The writer holds a lock on its temporary file. A killed run loses its locks, so the next run that writes into the directory recognises
+//! and removes what it left behind.
 
 #![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
 
@@ -15,10 +15,10 @@ use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason}
 use super::{debris, held, open, readable};
 use crate::system::Written;
 
-/// Gives a file these bytes, if it has others.
+/// Replaces the content of a file, unless it is already the same.
 ///
 /// # Errors
-/// When it cannot be written, or is a pipe, socket or device; nothing is left under the name that was not there before.
+/// If the file cannot be written, or is a pipe, socket or device. The path is then left as it was.
 pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
     debris::remove(readable(parent(path)));
     match path.as_std_path().metadata() {
@@ -40,16 +40,16 @@ fn write_anew(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
     }
     let (temporary, mut file) = temporary(path)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
-    // The lock is held until the name is the file's own.
+    // The lock is held until the file has its final name.
     let renamed = written.and_then(|()| held::waiting(|| fs::rename(&temporary, path)));
     if renamed.is_err() {
-        // Best effort: the error that is reported is the one that came first.
+        // Best effort: the first error is the one to report.
         _ = fs::remove_file(&temporary);
     }
     renamed.map(|()| Written::Changed)
 }
 
-/// Whether a file has just these bytes, looked at piece by piece.
+/// Whether a file has exactly these bytes, compared in chunks.
 fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     let Ok(mut file) = open::open(path) else { return false };
     let mut piece = vec![0; 1 << 15];
@@ -67,18 +67,18 @@ fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
     }
 }
 
-/// A new file beside `path`, locked, under a name that no other run of the program has taken.
+/// Creates and locks a temporary file beside `path`, under a name that no other run uses.
 fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
     let name = path.file_name().unwrap_or("output");
     for attempt in 0..1000_u32 {
         let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
         match OpenOptions::new().write(true).create_new(true).open(&candidate) {
             Ok(file) => match file.try_lock() {
-                // Another run took it for debris between these two lines, and removes it.
+                // Another run mistook the file for debris before it was locked, and is removing it.
                 Err(TryLockError::WouldBlock) => {}
-                // It may be removed already.
+                // It may have been removed already.
                 Ok(()) if candidate.as_std_path().symlink_metadata().is_err() => {}
-                // Where there are no locks nothing is taken for debris.
+                // Without support for locks, nothing is ever considered debris.
                 Ok(()) | Err(TryLockError::Error(_)) => return Ok((candidate, file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
